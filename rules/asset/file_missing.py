@@ -1,0 +1,17 @@
+"""AST002: the file a field names must exist."""
+
+from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, rule
+
+
+@rule("AST002", on="FieldAsset", severity=ERROR, since="0.1")
+def file_missing(field: Prim, facts: Facts) -> Problems:
+    missing = facts.assets(field, "filePath").of(AssetState.MISSING)
+    if missing:
+        similar = facts.files.similar(missing.anchored())
+        yield Problem(
+            f"no file at {missing.first.authored!r}{missing.count}",
+            at=missing.attribute,
+            times=missing.times,
+            at_default=missing.at_default,
+            suggestion=f"did you mean {similar!r}?" if similar else None,
+        )

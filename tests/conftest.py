@@ -1,0 +1,40 @@
+"""What all tests share: an engine with every rule, and stages written to a temporary folder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from usdvol_lint.catalog import Catalog, load
+from usdvol_lint.config import Config, activate
+from usdvol_lint.engine import Engine
+from usdvol_lint.model import StageReport
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="session")
+def catalog() -> Catalog:
+    return load()
+
+
+@pytest.fixture(scope="session")
+def engine(catalog: Catalog) -> Engine:
+    """Every rule, those that are off by default too."""
+    return Engine(catalog.rules, activate(Config(select=("ALL",)), catalog))
+
+
+@pytest.fixture
+def lint_text(
+    engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[str], StageReport]:
+    """Lints a stage given as text, from a folder of its own that is the working directory."""
+    monkeypatch.chdir(tmp_path)
+
+    def lint(text: str, name: str = "stage.usda") -> StageReport:
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        return engine.lint(name)
+
+    return lint

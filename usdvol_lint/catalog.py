@@ -1,0 +1,230 @@
+"""Rule packs: a folder of rules and their pages becomes a catalog that can be selected from."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import re
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+from types import ModuleType
+
+from usdvol_lint.model import Severity, UsageError
+from usdvol_lint.rule import Problems, Rule
+
+ENTRY_POINT_GROUP = "usdvol_lint.packs"
+_BUILT_IN = "usdvol_lint.rules"
+_CODE = re.compile(r"[A-Z]{3}\d{3}")
+_TITLE = re.compile(r"^# (?P<name>[a-z0-9-]+) \((?P<code>[A-Z]{3}\d{3})\)\n+(?P<summary>[^\n]+)")
+_BLOCK = re.compile(r"^```usda(?: (?P<file>[^\n`]+))?\n(?P<text>.*?)^```$", re.M | re.S)
+_HEADING = re.compile(r"^## (?P<title>.+)$", re.M)
+
+
+class PackError(UsageError):
+    """A rule pack that can't be loaded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """One example of a page: stages in their order, and files that are written beside them."""
+
+    heading: str
+    text: str
+    files: Mapping[str, str]
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A rule's page: its documentation and its test."""
+
+    code: str
+    name: str
+    summary: str
+    text: str
+    path: Path
+
+    def examples(self) -> Iterator[Example]:
+        """The unnamed blocks under `## Wrong` and `## Right`, each with the named ones before it."""
+        headings = [(match.start(), match["title"]) for match in _HEADING.finditer(self.text)]
+        files: dict[str, str] = {}
+        for block in _BLOCK.finditer(self.text):
+            heading = [title for start, title in headings if start < block.start()][-1:]
+            if block["file"]:
+                files[block["file"].strip()] = block["text"]
+            else:
+                line = self.text.count("\n", 0, block.start()) + 2
+                yield Example(heading[0] if heading else "", block["text"], files, line)
+                files = {}
+
+
+def _from_engine(prim: object, facts: object) -> Problems:
+    yield from ()
+
+
+def _engine_rule(code: str, name: str, severity: Severity) -> Rule:
+    return Rule(code, name, (), severity, "0.1", _from_engine, {})
+
+
+STAGE_UNREADABLE = _engine_rule("LNT001", "stage-unreadable", Severity.ERROR)
+RULE_FAILED = _engine_rule("LNT002", "rule-failed", Severity.ERROR)
+NOT_CHECKED = _engine_rule("LNT005", "not-checked", Severity.INFO)
+ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, NOT_CHECKED)
+"""What the engine itself reports; `rules/lint/` holds only the pages."""
+NOT_IGNORABLE = frozenset({STAGE_UNREADABLE.code, RULE_FAILED.code})
+"""They say that the job was not done, so nobody can switch them off."""
+
+
+def help_for(rule: Rule) -> str:
+    """The command that prints a rule's page: it works wherever the tool does."""
+    return f"usdvol-lint --explain {rule.code}"
+
+
+@dataclass(frozen=True)
+class Catalog:
+    """All rules by code, in order, with the folders their pages lie in."""
+
+    rules: Mapping[str, Rule]
+    folders: tuple[Path, ...] = field(default=())
+
+    def page(self, code: str) -> Page | None:
+        """The page of a rule, or None if its pack has none."""
+        stem = self.rules[code].name.replace("-", "_")
+        for folder in self.folders:
+            for path in folder.glob(f"**/{stem}.md"):
+                page = read_page(path)
+                if page.code == code:
+                    return page
+        return None
+
+    def find(self, code_or_name: str) -> Rule:
+        """The rule of that code or name."""
+        wanted = code_or_name.strip()
+        by_name = {rule.name: rule for rule in self.rules.values()}
+        rule = self.rules.get(wanted.upper()) or by_name.get(wanted.lower())
+        if rule is None:
+            raise UsageError(f"no rule {wanted!r}{did_you_mean(wanted, [*self.rules, *by_name])}")
+        return rule
+
+    def expand(self, selector: str) -> frozenset[str]:
+        """The codes that a code, a prefix of codes, or ALL stands for."""
+        wanted = selector.strip().upper()
+        codes = self.rules if wanted == "ALL" else [c for c in self.rules if c.startswith(wanted)]
+        if not codes or not wanted:
+            families = sorted({code[:3] for code in self.rules})
+            hint = did_you_mean(wanted, [*self.rules, *families, "ALL"])
+            raise UsageError(f"no rule code starts with {selector.strip()!r}{hint}")
+        return frozenset(codes)
+
+    def select(self, select: Sequence[str], ignore: Sequence[str]) -> frozenset[str]:
+        """The codes switched on; where `select` and `ignore` both match, the longer selector wins."""
+        chosen = self._lengths(select)
+        dropped = self._lengths(ignore)
+        for code in NOT_IGNORABLE & dropped.keys():
+            if code in (selector.strip().upper() for selector in ignore):
+                raise UsageError(f"{code} can't be ignored: it says that the job was not done")
+        if not select:
+            chosen = {code: 0 for code, rule in self.rules.items() if rule.default}
+        on = {code for code, length in chosen.items() if length > dropped.get(code, -1)}
+        return frozenset(on) | NOT_IGNORABLE
+
+    def _lengths(self, selectors: Sequence[str]) -> dict[str, int]:
+        lengths: dict[str, int] = {}
+        for selector in selectors:
+            length = 0 if selector.strip().upper() == "ALL" else len(selector.strip())
+            for code in self.expand(selector):
+                lengths[code] = max(length, lengths.get(code, 0))
+        return lengths
+
+
+def load(packs: Sequence[str] = ()) -> Catalog:
+    """The built-in rules, those of installed packs, and those of the folders named."""
+    built_in = _built_in_folder()
+    found = _collect(_mount(_BUILT_IN, built_in), built_in)
+    folders = [built_in]
+    for name, folder in [*_installed_packs(), *_named_packs(packs)]:
+        found += _collect(name, folder)
+        folders.append(folder)
+    rules: dict[str, Rule] = {}
+    for rule in (*ENGINE_RULES, *found):
+        other = rules.setdefault(rule.code, rule)
+        if other is not rule:
+            raise PackError(f"two rules have the code {rule.code}: {other.name} and {rule.name}")
+    return Catalog(dict(sorted(rules.items())), tuple(folders))
+
+
+def read_page(path: Path) -> Page:
+    """Parses a page: its title names the rule, the next paragraph says what is wrong."""
+    text = path.read_text(encoding="utf-8")
+    title = _TITLE.match(text)
+    if title is None:
+        raise PackError(f"{path}: the page must begin with '# name (CODE)' and one sentence")
+    return Page(title["code"], title["name"], title["summary"], text, path)
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """`; did you mean 'x'?` for the nearest known word, or nothing if none is near."""
+    folded = {other.lower(): other for other in known}
+    matches = get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
+    return f"; did you mean {folded[matches[0]]!r}?" if matches else ""
+
+
+def _built_in_folder() -> Path:
+    """Beside the engine in a checkout, inside it in a wheel."""
+    package = Path(__file__).parent
+    inside = package / "rules"
+    return inside if inside.is_dir() else package.parent / "rules"
+
+
+def _installed_packs() -> Iterator[tuple[str, Path]]:
+    from importlib.metadata import entry_points
+
+    for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
+        spec = importlib.util.find_spec(entry.value)
+        places = list(spec.submodule_search_locations or ()) if spec else []
+        if not places:
+            raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
+        yield entry.value, Path(places[0])
+
+
+def _named_packs(packs: Sequence[str]) -> Iterator[tuple[str, Path]]:
+    for number, pack in enumerate(packs):
+        folder = Path(pack).resolve()
+        if not folder.is_dir():
+            raise PackError(f"rule pack {pack!r}: no such folder")
+        yield _mount(f"usdvol_lint_pack_{number}", folder), folder
+
+
+def _mount(name: str, folder: Path) -> str:
+    """Makes a folder importable as a package of that name, wherever it lies."""
+    package = ModuleType(name)
+    package.__path__ = [str(folder)]
+    sys.modules[name] = package
+    return name
+
+
+def _collect(package: str, folder: Path) -> list[Rule]:
+    """The rules of every module below the folder that holds one; a pack without any is broken."""
+    rules = []
+    for path in sorted(folder.rglob("*.py")):
+        parts = path.relative_to(folder).with_suffix("").parts
+        if any(part.startswith(("_", ".")) for part in parts):
+            continue
+        module = _import(".".join((package, *parts)), path)
+        rules += [value for value in vars(module).values() if isinstance(value, Rule)]
+    if not rules:
+        raise PackError(f"rule pack {str(folder)!r} holds no rule")
+    for rule in rules:
+        if not _CODE.fullmatch(rule.code):
+            raise PackError(f"{rule.name}: a code is three capitals and three digits, not {rule.code}")
+    return rules
+
+
+def _import(name: str, path: Path) -> ModuleType:
+    try:
+        return importlib.import_module(name)
+    except Exception as error:
+        raise PackError(f"{path}: {type(error).__name__}: {error}") from error

@@ -1,0 +1,231 @@
+"""The command line: argv in, exit code out; no other module knows of either."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from usdvol_lint import __version__
+from usdvol_lint.model import UsageError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from usdvol_lint.catalog import Catalog
+    from usdvol_lint.config import Config
+    from usdvol_lint.model import Report
+    from usdvol_lint.output import Destination
+    from usdvol_lint.report import Options
+
+CLEAN, FINDINGS, FAILED = 0, 1, 2
+
+
+def _complete_code(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
+    from usdvol_lint.catalog import load
+
+    return [code for code in load().rules if code.startswith(typed.upper())]
+
+
+# fmt: off
+@click.command(
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog="Exit code: 0 clean, 1 findings at or above --fail-on, 2 the job could not be done.",
+)
+@click.argument("paths", nargs=-1, type=click.Path(), metavar="PATHS...")
+@click.option("--select", multiple=True, metavar="CODES", shell_complete=_complete_code,
+              help="Only these rules: codes, prefixes such as AST, or ALL.")
+@click.option("--ignore", multiple=True, metavar="CODES", shell_complete=_complete_code,
+              help="Not these rules: codes or prefixes.")
+@click.option("--severity", multiple=True, metavar="CODE=LEVEL",
+              help="Report a rule as error, warning or info.")
+@click.option("--fail-on", metavar="LEVEL",
+              help="Exit with 1 from this level on: error (default), warning, info, never.")
+@click.option("--output-format", multiple=True, metavar="FORMAT",
+              help="full (default), concise or json; may be repeated, each with its --output.")
+@click.option("--output", multiple=True, type=click.Path(), metavar="FILE",
+              help="Write the report to a file instead of standard output.")
+@click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto",
+              help="Colour the report; auto asks the terminal, NO_COLOR and FORCE_COLOR.")
+@click.option("--quiet", "-q", is_flag=True, help="Print findings only; nothing when clean.")
+@click.option("--verbose", "-v", is_flag=True, help="Add timings, counts and tracebacks.")
+@click.option("--config", "config_file", type=click.Path(), metavar="FILE",
+              help="Use this configuration file.")
+@click.option("--isolated", is_flag=True, help="Use no configuration file.")
+@click.option("--load", metavar="all|none", help="Load payloads (default: all).")
+@click.option("--jobs", "-j", type=click.IntRange(min=1), metavar="N",
+              help="Worker processes (default: one for each processor).")
+@click.option("--timeout", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS",
+              help="Time limit for one stage (default: 300).")
+@click.option("--show-settings", is_flag=True, help="Print the settings in force and exit.")
+@click.option("--list-rules", is_flag=True, help="Print every rule and exit.")
+@click.option("--explain", metavar="CODE|NAME", shell_complete=_complete_code,
+              help="Print the page of a rule and exit.")
+@click.version_option(__version__, message="%(prog)s %(version)s")
+def command(paths: tuple[str, ...], **given: Any) -> int:
+    """Find what is broken in the volumes and particle fields of USD stages.
+
+    PATHS are .usd, .usda, .usdc and .usdz files, or folders that are searched for them.
+    """
+    if given["explain"] is not None:
+        return _explain(given)
+    if given["list_rules"]:
+        return _list_rules(given)
+    if given["show_settings"]:
+        return _show_settings(given)
+    if not paths:
+        raise click.UsageError("nothing to check: name a stage or a folder")
+    return _lint(paths, given)
+
+
+# fmt: on
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Runs the command and exits; every failure is one line on standard error."""
+    try:
+        code = command.main(arguments, prog_name="usdvol-lint", standalone_mode=False)
+    except click.ClickException as error:
+        error.show()
+        code = FAILED
+    except UsageError as error:
+        click.echo(f"usdvol-lint: error: {error}", err=True)
+        code = FAILED
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("usdvol-lint: interrupted", err=True)
+        code = FAILED
+    except BrokenPipeError:
+        # Whoever read the report went away, as `head` does: there is nobody to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        code = FAILED
+    sys.exit(code)
+
+
+def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
+    from usdvol_lint import output
+    from usdvol_lint.progress import ProgressBar
+    from usdvol_lint.run import lint
+
+    settled: list[tuple[Config, list[Destination]]] = []
+
+    def settle() -> Config:
+        config, _ = _settle(given)
+        destinations = output.pair(given["output_format"], given["output"], config.output_format)
+        output.check_writable(destinations)
+        settled.append((config, destinations))
+        return config
+
+    with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
+        report = lint(paths, settle, progress)
+    config, destinations = settled[0]
+    output.write(report, destinations, _options(given))
+    return _exit_code(report, config.fail_on)
+
+
+def _exit_code(report: Report, fail_on: str) -> int:
+    from usdvol_lint.catalog import RULE_FAILED
+    from usdvol_lint.model import Severity, Status
+
+    findings = [finding for stage in report.stages for finding in stage.findings]
+    if any(stage.status is not Status.CHECKED for stage in report.stages):
+        return FAILED
+    if any(finding.code == RULE_FAILED.code for finding in findings):
+        return FAILED
+    if fail_on == "never":
+        return CLEAN
+    threshold = Severity[fail_on.upper()]
+    return FINDINGS if any(finding.severity >= threshold for finding in findings) else CLEAN
+
+
+def _settle(given: dict[str, Any]) -> tuple[Config, Path | None]:
+    """The configuration file, with the command line on top of it."""
+    from pathlib import Path
+
+    from usdvol_lint import config
+
+    file = None
+    if given["config_file"]:
+        file = Path(given["config_file"])
+    elif not given["isolated"]:
+        file = config.find_config_file(Path.cwd())
+    base = config.read_config(file) if file else config.Config()
+    changes: dict[str, Any] = {
+        key: given[key] for key in ("jobs", "timeout") if given[key] is not None
+    }
+    if given["fail_on"] is not None:
+        changes["fail_on"] = config.one_of("--fail-on", given["fail_on"], config.FAIL_ON)
+    if given["load"] is not None:
+        changes["load"] = config.one_of("--load", given["load"], config.LOADS)
+    for name in given["output_format"]:
+        config.one_of("--output-format", name, config.OUTPUT_FORMATS)
+    if given["select"]:
+        changes["select"] = _codes(given["select"])
+    changes["ignore"] = base.ignore + _codes(given["ignore"])
+    changes["severity"] = {**base.severity, **_severities(given["severity"])}
+    return replace(base, **changes), file
+
+
+def _codes(lists: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(code.strip() for codes in lists for code in codes.split(",") if code.strip())
+
+
+def _severities(pairs: tuple[str, ...]) -> dict[str, str]:
+    from usdvol_lint.config import LEVELS, one_of
+
+    severities = {}
+    for pair in _codes(pairs):
+        code, equals, level = pair.partition("=")
+        if not equals:
+            raise UsageError(f"--severity {pair}: write it as CODE=LEVEL, such as AST002=warning")
+        severities[code.strip()] = one_of(f"--severity {code.strip()}", level.strip(), LEVELS)
+    return severities
+
+
+def _options(given: dict[str, Any]) -> Options:
+    from usdvol_lint import output
+
+    return output.options_for(given["color"], given["quiet"], given["verbose"])
+
+
+def _explain(given: dict[str, Any]) -> int:
+    from usdvol_lint import about, output
+
+    options = _options(given)
+    page = about.explain(_catalog(given), given["explain"])
+    output.print_text(about.render_page(page, options.color, options.width))
+    return CLEAN
+
+
+def _list_rules(given: dict[str, Any]) -> int:
+    from usdvol_lint import about, output
+
+    catalog = _catalog(given)
+    as_json = "json" in given["output_format"]
+    text = (
+        about.list_rules_as_json(catalog)
+        if as_json
+        else about.list_rules(catalog, _options(given).color)
+    )
+    output.print_text(text)
+    return CLEAN
+
+
+def _show_settings(given: dict[str, Any]) -> int:
+    from usdvol_lint import about, output
+    from usdvol_lint.catalog import load
+    from usdvol_lint.config import activate
+    from usdvol_lint.run import settings_of
+
+    config, file = _settle(given)
+    settings = settings_of(config, activate(config, load(config.packs)))
+    output.print_text(about.show_settings(settings, str(file) if file else None))
+    return CLEAN
+
+
+def _catalog(given: dict[str, Any]) -> Catalog:
+    from usdvol_lint.catalog import load
+
+    return load(_settle(given)[0].packs)

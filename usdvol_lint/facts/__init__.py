@@ -1,0 +1,132 @@
+"""What is known of a stage: found once, on demand, never computed unless a rule asks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from usdvol_lint import schema
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.assets import AssetSamples
+    from usdvol_lint.facts.clips import Clips, ClipSet
+    from usdvol_lint.facts.composition import Composition
+    from usdvol_lint.facts.fields import FieldBindings
+    from usdvol_lint.facts.files import Files
+    from usdvol_lint.facts.kinds import Key, Kinds
+    from usdvol_lint.facts.particles import ParticleApis
+
+
+class Facts:
+    """The facts of one stage: read-only for rules, each found when first asked for, and kept.
+
+    `stage` is the `Usd.Stage`; `advance` is told of progress in long sequences.
+    Modules that need pxr are imported where they are used, so that the words rules are written in
+    can be loaded where there is no pxr.
+    """
+
+    def __init__(
+        self,
+        stage: Any,
+        kinds: Kinds,
+        kept: Mapping[Key, Sequence[Any]],
+        advance: Callable[[int], None] = lambda count: None,
+    ) -> None:
+        self.stage = stage
+        self.kinds = kinds
+        self._kept = kept
+        self._advance = advance
+        self._assets: dict[tuple[Any, str], AssetSamples] = {}
+        self._fields: dict[Any, FieldBindings] = {}
+        self._apis: dict[Any, ParticleApis] = {}
+
+    def of(self, schema_name: str) -> list[Any]:
+        """The live prims that answer to the schema of that name: its type, a subtype, an API."""
+        return [
+            prim
+            for key, prims in self._kept.items()
+            if schema_name in self.kinds.names(key)
+            for prim in prims
+        ]
+
+    def is_a(self, prim: Any, schema_name: str) -> bool:
+        """Whether one prim answers to the schema of that name."""
+        return self.kinds.is_a(prim, schema_name)
+
+    def assets(self, prim: Any, name: str) -> AssetSamples:
+        """Every value of an asset attribute, resolved and classified."""
+        key = (prim.GetPath(), name)
+        if key not in self._assets:
+            from usdvol_lint.facts.assets import read_asset_samples
+
+            self._assets[key] = read_asset_samples(
+                prim.GetAttribute(name), self.files, self._advance
+            )
+        return self._assets[key]
+
+    def fields(self, volume: Any) -> FieldBindings:
+        """What the `field:` namespace of a Volume really binds."""
+        path = volume.GetPath()
+        if path not in self._fields:
+            from usdvol_lint.facts.fields import read_field_bindings
+
+            self._fields[path] = read_field_bindings(volume, self.kinds)
+        return self._fields[path]
+
+    def apis(self, prim: Any) -> ParticleApis:
+        """The applied APIs of a prim, those that nobody registers among them."""
+        path = prim.GetPath()
+        if path not in self._apis:
+            from usdvol_lint.facts.particles import read_particle_apis
+
+            self._apis[path] = read_particle_apis(prim, self.kinds)
+        return self._apis[path]
+
+    def clip_sets(self, prim: Any) -> tuple[ClipSet, ...]:
+        """The value clips that reach a prim, nearest first."""
+        return self._clips.reaching(prim)
+
+    def material_is_bound(self, prim: Any) -> bool:
+        """Whether a material is bound to the prim, which replaces its own radiance."""
+        from usdvol_lint.facts.particles import material_is_bound
+
+        return material_is_bound(prim)
+
+    def hidden_animation(self, prim: Any, name: str) -> Any | None:
+        """The weaker spec or clip set whose animation of an attribute a default hides."""
+        from usdvol_lint.facts.assets import hidden_animation
+
+        return hidden_animation(prim.GetAttribute(name), self.clip_sets(prim))
+
+    @cached_property
+    def used_field_paths(self) -> frozenset[Any]:
+        """The paths of the prims that some Volume targets."""
+        from usdvol_lint.facts.fields import field_paths
+
+        volumes = self.of(schema.VOLUME)
+        return frozenset().union(
+            *(field_paths(volume, self.fields(volume)) for volume in volumes)
+        )
+
+    @cached_property
+    def composition(self) -> Composition:
+        """What USD could not compose."""
+        from usdvol_lint.facts.composition import read_composition
+
+        subjects = [*self.of(schema.FIELD), *self.of(schema.VOLUME), *self.of(schema.PARTICLE_FIELD)]
+        clip_sets = dict.fromkeys(found for prim in subjects for found in self.clip_sets(prim))
+        return read_composition(self.stage, clip_sets)
+
+    @cached_property
+    def files(self) -> Files:
+        """The state of files, each looked at once."""
+        from usdvol_lint.facts.files import Files
+
+        return Files()
+
+    @cached_property
+    def _clips(self) -> Clips:
+        from usdvol_lint.facts.clips import Clips
+
+        return Clips()

@@ -1,0 +1,31 @@
+"""Where a prim of an instancing prototype shows on the stage, and how often."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+
+class Shown(NamedTuple):
+    """The first stage path that shows a prim, and by how many instances it is shown."""
+
+    path: str
+    instances: int
+
+
+def shown(prim: Any) -> Shown:
+    """A prim outside prototypes shows at its own path, once."""
+    if not prim.IsInPrototype():
+        return Shown(str(prim.GetPath()), 1)
+    prototype = prim
+    while not prototype.IsPrototype():
+        prototype = prototype.GetParent()
+    below = str(prim.GetPath())[len(str(prototype.GetPath())) :]
+    places = [shown(instance) for instance in prototype.GetInstances()]
+    return Shown(
+        min(place.path for place in places) + below, sum(place.instances for place in places)
+    )
+
+
+def in_prototype(prim: Any) -> Any:
+    """The prim that the walk meets in place of an instance proxy."""
+    return prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim

@@ -1,0 +1,76 @@
+"""Which schemas a prim answers to, memoised by type name and applied schemas."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from pxr import Usd
+
+from usdvol_lint import schema
+
+Key: TypeAlias = tuple[str, ...]
+"""A prim's type name, then the names of its applied schemas."""
+
+
+class Kinds:
+    """The schema names of each kind of prim: its type and bases, and its applied APIs."""
+
+    def __init__(self) -> None:
+        self.knows_particle_fields = is_registered(schema.PARTICLE_FIELD)
+        self._names: dict[Key, frozenset[str]] = {}
+
+    def key(self, prim: Any) -> Key:
+        """What prims of one kind share."""
+        return (prim.GetTypeName(), *self.applied(prim))
+
+    def applied(self, prim: Any) -> tuple[str, ...]:
+        """The applied schemas; on a USD without particle fields, ours as written too."""
+        applied = tuple(prim.GetAppliedSchemas())
+        if self.knows_particle_fields:
+            return applied
+        ours = tuple(name for name in raw_apis(prim) if name in schema.API_INCLUDES)
+        built_in = schema.BUILT_IN_APIS.get(prim.GetTypeName(), ())
+        return applied + schema.expand_apis(built_in + ours)
+
+    def names(self, key: Key) -> frozenset[str]:
+        """Every schema name that prims of this kind answer to, and UNKNOWN_TYPE or ABSTRACT_TYPE."""
+        if key not in self._names:
+            self._names[key] = frozenset(key[1:]) | type_names(key[0])
+        return self._names[key]
+
+    def is_a(self, prim: Any, name: str) -> bool:
+        """Whether the prim answers to the schema of that name."""
+        return name in self.names(self.key(prim))
+
+
+def is_registered(type_name: str) -> bool:
+    """Whether some plugin declares a prim type of that name."""
+    return not Usd.SchemaRegistry.GetTypeFromName(type_name).isUnknown
+
+
+def is_concrete(type_name: str) -> bool:
+    """Whether prims of that type may exist."""
+    return Usd.SchemaRegistry().FindConcretePrimDefinition(type_name) is not None
+
+
+def type_names(type_name: str) -> frozenset[str]:
+    """A prim type with its bases, as schema names."""
+    if not type_name:
+        return frozenset()
+    if not is_registered(type_name):
+        if type_name in schema.CONCRETE_TYPES:
+            return frozenset((type_name, *schema.TYPE_BASES[type_name]))
+        return frozenset((schema.UNKNOWN_TYPE,))
+    if not is_concrete(type_name):
+        return frozenset((schema.ABSTRACT_TYPE,))
+    ancestors = Usd.SchemaRegistry.GetTypeFromName(type_name).GetAllAncestorTypes()
+    names = {Usd.SchemaRegistry.GetSchemaTypeName(ancestor) for ancestor in ancestors}
+    if not names.isdisjoint(schema.FIELD_BASES):
+        names.add(schema.FIELD)
+    return frozenset(names - {""})
+
+
+def raw_apis(prim: Any) -> tuple[str, ...]:
+    """The composed `apiSchemas` as written, those that nobody registers among them."""
+    composed = prim.GetMetadata("apiSchemas")
+    return tuple(composed.ApplyOperations([])) if composed else ()

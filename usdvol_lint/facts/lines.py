@@ -1,0 +1,415 @@
+"""Finds the line and column of a USD spec in the text of a `.usda` layer, without USD."""
+
+from __future__ import annotations
+
+import math
+import re
+from array import array
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from itertools import islice
+from operator import le
+from typing import NamedTuple
+
+# The lexical elements in which brackets and separators mean nothing.  None of them can fail to
+# match once it has begun (the closing mark is optional) and none backtracks, so that time stays
+# linear whatever the text.
+_BLOCK_COMMENT = rb"/\*[^*]*+(?:\*(?!/)[^*]*+)*+(?:\*/)?+"
+_COMMENTS = (rb"#[^\n]*+", rb"//[^\n]*+", _BLOCK_COMMENT)
+_STRINGS = (
+    rb'"""[^"\\]*+(?:(?:\\[\s\S]|"(?!""))[^"\\]*+)*+(?:""")?+',
+    rb"'''[^'\\]*+(?:(?:\\[\s\S]|'(?!''))[^'\\]*+)*+(?:''')?+",
+    rb'"[^"\\\r\n]*+(?:\\[^\r\n][^"\\\r\n]*+)*+"?+',
+    rb"'[^'\\\r\n]*+(?:\\[^\r\n][^'\\\r\n]*+)*+'?+",
+)
+_ASSETS = (
+    rb"@@@[^@\\\r\n]*+(?:(?:\\@@@|\\|@(?!@@))[^@\\\r\n]*+)*+(?:@{3,5})?+",
+    rb"@[^@\r\n]*+@?+",
+)
+_PATHS = (rb"<[^<>\r\n]*+>?+",)
+_OPAQUE = (*_STRINGS, *_ASSETS, *_COMMENTS, *_PATHS)
+
+
+def _either(*patterns: bytes) -> bytes:
+    return b"(?:" + b"|".join(patterns) + b")"
+
+
+_STRING = _either(*_STRINGS)
+_SPACE = _either(rb"[ \t]++", _BLOCK_COMMENT)
+_PADDING = _either(rb"[\s;]++", *_COMMENTS) + b"*+"
+_NAMED = _SPACE + rb"++(?:[^\s\"'(){}=;,/]++" + _SPACE + b"++)?+" + _STRING
+_BRACE_VALUE = b"=" + _SPACE + rb"*+\{"
+
+
+def _tokens(*marked: bytes, plain: Iterable[bytes] = ()) -> re.Pattern[bytes]:
+    """A pattern to search with; `lastindex` says which of `marked` it found, counting from 1.
+
+    Alternatives must begin with a literal and so have their (empty) group at the end: only then
+    does `re` pass over the bytes between two tokens by table look-up.
+    """
+    return re.compile(b"|".join([*(pattern + b"()" for pattern in marked), *plain]))
+
+
+_OPEN, _CLOSE, _OPEN_VALUE, _OPEN_VARIANT_SET, _PRIM, _, _, _TEXT = range(1, 9)
+_STRUCTURE = _tokens(
+    rb"\{",
+    rb"\}",
+    _BRACE_VALUE,
+    b"variantSet" + _SPACE + b"++" + _STRING + _SPACE + b"*+" + _BRACE_VALUE,
+    b"def" + _NAMED,
+    b"over" + _NAMED,
+    b"class" + _NAMED,
+    *_STRINGS,
+    plain=(*_ASSETS, *_COMMENTS, *_PATHS),
+)
+_HEADER = re.compile(
+    rb"(?:(?:def|over|class|variantSet)" + _NAMED.replace(_STRING, b"") + b")?+(" + _STRING + b")"
+)
+_BRACKETS = {
+    opener: _tokens(rb"\%c" % opener, rb"\%c" % closer, plain=_OPAQUE)
+    for opener, closer in (b"()", b"[]", b"{}")
+}
+_STATEMENT = re.compile(_PADDING + rb"((?:[^=(;\r\n{}#/\"'@<]++|" + _BLOCK_COMMENT + rb")*+)")
+_BREAK = _tokens(
+    *(rb"\(", rb"\[", rb"\{"),
+    *_OPAQUE,
+    plain=(rb"\)", rb"\]", rb"\}", b";", b"\n", b"\r"),
+)
+_COMMENT = re.compile(_BLOCK_COMMENT)
+_ASSET = _tokens(*_ASSETS, plain=(*_STRINGS, *_COMMENTS, *_PATHS))
+_SAMPLES = re.compile(_BRACE_VALUE + _PADDING)
+_ARRAY = rb"\[" + _either(rb"[^\]\"'@#/<]++", *_OPAQUE) + b"*+"
+_SAMPLE = re.compile(
+    rb"([-.0-9i](?<![\w.].)(?:[0-9.]++|i?+nf)?+(?:[eE][-+]?+[0-9]++)?+)"
+    + _SPACE
+    + b"*+:"
+    + _either(rb"[^,\"'@#/<\[]++", _ARRAY, *_OPAQUE)
+    + b"*+,?+"
+    + _PADDING
+)
+_ELEMENT = re.compile(r"\{[^{}]*\}|\..*|[^/{}.]+")
+_BLOCK_SIZE = 1 << 16
+
+
+class Position(NamedTuple):
+    """A place in a text, 1-based; the column counts characters."""
+
+    line: int
+    column: int
+
+
+class _Span(NamedTuple):
+    start: int
+    stop: int
+
+
+class _Statement(NamedTuple):
+    """One statement about a property; `value` is where the declaration ends."""
+
+    span: _Span
+    value: int
+    name: str
+    suffix: str
+
+
+class TextLayer:
+    """The text of a `.usda` layer, in which specs are found by their paths."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._scopes: dict[int, _Scope] = {}
+        self._lines_before_block = [0]
+
+    def find(
+        self, path: str, *, time: float | None = None, asset: str | None = None
+    ) -> Position | None:
+        """Where the spec at `path` is authored, or None if it is not in this text.
+
+        A prim is found at its specifier, a variant at its name, a property at its first
+        statement, a target at its property and `/` at the top.  `time` asks for the key of that
+        time sample, else for the time samples; `asset` for the first `@asset@` in the spec (and
+        in that sample).  What is not there falls back to the next larger thing that is.
+        """
+        spec = self._spec(path)
+        if spec is None:
+            return None
+        offset = spec.start
+        sample = None
+        if time is not None and isinstance(spec, _Property) and spec.samples:
+            sample = spec.sample(time)
+            offset = (sample or spec.samples.span).start
+        if asset is not None:
+            assets = _assets(self._data, [sample]) if sample else spec.assets
+            offset = assets.get(asset, offset)
+        return self._position(offset)
+
+    def _spec(self, path: str) -> _Scope | _Property | None:
+        if not path.startswith("/"):
+            return None
+        scope = self._scope(0)
+        for element in _ELEMENT.findall(path.partition("[")[0]):
+            if element.startswith("."):
+                return scope.properties.get(element[1:])
+            child = scope.children.get(element)
+            if child is None:
+                return None
+            scope = self._scope(child)
+        return scope
+
+    def _scope(self, number: int) -> _Scope:
+        if number not in self._scopes:
+            self._scopes[number] = _Scope(self._outline, number)
+        return self._scopes[number]
+
+    @cached_property
+    def _outline(self) -> _Outline:
+        return _Outline(self._data)
+
+    def _position(self, offset: int) -> Position:
+        before = self._lines_before_block
+        block = offset // _BLOCK_SIZE
+        while len(before) <= block:
+            start = (len(before) - 1) * _BLOCK_SIZE
+            before.append(before[-1] + self._data.count(b"\n", start, start + _BLOCK_SIZE))
+        line = before[block] + self._data.count(b"\n", block * _BLOCK_SIZE, offset)
+        line_start = self._data.rfind(b"\n", 0, offset) + 1
+        text = self._data[line_start:offset].decode("utf-8", "replace")
+        return Position(line + 1, len(text.removeprefix("\ufeff")) + 1)
+
+
+class _Outline:
+    """Where the prims, variant sets and variants of a text are: scopes, numbered in order.
+
+    Scope 0 is the layer.  Arrays, and names read only when asked for, keep the outline of a
+    layer of a million prims small.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self.data = data
+        self.start = array("q", [0])
+        self.body = array("q", [0])
+        self.stop = array("q", [len(data)])
+        self.after = array("q", [0])
+        """The number that follows those of everything inside the scope."""
+        self._read()
+
+    def _read(self) -> None:
+        open_scopes = [0]
+        in_variant_set = False
+        header: int | None = None
+        open_values = 0
+        for token in _STRUCTURE.finditer(self.data):
+            kind = token.lastindex
+            if kind is None:
+                continue
+            if kind >= _TEXT:
+                if in_variant_set and header is None and not open_values:
+                    header = token.start()
+            elif kind >= _PRIM:
+                header = token.start()
+            elif kind == _CLOSE:
+                if open_values:
+                    open_values -= 1
+                elif len(open_scopes) > 1:
+                    self._close(open_scopes.pop(), token.end())
+                    in_variant_set = self.is_variant_set(open_scopes[-1])
+                    header = None
+            elif kind == _OPEN_VARIANT_SET and not open_values:
+                open_scopes.append(self._open(token.start(), token.end()))
+                in_variant_set = True
+                header = None
+            elif kind == _OPEN and header is not None and not open_values:
+                open_scopes.append(self._open(header, token.end()))
+                in_variant_set = False
+                header = None
+            else:
+                open_values += 1
+        for number in open_scopes:
+            self._close(number, len(self.data))
+
+    def _open(self, start: int, body: int) -> int:
+        number = len(self.start)
+        self.start.append(start)
+        self.body.append(body)
+        self.stop.append(body)
+        self.after.append(number + 1)
+        return number
+
+    def _close(self, number: int, stop: int) -> None:
+        self.stop[number] = stop
+        self.after[number] = len(self.start)
+
+    def is_variant_set(self, number: int) -> bool:
+        return number > 0 and self.data[self.start[number]] == ord("v")
+
+    def name(self, number: int) -> str:
+        header = _HEADER.match(self.data, self.start[number])
+        literal = header[1] if header else b""
+        marks = 3 if literal.startswith((b'"""', b"'''")) else 1
+        return literal[marks:-marks].decode("utf-8", "replace")
+
+    def inside(self, number: int) -> Iterator[int]:
+        """The scopes directly inside a scope."""
+        inner = number + 1
+        while inner < self.after[number]:
+            yield inner
+            inner = self.after[inner]
+
+    def own(self, number: int, start: int) -> Iterator[_Span]:
+        """What of the scope, from `start` on, is in none of the scopes inside it."""
+        for inner in self.inside(number):
+            yield _Span(start, self.start[inner])
+            start = self.stop[inner]
+        yield _Span(start, self.stop[number])
+
+
+class _Property:
+    """A property in one scope."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._spans: list[_Span] = []
+        self.samples: _Statement | None = None
+
+    def add(self, statement: _Statement) -> None:
+        self._spans.append(statement.span)
+        if statement.suffix == "timeSamples":
+            self.samples = statement
+
+    @property
+    def start(self) -> int:
+        return self._spans[0].start
+
+    @cached_property
+    def assets(self) -> dict[str, int]:
+        return _assets(self._data, self._spans)
+
+    def sample(self, time: float) -> _Span | None:
+        """The time sample with that key."""
+        times, offsets = self._keys
+        at = bisect_left(times, time)
+        for i in sorted(
+            range(max(at - 1, 0), min(at + 1, len(times))), key=lambda i: abs(times[i] - time)
+        ):
+            if math.isclose(times[i], time, rel_tol=1e-6):
+                token = _SAMPLE.match(self._data, offsets[i])
+                return _Span(*token.span()) if token else None
+        return None
+
+    @cached_property
+    def _keys(self) -> tuple[array[float], array[int]]:
+        """The keys of the time samples, ascending, and their offsets."""
+        times: array[float] = array("d")
+        offsets: array[int] = array("q")
+        opening = self.samples and _SAMPLES.match(self._data, self.samples.value)
+        if not self.samples or not opening:
+            return times, offsets
+        for token in _SAMPLE.finditer(self._data, opening.end(), self.samples.span.stop):
+            try:
+                times.append(float(token[1]))
+            except ValueError:
+                continue
+            offsets.append(token.start())
+        if not all(map(le, times, islice(times, 1, None))):
+            order = sorted(range(len(times)), key=times.__getitem__)
+            times = array("d", [times[i] for i in order])
+            offsets = array("q", [offsets[i] for i in order])
+        return times, offsets
+
+
+class _Scope:
+    """A prim, variant set or variant, or the layer."""
+
+    def __init__(self, outline: _Outline, number: int) -> None:
+        self._outline = outline
+        self._number = number
+        self.start = outline.start[number]
+
+    @cached_property
+    def assets(self) -> dict[str, int]:
+        return _assets(self._outline.data, self._outline.own(self._number, self.start))
+
+    @cached_property
+    def children(self) -> dict[str, int]:
+        """The numbers of the scopes inside by their elements of a path: `prim`, `{set=variant}`."""
+        outline = self._outline
+        found: dict[str, int] = {}
+        for inner in outline.inside(self._number):
+            name = outline.name(inner)
+            if not outline.is_variant_set(inner):
+                found.setdefault(name, inner)
+                continue
+            found.setdefault(f"{{{name}=}}", inner)
+            for variant in outline.inside(inner):
+                found.setdefault(f"{{{name}={outline.name(variant)}}}", variant)
+        return found
+
+    @cached_property
+    def properties(self) -> dict[str, _Property]:
+        outline = self._outline
+        found: dict[str, _Property] = {}
+        for span in outline.own(self._number, outline.body[self._number]):
+            for statement in _statements(outline.data, span):
+                found.setdefault(statement.name, _Property(outline.data)).add(statement)
+        return found
+
+
+def _statements(data: bytes, span: _Span) -> Iterator[_Statement]:
+    """The statements about properties in a piece of a body that holds no prims."""
+    position = span.start
+    while position < span.stop:
+        head = _STATEMENT.match(data, position, span.stop)
+        if head is None:
+            return
+        position = _statement_stop(data, head.end(), span.stop)
+        declaration, _, suffix = _COMMENT.sub(b" ", head[1]).partition(b".")
+        words = declaration.rstrip(b"[ \t").decode("utf-8", "replace").split()
+        # `reorder properties` orders names and declares none.
+        if len(words) > 1 and words[:-1] != ["reorder"]:
+            yield _Statement(
+                _Span(head.start(1), position),
+                head.end(),
+                words[-1],
+                suffix.strip().decode("utf-8", "replace"),
+            )
+
+
+def _statement_stop(data: bytes, position: int, stop: int) -> int:
+    while token := _BREAK.search(data, position, stop):
+        if token.lastindex is None:
+            return token.end()
+        opens = token.lastindex <= len(_BRACKETS)
+        position = _bracket_stop(data, token.start(), stop) if opens else token.end()
+    return stop
+
+
+def _bracket_stop(data: bytes, position: int, stop: int) -> int:
+    """The offset after the bracket that closes the one at `position`."""
+    depth = 0
+    for token in _BRACKETS[data[position]].finditer(data, position, stop):
+        if token.lastindex == 1:
+            depth += 1
+        elif token.lastindex == 2:
+            depth -= 1
+            if depth == 0:
+                return token.end()
+    return stop
+
+
+def _assets(data: bytes, spans: Iterable[_Span]) -> dict[str, int]:
+    """Where each asset path is first."""
+    found: dict[str, int] = {}
+    for span in spans:
+        for token in _ASSET.finditer(data, *span):
+            if token.lastindex:
+                found.setdefault(_asset_path(token[0]), token.start())
+    return found
+
+
+def _asset_path(literal: bytes) -> str:
+    if literal.startswith(b"@@@"):
+        literal = literal[3:-3].replace(rb"\@@@", b"@@@")
+    else:
+        literal = literal[1:-1]
+    return literal.decode("utf-8", "replace")

@@ -1,0 +1,64 @@
+"""What an asset path or a relationship target turns out to be: names without any pxr."""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+
+
+class AssetState(Enum):
+    """What one value of an asset attribute turns out to be; each has exactly one."""
+
+    FILE = auto()
+    """A readable file with content."""
+    MISSING = auto()
+    """Nothing is there."""
+    PATTERN = auto()
+    """Nothing is there, and the name holds `$F4`, `####` or the like."""
+    NOT_A_FILE = auto()
+    """Something is there, but a folder, empty, unreadable, a Git-LFS pointer."""
+    BROKEN_EXPRESSION = auto()
+    """A variable expression that can't be evaluated."""
+    UNSET_VARIABLE = auto()
+    """A variable expression with a variable that no layer sets."""
+    UNVERIFIABLE = auto()
+    """A URI that no resolver here answers for."""
+    LIVE_SESSION = auto()
+    """A path into a running Houdini session."""
+    EMPTY = auto()
+    BLOCKED = auto()
+    """No value: blocked, or a value clip that gives none."""
+    MISTYPED = auto()
+    """A value that is no asset path."""
+
+
+class TargetState(Enum):
+    """What one target of a field relationship turns out to be; each has exactly one."""
+
+    FIELD = auto()
+    MISSING = auto()
+    UNLOADED = auto()
+    """It may lie in a payload that was not loaded."""
+    PROPERTY = auto()
+    NOT_A_FIELD = auto()
+    UNKNOWN_TYPE = auto()
+    """A prim of a type that nobody registers."""
+    ABSTRACT_TYPE = auto()
+    """A prim whose type is a field base that may not be instantiated."""
+    INACTIVE = auto()
+    """Inactive, or below an inactive prim."""
+    OVER = auto()
+    """Only overs, no definition."""
+    ABSTRACT = auto()
+    """A `class`, or below one."""
+
+
+class Emptiness(Enum):
+    """Why a relationship has no target."""
+
+    UNAUTHORED = auto()
+    BLOCKED = auto()
+    """Explicitly no target: `= None` or `= []`."""
+    DELETED = auto()
+    """A list operation took the targets away."""
+    LOST = auto()
+    """Specs hold targets, composition dropped them."""

@@ -1,0 +1,218 @@
+"""The nouns of a run: plain, frozen, picklable data that knows nothing of USD."""
+
+from __future__ import annotations
+
+import builtins
+import hashlib
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from enum import IntEnum, StrEnum
+
+
+class UsageError(Exception):
+    """A mistake of the user's: one line that says what, where and what to do (exit code 2)."""
+
+
+class Severity(IntEnum):
+    """How bad a finding is; ordered, so that thresholds are comparisons."""
+
+    INFO = 1
+    WARNING = 2
+    ERROR = 3
+
+    @property
+    def label(self) -> str:
+        return self.name.lower()
+
+
+class Status(StrEnum):
+    """What became of one stage."""
+
+    CHECKED = "checked"
+    UNREADABLE = "unreadable"
+    CRASHED = "crashed"
+    TIMED_OUT = "timed_out"
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """Where a finding is: the layer that holds the opinion, the composed prim, the frames.
+
+    `layer` is relative to the working directory, with `/`.
+    `line` and `column` are 1-based and None in binary layers.
+    `times` are time codes of the stage, ascending; `at_default` says that USD's default time
+    is affected too.
+    """
+
+    layer: str
+    prim: str | None = None
+    property: str | None = None
+    variant: str | None = None
+    line: int | None = None
+    column: int | None = None
+    times: tuple[float, ...] = ()
+    at_default: bool = False
+
+    @builtins.property
+    def frames(self) -> str | None:
+        """The time codes as ranges, `102-104, 117`; None where time plays no part."""
+        if not self.times:
+            return None
+        ranges = frame_ranges(self.times)
+        return f"default, {ranges}" if self.at_default else ranges
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that is wrong, ready to be reported."""
+
+    code: str
+    name: str
+    severity: Severity
+    message: str
+    site: Site
+    suggestion: str | None = None
+    help: str | None = None
+    detail: str | None = None
+    """What `--verbose` may add, such as a traceback."""
+    fingerprint: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class StageReport:
+    """What one stage came to.
+
+    `path` is the stage as the user gave it or as it was found in a folder.
+    `stats` counts what was looked at, `seconds` are wall-clock by phase.
+    """
+
+    path: str
+    status: Status
+    stats: dict[str, int] = field(default_factory=dict)
+    findings: tuple[Finding, ...] = ()
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """Counts over all stages."""
+
+    stages: int
+    errors: int
+    warnings: int
+    infos: int
+    by_code: dict[str, int]
+    by_status: dict[str, int]
+    stats: dict[str, int]
+    stages_with_findings: int
+
+    @property
+    def findings(self) -> int:
+        return self.errors + self.warnings + self.infos
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """A whole run: everything that any output format prints."""
+
+    version: str
+    usd_version: str | None
+    settings: dict[str, object]
+    stages: tuple[StageReport, ...]
+    seconds: float
+
+    @property
+    def summary(self) -> Summary:
+        findings = [finding for stage in self.stages for finding in stage.findings]
+        severities = Counter(finding.severity for finding in findings)
+        stats: Counter[str] = Counter()
+        for stage in self.stages:
+            stats.update(stage.stats)
+        return Summary(
+            stages=len(self.stages),
+            errors=severities[Severity.ERROR],
+            warnings=severities[Severity.WARNING],
+            infos=severities[Severity.INFO],
+            by_code=dict(sorted(Counter(finding.code for finding in findings).items())),
+            by_status=dict(sorted(Counter(str(stage.status) for stage in self.stages).items())),
+            stats=dict(sorted(stats.items())),
+            stages_with_findings=sum(1 for stage in self.stages if stage.findings),
+        )
+
+
+def format_time(time: float) -> str:
+    """A time code as people write it: `101`, `101.5`, never `101.0`."""
+    rounded = round(time, 6)
+    return str(int(rounded)) if rounded.is_integer() and abs(rounded) < 2**53 else repr(rounded)
+
+
+def frame_ranges(times: Sequence[float]) -> str:
+    """Ascending time codes as ranges: `102-104, 117`; every second frame is `0-10x2`."""
+    parts: list[str] = []
+    start = 0
+    while start < len(times):
+        stop = _run_end(times, start)
+        step = times[start + 1] - times[start] if stop - start > 1 else 0.0
+        if stop - start > 2 or _same(step, 1.0):
+            suffix = "" if _same(step, 1.0) else f"x{format_time(step)}"
+            parts.append(f"{format_time(times[start])}-{format_time(times[stop - 1])}{suffix}")
+            start = stop
+        else:
+            parts.append(format_time(times[start]))
+            start += 1
+    return ", ".join(parts)
+
+
+def _run_end(times: Sequence[float], start: int) -> int:
+    """One past the last of the evenly spaced times that begin at `start`."""
+    stop = start + 2
+    if stop > len(times):
+        return len(times)
+    step = times[start + 1] - times[start]
+    while stop < len(times) and _same(times[stop] - times[stop - 1], step):
+        stop += 1
+    return stop
+
+
+def _same(one: float, other: float) -> bool:
+    return abs(one - other) < 1e-6
+
+
+def with_fingerprints(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Findings sorted, without repetitions, each with its fingerprint.
+
+    A fingerprint is made of code, layer, prim and property, so it survives other machines, other
+    runs and unrelated edits; findings that share all four are numbered in their order.
+    """
+    stamped: list[Finding] = []
+    seen: Counter[tuple[str | None, ...]] = Counter()
+    for finding in sorted(dict.fromkeys(findings), key=_order):
+        site = finding.site
+        identity = (finding.code, site.layer, site.prim, site.property, site.variant)
+        text = "\0".join(part or "" for part in identity)
+        if seen[identity]:
+            text += f"\0{seen[identity]}"
+        seen[identity] += 1
+        digest = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16]
+        stamped.append(replace(finding, fingerprint=digest))
+    return tuple(stamped)
+
+
+def _order(finding: Finding) -> tuple[object, ...]:
+    site = finding.site
+    return (
+        site.prim or "",
+        site.property or "",
+        site.layer,
+        site.line or 0,
+        site.column or 0,
+        finding.code,
+        site.variant or "",
+        site.times,
+        site.at_default,
+        finding.severity,
+        finding.message,
+        finding.suggestion or "",
+        finding.detail or "",
+    )

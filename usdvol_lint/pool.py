@@ -1,0 +1,202 @@
+"""Supervised worker processes: a stage goes in, a report comes out, whatever USD does with it."""
+
+from __future__ import annotations
+
+import pickle
+import queue
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import IO, Any
+
+from usdvol_lint.model import StageReport, Status, UsageError
+from usdvol_lint.protocol import Advance, Ready, Refusal, Setup
+from usdvol_lint.trouble import Unreadable, report_trouble
+
+_PROGRAM = "import sys; sys.path[:] = {path!r}; from usdvol_lint.worker import main; main()"
+"""A worker imports from where its parent does, and nothing else from the working directory."""
+_PATIENCE = 0.3
+"""A further worker pays about so many seconds for importing USD: it starts only if work is left."""
+
+
+class Worker:
+    """One child process; `start` returns at once, and the child imports USD meanwhile."""
+
+    def __init__(self) -> None:
+        self.usd_version = ""
+        self._setup: Setup | None = None
+        self._start()
+
+    def _start(self) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _PROGRAM.format(path=sys.path)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
+        self._said: deque[bytes] = deque(maxlen=20)
+        threading.Thread(
+            target=_drain, args=(self._process.stderr, self._said), daemon=True
+        ).start()
+
+    def prepare(self, setup: Setup, limit: float) -> None:
+        """Hands over the rules; raises UsageError if the worker can't work with them."""
+        self._setup = setup
+        reply, _ = self._ask(setup, limit, lambda samples: None)
+        if isinstance(reply, Refusal):
+            raise UsageError(reply.reason)
+        if not isinstance(reply, Ready):
+            raise UsageError(f"the process that loads USD does not start: {self._last_words()}")
+        self.usd_version = reply.usd_version
+
+    def lint(self, path: str, limit: float, advance: Callable[[int], None]) -> StageReport:
+        """The report on a stage; a crash or a hang of USD becomes the report, and a new child."""
+        began = time.perf_counter()
+        reply, timed_out = self._ask(path, limit, advance)
+        if isinstance(reply, StageReport):
+            return reply
+        seconds = {"total": time.perf_counter() - began}
+        trouble = self._timed_out(limit) if timed_out else self._crashed()
+        status = Status.TIMED_OUT if timed_out else Status.CRASHED
+        self._restart(limit)
+        return report_trouble(path, trouble, status, seconds)
+
+    def stop(self) -> None:
+        """Ends the child without ceremony."""
+        self._process.kill()
+        self._process.wait()
+
+    def _restart(self, limit: float) -> None:
+        self.stop()
+        self._start()
+        if self._setup:
+            self.prepare(self._setup, limit)
+
+    def _ask(
+        self, message: Setup | str, limit: float, advance: Callable[[int], None]
+    ) -> tuple[Any, bool]:
+        """The child's answer, or None if it died; and whether the limit ended it."""
+        expired = threading.Event()
+        timer = threading.Timer(limit, lambda: (expired.set(), self._process.kill()))
+        timer.daemon = True
+        timer.start()
+        try:
+            pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
+            self._stdin.flush()
+            while isinstance(reply := pickle.load(self._stdout), Advance):
+                advance(reply.samples)
+            return reply, False
+        except (EOFError, OSError, pickle.UnpicklingError):
+            return None, expired.is_set()
+        finally:
+            timer.cancel()
+
+    @property
+    def _stdin(self) -> IO[bytes]:
+        assert self._process.stdin
+        return self._process.stdin
+
+    @property
+    def _stdout(self) -> IO[bytes]:
+        assert self._process.stdout
+        return self._process.stdout
+
+    def _timed_out(self, limit: float) -> Unreadable:
+        return Unreadable(
+            f"not done after {limit:g} s, ended there",
+            "look for a layer that is a pipe or a corrupt file, or give it more with --timeout",
+        )
+
+    def _crashed(self) -> Unreadable:
+        code = self._process.wait()
+        return Unreadable(
+            f"the USD library crashed while reading it ({_cause(code)})",
+            "the file or a layer it names is probably corrupt: open it with usdcat to see which",
+            detail=self._last_words(),
+        )
+
+    def _last_words(self) -> str:
+        self._process.wait()
+        return b"".join(self._said).decode("utf-8", "replace").strip()
+
+
+class Pool:
+    """Workers behind the interface of an executor: `submit` gives a Future of a StageReport.
+
+    The first worker starts at once; others follow only while stages are waiting.
+    """
+
+    def __init__(self) -> None:
+        self._first = Worker()
+        self._waiting: queue.SimpleQueue[tuple[str, Future[StageReport]]] = queue.SimpleQueue()
+        self._workers: list[Worker] = [self._first]
+        self._closed = False
+
+    @property
+    def usd_version(self) -> str:
+        return self._first.usd_version
+
+    def submit(self, path: str) -> Future[StageReport]:
+        """Queues a stage; nothing happens to it before `run`."""
+        future: Future[StageReport] = Future()
+        self._waiting.put((path, future))
+        return future
+
+    def run(
+        self,
+        setup: Setup,
+        jobs: int,
+        limit: float,
+        advance: Callable[[int], None] = lambda samples: None,
+    ) -> None:
+        """Works the queue off with at most `jobs` workers; raises UsageError if none can work."""
+        patience = max(limit, 60.0)
+        self._first.prepare(setup, patience)
+
+        def work(number: int) -> None:
+            if number:
+                time.sleep(_PATIENCE * number)
+                if self._waiting.empty() or self._closed:
+                    return
+                worker = Worker()
+                self._workers.append(worker)
+                worker.prepare(setup, patience)
+            else:
+                worker = self._first
+            while True:
+                try:
+                    path, future = self._waiting.get_nowait()
+                except queue.Empty:
+                    return
+                try:
+                    future.set_result(worker.lint(path, limit, advance))
+                except Exception as error:
+                    future.set_exception(error)
+
+        for number in range(max(1, min(jobs, self._waiting.qsize()))):
+            threading.Thread(target=work, args=(number,), daemon=True).start()
+
+    def close(self) -> None:
+        """Ends all workers."""
+        self._closed = True
+        for worker in self._workers:
+            worker.stop()
+
+
+def _drain(stream: IO[bytes], lines: deque[bytes]) -> None:
+    for line in stream:
+        lines.append(line)
+
+
+def _cause(code: int) -> str:
+    if code >= 0:
+        return f"exit code {code}"
+    try:
+        return signal.Signals(-code).name
+    except ValueError:
+        return f"signal {-code}"

@@ -1,0 +1,191 @@
+"""The report for people: stage by stage, prim by prim, with a verdict as the last line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+
+from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status, Summary
+from usdvol_lint.report import Options
+from usdvol_lint.report.plain import paint, printable
+
+SEVERITY_STYLES = {
+    Severity.ERROR: "bold red",
+    Severity.WARNING: "bold yellow",
+    Severity.INFO: "bold cyan",
+}
+
+# A word to wrap at; quoted text counts as one, so that a path with spaces can still be copied.
+_WORD = re.compile(r"""(?<!\S)\(?(['"@]).*?\1\S*|\S+""")
+
+
+def render(report: Report, options: Options) -> str:
+    blocks = [_stage(stage, options) for stage in report.stages if _speaks(stage, options)]
+    if not options.quiet:
+        blocks.append(paint(verdict(report), _verdict_style(report), options.color) + "\n")
+    return "\n".join(blocks)
+
+
+def verdict(report: Report) -> str:
+    """What came of the run, in one line."""
+    summary = report.summary
+    if not summary.stages:
+        return "no stages checked"
+    parts = [_found(summary), f"{_looked_at(summary.stats)} in {_duration(report.seconds)}"]
+    unchecked = summary.stages - summary.by_status.get(Status.CHECKED, 0)
+    if unchecked:
+        parts.append(f"{_count(unchecked, 'stage')} could not be checked")
+    return "; ".join(parts)
+
+
+def _found(summary: Summary) -> str:
+    if not summary.findings:
+        return f"no findings in {_count(summary.stages, 'stage')}"
+    counts = _counts(
+        (summary.errors, "error"), (summary.warnings, "warning"), (summary.infos, "info")
+    )
+    of = f"{summary.stages_with_findings:,} of " if summary.stages > 1 else ""
+    return f"{counts} in {of}{_count(summary.stages, 'stage')}"
+
+
+def _looked_at(stats: dict[str, int]) -> str:
+    counts = _counts(
+        (stats.get("volumes", 0), "volume"),
+        (stats.get("particle_fields", 0), "particle field"),
+        (stats.get("files_checked", 0), "file"),
+    )
+    return f"{counts} checked" if counts else "no volumes or particle fields found"
+
+
+def _verdict_style(report: Report) -> str:
+    if any(stage.status != Status.CHECKED for stage in report.stages):
+        return SEVERITY_STYLES[Severity.ERROR]
+    severities = [finding.severity for stage in report.stages for finding in stage.findings]
+    return SEVERITY_STYLES[max(severities)] if severities else "bold green"
+
+
+def _speaks(stage: StageReport, options: Options) -> bool:
+    """Whether there is anything to say of a stage."""
+    if stage.findings or stage.status != Status.CHECKED:
+        return True
+    return options.verbose and not options.quiet
+
+
+def _stage(stage: StageReport, options: Options) -> str:
+    groups = [
+        "".join(f"{line}\n" for line in _prim(prim, findings, options))
+        for prim, findings in groupby(sorted(stage.findings, key=_prim_of), key=_prim_of)
+    ]
+    if options.verbose:
+        groups.append("".join(f"{line}\n" for line in _extras(stage, options)))
+    return _heading(stage, options) + "\n" + "\n".join(filter(None, groups))
+
+
+def _heading(stage: StageReport, options: Options) -> str:
+    path = paint(printable(stage.path), "bold underline", options.color)
+    if stage.status == Status.CHECKED:
+        return path
+    status = stage.status.replace("_", " ")
+    return f"{path} {paint(f'({status})', SEVERITY_STYLES[Severity.ERROR], options.color)}"
+
+
+def _prim_of(finding: Finding) -> str:
+    return finding.site.prim or ""
+
+
+def _prim(prim: str, findings: Iterable[Finding], options: Options) -> Iterator[str]:
+    """The findings of one prim under its path; those of the stage itself have no heading."""
+    if prim:
+        yield "  " + paint(printable(prim), "bold", options.color)
+    for finding in findings:
+        yield from _finding(finding, "    " if prim else "  ", options)
+
+
+def _finding(finding: Finding, indent: str, options: Options) -> Iterator[str]:
+    label = f"{printable(finding.code)} {finding.severity.label}:"
+    style = SEVERITY_STYLES[finding.severity]
+    yield _labelled(label, printable(finding.message), style, indent, options)
+    indent += "  "
+    yield f"{indent}{paint('-->', 'blue', options.color)} {place(finding.site)}"
+    if where := ", ".join(_where(finding.site)):
+        yield _labelled("at", where, "blue", indent, options)
+    if finding.suggestion:
+        yield _labelled("help:", printable(finding.suggestion), "green", indent, options)
+    if options.verbose:
+        yield _labelled("rule:", _rule(finding), "dim", indent, options)
+        for line in (finding.detail or "").expandtabs().splitlines():
+            yield f"{indent}| {printable(line)}".rstrip()
+
+
+def place(site: Site) -> str:
+    """`layer:line:column`, as far as they are known."""
+    parts = [printable(site.layer)]
+    if site.line is not None:
+        parts.append(str(site.line))
+        if site.column is not None:
+            parts.append(str(site.column))
+    return ":".join(parts)
+
+
+def _where(site: Site) -> Iterator[str]:
+    """What the heading and the place leave open: property, variant and frames."""
+    if site.property:
+        yield printable(site.property)
+    if site.variant:
+        yield f"variant {printable(site.variant)}"
+    if site.frames:
+        several = len(site.times) > 1 or site.at_default
+        yield f"{'frames' if several else 'frame'} {site.frames}"
+
+
+def _rule(finding: Finding) -> str:
+    return ", ".join(printable(part) for part in (finding.name, finding.help) if part)
+
+
+def _extras(stage: StageReport, options: Options) -> Iterator[str]:
+    """What only `--verbose` says of a stage."""
+    stats = ", ".join(f"{printable(name)} {count:,}" for name, count in stage.stats.items())
+    seconds = ", ".join(f"{printable(name)} {time:.3f}" for name, time in stage.seconds.items())
+    if stats:
+        yield _labelled("stats:", stats, "dim", "  ", options)
+    if seconds:
+        yield _labelled("seconds:", seconds, "dim", "  ", options)
+
+
+def _labelled(label: str, text: str, style: str, indent: str, options: Options) -> str:
+    """A painted label and its text, which continues below itself when a terminal is narrow."""
+    # Without colour nothing is wrapped: the output goes to a file, a pipe or a log, where a search
+    # for a phrase must not miss it because of a line break.
+    lines = [text]
+    hang = len(indent) + len(label) + 1
+    if options.color:
+        lines = list(_wrap(text, options.width - hang))
+    return f"{indent}{paint(label, style, options.color)} " + f"\n{' ' * hang}".join(lines)
+
+
+def _wrap(text: str, width: int) -> Iterator[str]:
+    """Text in lines of at most `width` cells; a longer word is left whole."""
+    from rich.cells import cell_len  # noqa: PLC0415  (see paint)
+
+    line = ""
+    for word in (match.group() for match in _WORD.finditer(text)):
+        longer = f"{line} {word}" if line else word
+        if line and cell_len(longer) > width:
+            yield line
+            line = word
+        else:
+            line = longer
+    yield line
+
+
+def _counts(*numbers: tuple[int, str]) -> str:
+    return ", ".join(_count(number, noun) for number, noun in numbers if number)
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"
+
+
+def _duration(seconds: float) -> str:
+    return f"{seconds:,.1f} s" if seconds >= 0.1 else f"{seconds:.2f} s"

@@ -1,0 +1,113 @@
+"""A problem's place becomes a Site: the layer that holds the opinion, its line, the stage's prim."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pxr import Ar, Usd
+
+from usdvol_lint.facts.instances import shown
+from usdvol_lint.facts.lines import TextLayer
+from usdvol_lint.model import Site
+from usdvol_lint.paths import display
+from usdvol_lint.rule import NotChecked, Problem
+
+_TEXT_SIGNATURES = (b"#usda", b"#sdf", b"#usd ")
+
+
+class Located(NamedTuple):
+    """A site, and by how many instances the stage shows it."""
+
+    site: Site
+    instances: int
+
+
+class Sites:
+    """Finds sites; each text layer is read once, and only if something is wrong in it."""
+
+    def __init__(self) -> None:
+        self._texts: dict[str, TextLayer | None] = {}
+
+    def locate(self, problem: Problem | NotChecked) -> Located:
+        """Where a problem is, on the stage and in the layer."""
+        prim = problem.at.GetPrim()
+        is_property = isinstance(problem.at, Usd.Property)
+        spec, time = (problem.spec, None) if problem.spec else blamed_spec(problem)
+        layer = spec.layer if spec else prim.GetStage().GetRootLayer()
+        path = spec.path if spec else "/"
+        text = self._text(layer)
+        position = text.find(str(path), time=time, asset=problem.asset) if text else None
+        where = shown(prim)
+        site = Site(
+            layer=display(layer.realPath or layer.identifier),
+            prim=None if prim.IsPseudoRoot() else where.path,
+            property=problem.at.GetName() if is_property else None,
+            variant=_variants(spec.path) if spec else None,
+            line=position.line if position else None,
+            column=position.column if position else None,
+            times=problem.times,
+            at_default=problem.at_default,
+        )
+        return Located(site, where.instances)
+
+    def _text(self, layer: Any) -> TextLayer | None:
+        key = layer.identifier
+        if key not in self._texts:
+            data = _read(layer)
+            self._texts[key] = TextLayer(data) if data.startswith(_TEXT_SIGNATURES) else None
+        return self._texts[key]
+
+
+def blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
+    """The spec whose opinion counts, and the first time as its layer has it."""
+    if not isinstance(problem.at, Usd.Property):
+        return _blamed_prim_spec(problem.at), None
+    if problem.at_default or not problem.times:
+        specs = problem.at.GetPropertyStack()
+        spec = next((spec for spec in specs if _has_value(spec)), specs[0] if specs else None)
+        return spec or _blamed_prim_spec(problem.at.GetPrim()), None
+    first = problem.times[0]
+    if not isinstance(problem.at, Usd.Attribute):
+        return next(iter(problem.at.GetPropertyStack()), None), None
+    for spec, offset in problem.at.GetPropertyStackWithLayerOffsets(first):
+        if _has_value(spec):
+            return spec, offset.GetInverse() * first
+    return _blamed_prim_spec(problem.at.GetPrim()), None
+
+
+def _blamed_prim_spec(prim: Any) -> Any | None:
+    """The strongest spec that defines the prim with a type, or else its strongest one."""
+    if prim.IsPseudoRoot():
+        return prim.GetStage().GetRootLayer().pseudoRoot
+    stack = prim.GetPrimStack()
+    return next((spec for spec in stack if spec.typeName), stack[0] if stack else None)
+
+
+def _has_value(spec: Any) -> bool:
+    return any(spec.HasInfo(key) for key in ("default", "timeSamples", "targetPaths", "spline"))
+
+
+def _variants(path: Any) -> str | None:
+    """`set=name` for each variant that the path of a spec goes through, outermost first."""
+    chosen = [
+        "=".join(prefix.GetVariantSelection())
+        for prefix in path.GetPrefixes()
+        if prefix.IsPrimVariantSelectionPath()
+    ]
+    return ", ".join(chosen) or None
+
+
+def _read(layer: Any) -> bytes:
+    path = layer.realPath
+    if not path or layer.anonymous:
+        return b""
+    if Ar.IsPackageRelativePath(path):
+        asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
+        return bytes(asset.GetBuffer()) if asset else b""
+    try:
+        with Path(path).open("rb") as file:
+            head = file.read(8)
+            return head + file.read() if head.startswith(_TEXT_SIGNATURES) else b""
+    except OSError:
+        return b""

@@ -1,0 +1,41 @@
+"""What stands in a report for a stage that could not be checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from usdvol_lint.catalog import STAGE_UNREADABLE, help_for
+from usdvol_lint.model import Finding, Severity, Site, StageReport, Status, with_fingerprints
+from usdvol_lint.paths import display
+
+
+@dataclass(slots=True)
+class Unreadable(Exception):
+    """Why a path is not a stage; the place is where text does not parse."""
+
+    message: str
+    suggestion: str | None = None
+    layer: str | None = None
+    line: int | None = None
+    column: int | None = None
+    detail: str | None = None
+
+
+def report_trouble(
+    path: str,
+    trouble: Unreadable,
+    status: Status = Status.UNREADABLE,
+    seconds: dict[str, float] | None = None,
+) -> StageReport:
+    """A stage's report that holds one LNT001 finding."""
+    finding = Finding(
+        code=STAGE_UNREADABLE.code,
+        name=STAGE_UNREADABLE.name,
+        severity=Severity.ERROR,
+        message=trouble.message,
+        site=Site(display(trouble.layer or path), line=trouble.line, column=trouble.column),
+        suggestion=trouble.suggestion,
+        help=help_for(STAGE_UNREADABLE),
+        detail=trouble.detail,
+    )
+    return StageReport(display(path), status, {}, with_fingerprints([finding]), seconds or {})

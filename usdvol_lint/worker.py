@@ -1,0 +1,57 @@
+"""The process that holds USD: reads paths from a pipe, writes stage reports to another."""
+
+from __future__ import annotations
+
+import os
+import pickle
+from typing import BinaryIO
+
+from usdvol_lint.catalog import load
+from usdvol_lint.model import StageReport, UsageError
+from usdvol_lint.protocol import Advance, Ready, Refusal, Setup
+
+
+def main() -> None:
+    """Answers each path with a report, until the pipe closes."""
+    requests, replies = _take_pipes()
+    try:
+        from usdvol_lint.engine import Engine, usd_version
+    except ImportError as error:
+        return _send(replies, Refusal(f"USD can't be imported ({error}); install usd-core"))
+    setup: Setup = pickle.load(requests)
+    try:
+        rules = load(setup.packs).rules
+    except UsageError as error:
+        return _send(replies, Refusal(str(error)))
+    engine = Engine(
+        rules, setup.active, setup.load, lambda samples: _send(replies, Advance(samples))
+    )
+    _send(replies, Ready(usd_version()))
+    while path := _next_path(requests):
+        _send(replies, engine.lint(path))
+    # The process has nothing to save: tearing down a large stage would only cost time.
+    os._exit(0)
+
+
+def _next_path(requests: BinaryIO) -> str | None:
+    try:
+        path: str = pickle.load(requests)
+    except EOFError:
+        return None
+    return path
+
+
+def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
+    """Keeps the pipes for messages, so that whatever prints cannot garble them."""
+    replies = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    requests = os.fdopen(os.dup(0), "rb")
+    with open(os.devnull, "rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
+    return requests, replies
+
+
+def _send(replies: BinaryIO, message: Ready | Refusal | Advance | StageReport) -> None:
+    pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
+    replies.flush()
+
