@@ -164,6 +164,8 @@ PROPERTIES = {
     "varying relationship": ("r", "¦custom varying rel r = None"),
     "list edit of relationship": ("r", "int s\n¦prepend rel r = </b>\ndelete rel r = </c>"),
     "list edit of connection": ("p", "int s\n¦delete custom int p.connect = </b.c>\nint p"),
+    "target alone": ("r", "int s\n¦rel r[</b.c>]"),
+    "target alone, spaced": ("r", "int s\n¦rel r [</b.c>]"),
     "order of relationship": ("r", "¦reorder rel r = [</c>]"),
     "order of properties": ("properties", 'reorder properties = ["p"]\n¦int properties'),
     "first of several": (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 from collections import Counter
@@ -91,10 +90,3 @@ def test_every_rule_has_its_page_and_every_page_its_rule() -> None:
     }
     for page in PAGES:
         assert page.path.stem == page.name.replace("-", "_")
-
-
-def test_examples_stand_alone() -> None:
-    """Nothing that an example names lies outside its folder."""
-    for page in PAGES:
-        for example in page.examples():
-            assert os.sep * 2 not in example.text.replace("://", "")

@@ -215,11 +215,11 @@ class _Outline:
                     self._close(open_scopes.pop(), token.end())
                     in_variant_set = self.is_variant_set(open_scopes[-1])
                     header = None
-            elif kind == _OPEN_VARIANT_SET and not open_values:
+            elif kind == _OPEN_VARIANT_SET:
                 open_scopes.append(self._open(token.start(), token.end()))
                 in_variant_set = True
                 header = None
-            elif kind == _OPEN and header is not None and not open_values:
+            elif kind == _OPEN and header is not None:
                 open_scopes.append(self._open(header, token.end()))
                 in_variant_set = False
                 header = None
