@@ -1,6 +1,50 @@
-"""`python -m usdvol_lint` is `usdvol-lint`."""
+"""The entry point of `usdvol-lint` and `python -m usdvol_lint`: first what takes longest."""
 
-from usdvol_lint.cli import main
+from __future__ import annotations
+
+import os
+import sys
+
+from usdvol_lint import __version__
+
+_LINTS_NOTHING = {"--version", "-h", "--help", "--explain", "--list-rules", "--show-settings"}
+
+
+def main() -> None:
+    """Answers what needs no more than this, or has the command line do it."""
+    arguments = sys.argv[1:]
+    if arguments == ["--version"]:
+        _say(f"usdvol-lint {__version__}\n")
+    elif arguments in (["-h"], ["--help"]):
+        with open(os.path.join(os.path.dirname(__file__), "help.txt"), encoding="utf-8") as file:
+            _say(file.read())
+    elif not arguments or not _LINTS_NOTHING.isdisjoint(arguments):
+        from usdvol_lint.cli import main as run_command
+
+        run_command(arguments)
+    else:
+        _lint(arguments)
+
+
+def _say(text: str) -> None:
+    try:
+        print(text, end="", flush=True)
+    except OSError:  # a reader that left, as `head` does, or a full disk
+        os._exit(2)
+
+
+def _lint(arguments: list[str]) -> None:
+    """Starts the process that imports USD, and imports the command line meanwhile."""
+    from usdvol_lint.child import start_child
+
+    child = start_child()
+    try:
+        from usdvol_lint.cli import main as run_command
+
+        run_command(arguments, child)
+    finally:
+        child.kill()
+
 
 if __name__ == "__main__":
     main()

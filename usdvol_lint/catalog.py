@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import os
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import redirect_stdout, suppress
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from types import ModuleType
+from zlib import crc32
 
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.rule import Problems, Rule
@@ -19,8 +21,10 @@ ENTRY_POINT_GROUP = "usdvol_lint.packs"
 _BUILT_IN = "usdvol_lint.rules"
 _CODE = re.compile(r"[A-Z]{3}\d{3}")
 _TITLE = re.compile(r"^# (?P<name>[a-z0-9-]+) \((?P<code>[A-Z]{3}\d{3})\)\n+(?P<summary>[^\n]+)")
-_BLOCK = re.compile(r"^```usda(?: (?P<file>[^\n`]+))?\n(?P<text>.*?)^```$", re.M | re.S)
-_HEADING = re.compile(r"^## (?P<title>.+)$", re.M)
+_BLOCK = re.compile(
+    r"^```usda(?: (?P<file>[^\n`]+))?\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL
+)
+_HEADING = re.compile(r"^## (?P<title>.+)$", re.MULTILINE)
 
 
 class PackError(UsageError):
@@ -48,7 +52,7 @@ class Page:
     path: Path
 
     def examples(self) -> Iterator[Example]:
-        """The unnamed blocks under `## Wrong` and `## Right`, each with the named ones before it."""
+        """The unnamed blocks under `## Wrong` and `## Right`, with the named ones before each."""
         headings = [(match.start(), match["title"]) for match in _HEADING.finditer(self.text)]
         files: dict[str, str] = {}
         for block in _BLOCK.finditer(self.text):
@@ -114,13 +118,11 @@ class Catalog:
         wanted = selector.strip().upper()
         codes = self.rules if wanted == "ALL" else [c for c in self.rules if c.startswith(wanted)]
         if not codes or not wanted:
-            families = sorted({code[:3] for code in self.rules})
-            hint = did_you_mean(wanted, [*self.rules, *families, "ALL"])
-            raise UsageError(f"no rule code starts with {selector.strip()!r}{hint}")
+            raise UsageError(f"no rule code starts with {selector.strip()!r}{self._hint(wanted)}")
         return frozenset(codes)
 
     def select(self, select: Sequence[str], ignore: Sequence[str]) -> frozenset[str]:
-        """The codes switched on; where `select` and `ignore` both match, the longer selector wins."""
+        """The codes switched on; where `select` and `ignore` both match, the longer one wins."""
         chosen = self._lengths(select)
         dropped = self._lengths(ignore)
         for code in NOT_IGNORABLE & dropped.keys():
@@ -131,34 +133,51 @@ class Catalog:
         on = {code for code, length in chosen.items() if length > dropped.get(code, -1)}
         return frozenset(on) | NOT_IGNORABLE
 
+    def _hint(self, wanted: str) -> str:
+        by_name = {rule.name.upper(): code for code, rule in self.rules.items()}
+        families = sorted({code[:3] for code in self.rules})
+        hint = did_you_mean(wanted, [*self.rules, *families, "ALL"])
+        return hint or did_you_mean(by_name.get(wanted, ""), self.rules)
+
     def _lengths(self, selectors: Sequence[str]) -> dict[str, int]:
         lengths: dict[str, int] = {}
         for selector in selectors:
-            length = 0 if selector.strip().upper() == "ALL" else len(selector.strip())
             for code in self.expand(selector):
-                lengths[code] = max(length, lengths.get(code, 0))
+                lengths[code] = max(length(selector), lengths.get(code, 0))
         return lengths
+
+
+def length(selector: str) -> int:
+    """How much a selector says: the longer of two that match a code wins; ALL says least."""
+    stripped = selector.strip()
+    return 0 if stripped.upper() == "ALL" else len(stripped)
 
 
 def load(packs: Sequence[str] = ()) -> Catalog:
     """The built-in rules, those of installed packs, and those of the folders named."""
     built_in = _built_in_folder()
-    found = _collect(_mount(_BUILT_IN, built_in), built_in)
-    folders = [built_in]
-    for name, folder in [*_installed_packs(), *_named_packs(packs)]:
-        found += _collect(name, folder)
-        folders.append(folder)
-    rules: dict[str, Rule] = {}
-    for rule in (*ENGINE_RULES, *found):
-        other = rules.setdefault(rule.code, rule)
-        if other is not rule:
-            raise PackError(f"two rules have the code {rule.code}: {other.name} and {rule.name}")
-    return Catalog(dict(sorted(rules.items())), tuple(folders))
+    mounted = [(_mount(_BUILT_IN, built_in), built_in), *_installed_packs(), *_named_packs(packs)]
+    rules = {rule.code: rule for rule in ENGINE_RULES}
+    names = {rule.name: rule for rule in ENGINE_RULES}
+    for package, folder in mounted:
+        for rule in _collect(package, folder):
+            same_code = rules.setdefault(rule.code, rule)
+            same_name = names.setdefault(rule.name, rule)
+            for other in (same_code, same_name):
+                if other is not rule:
+                    raise PackError(
+                        f"rule pack {str(folder)!r}: {rule.code} ({rule.name}) takes the code or "
+                        f"name of another rule, {other.code} ({other.name})"
+                    )
+    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in mounted))
 
 
 def read_page(path: Path) -> Page:
     """Parses a page: its title names the rule, the next paragraph says what is wrong."""
-    text = path.read_text(encoding="utf-8")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise PackError(f"{path}: {error}") from error
     title = _TITLE.match(text)
     if title is None:
         raise PackError(f"{path}: the page must begin with '# name (CODE)' and one sentence")
@@ -167,6 +186,8 @@ def read_page(path: Path) -> Page:
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """`; did you mean 'x'?` for the nearest known word, or nothing if none is near."""
+    from difflib import get_close_matches  # costs start-up time, and few runs ask
+
     folded = {other.lower(): other for other in known}
     matches = get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
     return f"; did you mean {folded[matches[0]]!r}?" if matches else ""
@@ -180,22 +201,38 @@ def _built_in_folder() -> Path:
 
 
 def _installed_packs() -> Iterator[tuple[str, Path]]:
+    # To import what reads entry points takes ten times as long as to see that there are none.
+    if not any(_names_packs(folder) for folder in sys.path):
+        return
     from importlib.metadata import entry_points
 
     for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
-        spec = importlib.util.find_spec(entry.value)
+        try:
+            spec = importlib.util.find_spec(entry.value)
+        except (ImportError, ValueError):
+            spec = None
         places = list(spec.submodule_search_locations or ()) if spec else []
         if not places:
             raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
         yield entry.value, Path(places[0])
 
 
+def _names_packs(folder: str) -> bool:
+    """Whether some distribution in a folder of `sys.path` declares a rule pack."""
+    for file in Path(folder).glob("*-info/entry_points.txt"):
+        with suppress(OSError):
+            if ENTRY_POINT_GROUP.encode() in file.read_bytes():
+                return True
+    return False
+
+
 def _named_packs(packs: Sequence[str]) -> Iterator[tuple[str, Path]]:
-    for number, pack in enumerate(packs):
+    for pack in packs:
         folder = Path(pack).resolve()
         if not folder.is_dir():
             raise PackError(f"rule pack {pack!r}: no such folder")
-        yield _mount(f"usdvol_lint_pack_{number}", folder), folder
+        # By its place: two packs in one process may both have a module `checks`.
+        yield _mount(f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}", folder), folder
 
 
 def _mount(name: str, folder: Path) -> str:
@@ -219,12 +256,18 @@ def _collect(package: str, folder: Path) -> list[Rule]:
         raise PackError(f"rule pack {str(folder)!r} holds no rule")
     for rule in rules:
         if not _CODE.fullmatch(rule.code):
-            raise PackError(f"{rule.name}: a code is three capitals and three digits, not {rule.code}")
+            raise PackError(
+                f"rule pack {str(folder)!r}: a code is three capitals and three digits, "
+                f"not {rule.code!r} ({rule.name})"
+            )
     return rules
 
 
 def _import(name: str, path: Path) -> ModuleType:
+    """Imports a module of a pack; what it prints stays out of the report."""
     try:
-        return importlib.import_module(name)
-    except Exception as error:
-        raise PackError(f"{path}: {type(error).__name__}: {error}") from error
+        with redirect_stdout(sys.stderr):
+            return importlib.import_module(name)
+    except (Exception, SystemExit) as error:
+        said = " ".join(f"{type(error).__name__}: {error}".split())
+        raise PackError(f"{path}: {said}") from error

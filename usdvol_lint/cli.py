@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -14,6 +13,7 @@ from usdvol_lint.model import UsageError
 
 if TYPE_CHECKING:
     from pathlib import Path
+    from subprocess import Popen
 
     from usdvol_lint.catalog import Catalog
     from usdvol_lint.config import Config
@@ -55,10 +55,12 @@ def _complete_code(context: click.Context, parameter: click.Parameter, typed: st
 @click.option("--config", "config_file", type=click.Path(), metavar="FILE",
               help="Use this configuration file.")
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")
+@click.option("--pack", multiple=True, type=click.Path(), metavar="FOLDER",
+              help="Load the rules in a folder too; may be repeated.")
 @click.option("--load", metavar="all|none", help="Load payloads (default: all).")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), metavar="N",
               help="Worker processes (default: one for each processor).")
-@click.option("--timeout", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS",
+@click.option("--timeout", type=float, metavar="SECONDS",
               help="Time limit for one stage (default: 300).")
 @click.option("--show-settings", is_flag=True, help="Print the settings in force and exit.")
 @click.option("--list-rules", is_flag=True, help="Print every rule and exit.")
@@ -84,10 +86,13 @@ def command(paths: tuple[str, ...], **given: Any) -> int:
 # fmt: on
 
 
-def main(arguments: list[str] | None = None) -> None:
-    """Runs the command and exits; every failure is one line on standard error."""
+def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) -> None:
+    """Runs the command and exits; every failure is one line on standard error.
+
+    `child` is the first worker process, if it was started already.
+    """
     try:
-        code = command.main(arguments, prog_name="usdvol-lint", standalone_mode=False)
+        code = command.main(arguments, prog_name="usdvol-lint", standalone_mode=False, obj=child)
     except click.ClickException as error:
         error.show()
         code = FAILED
@@ -97,11 +102,23 @@ def main(arguments: list[str] | None = None) -> None:
     except (click.Abort, KeyboardInterrupt):
         click.echo("usdvol-lint: interrupted", err=True)
         code = FAILED
-    except BrokenPipeError:
-        # Whoever read the report went away, as `head` does: there is nobody to tell.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    except Exception as error:
+        said = " ".join(f"{type(error).__name__}: {error}".split())
+        click.echo(f"usdvol-lint: internal error: {said} (--verbose shows more)", err=True)
+        if not {"-v", "--verbose"}.isdisjoint(sys.argv if arguments is None else arguments):
+            import traceback
+
+            traceback.print_exc()
         code = FAILED
     sys.exit(code)
+
+
+def help_text() -> str:
+    """What `--help` prints: `help.txt` holds it, so that nobody has to wait for click's import."""
+    context = click.Context(
+        command, info_name="usdvol-lint", terminal_width=80, **command.context_settings
+    )
+    return command.get_help(context) + "\n"
 
 
 def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
@@ -119,20 +136,20 @@ def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
         return config
 
     with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
-        report = lint(paths, settle, progress)
+        report = lint(paths, settle, progress, click.get_current_context().obj)
     config, destinations = settled[0]
     output.write(report, destinations, _options(given))
     return _exit_code(report, config.fail_on)
 
 
 def _exit_code(report: Report, fail_on: str) -> int:
-    from usdvol_lint.catalog import RULE_FAILED
+    from usdvol_lint.catalog import NOT_IGNORABLE
     from usdvol_lint.model import Severity, Status
 
     findings = [finding for stage in report.stages for finding in stage.findings]
     if any(stage.status is not Status.CHECKED for stage in report.stages):
         return FAILED
-    if any(finding.code == RULE_FAILED.code for finding in findings):
+    if any(finding.code in NOT_IGNORABLE for finding in findings):
         return FAILED
     if fail_on == "never":
         return CLEAN
@@ -146,24 +163,36 @@ def _settle(given: dict[str, Any]) -> tuple[Config, Path | None]:
 
     from usdvol_lint import config
 
+    try:
+        here = Path.cwd()
+    except OSError:
+        raise UsageError("the working directory is not there any more") from None
     file = None
+    if given["config_file"] and given["isolated"]:
+        raise click.UsageError("--config and --isolated exclude each other")
     if given["config_file"]:
         file = Path(given["config_file"])
     elif not given["isolated"]:
-        file = config.find_config_file(Path.cwd())
+        file = config.find_config_file(here)
     base = config.read_config(file) if file else config.Config()
-    changes: dict[str, Any] = {
-        key: given[key] for key in ("jobs", "timeout") if given[key] is not None
-    }
+    changes: dict[str, Any] = {"packs": base.packs + given["pack"]}
+    if given["jobs"] is not None:
+        changes["jobs"] = given["jobs"]
+    if given["timeout"] is not None:
+        changes["timeout"] = config.timeout("--timeout", given["timeout"])
     if given["fail_on"] is not None:
         changes["fail_on"] = config.one_of("--fail-on", given["fail_on"], config.FAIL_ON)
     if given["load"] is not None:
         changes["load"] = config.one_of("--load", given["load"], config.LOADS)
     for name in given["output_format"]:
         config.one_of("--output-format", name, config.OUTPUT_FORMATS)
-    if given["select"]:
-        changes["select"] = _codes(given["select"])
-    changes["ignore"] = base.ignore + _codes(given["ignore"])
+    select = _codes(given["select"])
+    if select:
+        changes["select"] = select
+    # What is selected here is not ignored for the file's sake.
+    again = {code.upper() for code in select}
+    kept = tuple(code for code in base.ignore if code.strip().upper() not in again)
+    changes["ignore"] = kept + _codes(given["ignore"])
     changes["severity"] = {**base.severity, **_severities(given["severity"])}
     return replace(base, **changes), file
 
@@ -177,10 +206,10 @@ def _severities(pairs: tuple[str, ...]) -> dict[str, str]:
 
     severities = {}
     for pair in _codes(pairs):
-        code, equals, level = pair.partition("=")
+        code, equals, level = (part.strip() for part in pair.partition("="))
         if not equals:
             raise UsageError(f"--severity {pair}: write it as CODE=LEVEL, such as AST002=warning")
-        severities[code.strip()] = one_of(f"--severity {code.strip()}", level.strip(), LEVELS)
+        severities[code.upper()] = one_of(f"--severity {code}", level, LEVELS)
     return severities
 
 

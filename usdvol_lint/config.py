@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from os.path import isfile
 from pathlib import Path
 from typing import Any
 
-from usdvol_lint.catalog import Catalog, did_you_mean
+from usdvol_lint.catalog import NOT_IGNORABLE, Catalog, did_you_mean, length
 from usdvol_lint.model import Severity, UsageError
 
 FILE_NAME = "usdvol-lint.toml"
@@ -17,6 +17,8 @@ FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = ("full", "concise", "json")
 LOADS = ("all", "none")
 LEVELS = tuple(severity.label for severity in reversed(Severity))
+LONGEST_TIMEOUT = 1_000_000
+_KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,25 +46,25 @@ class ActiveRules:
 
 
 def find_config_file(start: Path) -> Path | None:
-    """The nearest configuration from a folder upward; a pyproject.toml counts if it has our table."""
+    """The nearest configuration from a folder upward; pyproject.toml counts with our table."""
     for folder in (start, *start.parents):
         own = folder / FILE_NAME
-        if own.is_file():
+        if isfile(own):
             return own
         project = folder / "pyproject.toml"
-        if project.is_file() and TABLE in _read_toml(project).get("tool", {}):
+        if isfile(project) and _own_table(project) is not None:
             return project
     return None
 
 
 def read_config(path: Path) -> Config:
     """Reads a configuration file; pack folders in it are relative to the file."""
-    table = _read_toml(path)
-    if path.name == "pyproject.toml":
-        table = table.get("tool", {}).get(TABLE, {})
+    table = _own_table(path) if path.name == "pyproject.toml" else _read_toml(path)
+    if table is None:
+        raise UsageError(f"{path} has no table [tool.{TABLE}]")
     known = {f.name.replace("_", "-"): f.name for f in fields(Config)}
     values = {}
-    for key, value in table.items():
+    for key, value in _table(f"{path}: tool.{TABLE}", table).items():
         if key not in known:
             raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, known)}")
         values[known[key]] = _checked(path, key, value)
@@ -75,29 +77,42 @@ def activate(config: Config, catalog: Catalog) -> ActiveRules:
     """Resolves selection, severities and options against the catalog; unknown ones are errors."""
     codes = catalog.select(config.select, config.ignore)
     severities = {code: catalog.rules[code].severity for code in sorted(codes)}
-    for selector, level in config.severity.items():
-        for code in catalog.expand(selector) & severities.keys():
+    for selector, level in sorted(config.severity.items(), key=lambda item: length(item[0])):
+        if selector.strip().upper() in NOT_IGNORABLE:
+            raise UsageError(f"{selector} stays an error: it says that the job was not done")
+        for code in catalog.expand(selector) & severities.keys() - NOT_IGNORABLE:
             severities[code] = Severity[level.upper()]
-    options = {}
+    options: dict[str, dict[str, Any]] = {}
     for name, given in config.options.items():
         rule = catalog.find(name)
-        options[rule.code] = dict(given)
         for option, value in given.items():
-            _check_option(rule.name, rule.options, option, value)
+            checked = _checked_option(rule.name, rule.options, option, value)
+            options.setdefault(rule.code, {})[option] = checked
     return ActiveRules(severities, options)
 
 
-def _check_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> None:
+def _checked_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> Any:
     if option not in known:
         raise UsageError(f"{name} has no option {option!r}{did_you_mean(option, known)}")
     default = known[option]
+    if isinstance(default, tuple):
+        return tuple(_strings(f"{name}: option {option!r}", value))
     kind = (int, float) if isinstance(default, float) else type(default)
     if not isinstance(value, kind) or isinstance(value, bool) != isinstance(default, bool):
-        wanted = type(default).__name__
-        raise UsageError(f"{name}: option {option!r} must be a {wanted}, not {value!r}")
+        wanted = _KINDS.get(type(default), type(default).__name__)
+        raise UsageError(f"{name}: option {option!r} must be {wanted}, not {value!r}")
+    return value
+
+
+def _own_table(project: Path) -> Any | None:
+    """What a pyproject.toml says of us."""
+    tools = _read_toml(project).get("tool", {})
+    return tools.get(TABLE) if isinstance(tools, dict) else None
 
 
 def _read_toml(path: Path) -> dict[str, Any]:
+    import tomllib  # costs start-up time, and worker processes read no configuration
+
     try:
         with path.open("rb") as file:
             return tomllib.load(file)
@@ -116,14 +131,24 @@ def _checked(path: Path, key: str, value: Any) -> Any:
     if key in ("fail-on", "output-format", "load"):
         return one_of(where, value, {"fail-on": FAIL_ON, "load": LOADS}.get(key, OUTPUT_FORMATS))
     if key == "severity":
-        return {str(k): one_of(f"{where}.{k}", v, LEVELS) for k, v in _table(where, value).items()}
+        levels = _table(where, value).items()
+        return {k.strip().upper(): one_of(f"{where}.{k}", level, LEVELS) for k, level in levels}
     if key == "options":
         return {str(k): _table(f"{where}.{k}", v) for k, v in _table(where, value).items()}
-    if isinstance(value, bool) or not isinstance(value, int if key == "jobs" else (int, float)):
-        raise UsageError(f"{where} must be a number, not {value!r}")
-    if value < 0 or (key == "timeout" and value == 0):
-        raise UsageError(f"{where} must be positive, not {value!r}")
+    if key == "timeout":
+        return timeout(where, value)
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise UsageError(f"{where} must be a whole number from 0, not {value!r}")
     return value
+
+
+def timeout(where: str, value: Any) -> float:
+    """The value, if it is a time limit that a timer takes."""
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not is_number or not 0 < value <= LONGEST_TIMEOUT:
+        wanted = f"a number of seconds above 0, at most {LONGEST_TIMEOUT:,}"
+        raise UsageError(f"{where} must be {wanted}, not {value!r}")
+    return float(value)
 
 
 def _strings(where: str, value: Any) -> list[str]:

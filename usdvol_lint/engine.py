@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import time
-import traceback
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from pxr import Usd, UsdUtils
+from pxr import Tf, Usd
 
 from usdvol_lint import schema
-from usdvol_lint.catalog import NOT_CHECKED, RULE_FAILED, help_for
+from usdvol_lint.catalog import NOT_CHECKED, RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.config import ActiveRules
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Kinds
@@ -19,9 +18,11 @@ from usdvol_lint.model import Finding, Severity, StageReport, Status, with_finge
 from usdvol_lint.paths import display
 from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
 from usdvol_lint.site import Sites
-from usdvol_lint.stage import open_stage
+from usdvol_lint.stage import in_usds_words, open_stage
 from usdvol_lint.trouble import Unreadable, report_trouble
 from usdvol_lint.walk import Walk, assign, walk
+
+_LONGEST = 300
 
 
 def usd_version() -> str:
@@ -38,6 +39,7 @@ class Engine:
     """Lints stages, one after the other, with the same rules.
 
     `advance` is told how many samples of a long sequence were read since it was last told.
+    USD's own warnings go to standard error, which in a worker process is the parent's to read.
     """
 
     def __init__(
@@ -52,7 +54,6 @@ class Engine:
         self._severities = active.severities
         self._load = load
         self._advance = advance
-        self._diagnostics = UsdUtils.CoalescingDiagnosticDelegate()  # keeps USD off stderr
 
     def lint(self, path: str) -> StageReport:
         """Everything there is to say of one stage; never raises for what the stage holds."""
@@ -69,7 +70,6 @@ class Engine:
         facts = Facts(stage, kinds, walked.kept, self._advance)
         findings = with_fingerprints(self._findings(walked, facts))
         clock.lap("check")
-        self._diagnostics.TakeCoalescedDiagnostics()
         stats = _stats(walked, facts)
         return StageReport(display(path), Status.CHECKED, stats, findings, clock.seconds)
 
@@ -92,9 +92,7 @@ class Engine:
                 yield rule, facts.stage.GetPseudoRoot()
         yield from assign(walked, self._rules, facts.kinds)
 
-    def _stamp(
-        self, rule: Rule, problem: Problem | NotChecked, sites: Sites
-    ) -> Iterator[Finding]:
+    def _stamp(self, rule: Rule, problem: Problem | NotChecked, sites: Sites) -> Iterator[Finding]:
         """The problem with code, severity and site; nothing if LNT005 is switched off."""
         code = NOT_CHECKED if isinstance(problem, NotChecked) else rule
         severity = self._severities.get(code.code)
@@ -138,32 +136,62 @@ class _Failure:
 
 
 class _Failures:
-    """Rules that raised, each kind of failure once, however many prims it hit."""
+    """Rules that raised, each kind of failure once, however many prims it hit.
+
+    Where USD raised, the stage holds what USD can't read, whichever rule asks for it.
+    """
 
     def __init__(self) -> None:
-        self._failures: dict[tuple[str, str], _Failure] = {}
+        self._failures: dict[tuple[object, ...], _Failure] = {}
 
     def add(self, rule: Rule, prim: Any, error: Exception) -> None:
-        key = (rule.code, _in_one_line(error))
+        key: tuple[object, ...] = (rule.code, type(error), _line(error))
+        if isinstance(error, Tf.ErrorException):
+            key = (prim.GetPath(), *in_usds_words(error))
         self._failures.setdefault(key, _Failure(rule, prim, error)).count += 1
 
     def findings(self, sites: Sites) -> Iterator[Finding]:
-        for (code, said), failure in self._failures.items():
-            others = f", and on {failure.count - 1} more prims" if failure.count > 1 else ""
+        for failure in self._failures.values():
+            by_usd = isinstance(failure.error, Tf.ErrorException)
+            code = STAGE_UNREADABLE if by_usd else RULE_FAILED
             yield Finding(
-                code=RULE_FAILED.code,
-                name=RULE_FAILED.name,
+                code=code.code,
+                name=code.name,
                 severity=Severity.ERROR,
-                message=f"rule {code} ({failure.rule.name}) failed here{others}: {said}",
+                message=_usd_failed(failure.error) if by_usd else _rule_failed(failure),
                 site=sites.locate(NotChecked("", at=failure.prim)).site,
-                suggestion="a bug of the rule, not of the stage; --verbose shows the traceback",
-                help=help_for(RULE_FAILED),
-                detail="".join(traceback.format_exception(failure.error)),
+                suggestion="the layer is probably corrupt: copy or export it again"
+                if by_usd
+                else "a bug of the rule, not of the stage; --verbose shows the traceback",
+                help=help_for(code),
+                detail=_traceback(failure.error),
             )
 
 
-def _in_one_line(error: Exception) -> str:
-    return " ".join(f"{type(error).__name__}: {error}".split())[:300]
+def _usd_failed(error: Exception) -> str:
+    said = " ".join("; ".join(in_usds_words(error)).split())
+    return f"USD can't read what is here: {said}"[:_LONGEST]
+
+
+def _rule_failed(failure: _Failure) -> str:
+    rule, error = failure.rule, failure.error
+    others = f", and on {failure.count - 1} more prims" if failure.count > 1 else ""
+    said = " ".join(f"{type(error).__name__}: {error}".split())
+    return f"rule {rule.code} ({rule.name}) failed here{others}: {said}"[:_LONGEST]
+
+
+def _line(error: Exception) -> int:
+    """Where it was raised: what it says may name the prim, and so differ on each."""
+    place = error.__traceback__
+    while place and place.tb_next:
+        place = place.tb_next
+    return place.tb_lineno if place else 0
+
+
+def _traceback(error: Exception) -> str:
+    import traceback  # costs start-up time, and rules rarely fail
+
+    return "".join(traceback.format_exception(error))
 
 
 def _stats(walked: Walk, facts: Facts) -> dict[str, int]:

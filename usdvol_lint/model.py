@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import builtins
-import hashlib
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
@@ -194,9 +193,14 @@ def with_fingerprints(findings: Iterable[Finding]) -> tuple[Finding, ...]:
         if seen[identity]:
             text += f"\0{seen[identity]}"
         seen[identity] += 1
-        digest = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16]
-        stamped.append(replace(finding, fingerprint=digest))
+        stamped.append(replace(finding, fingerprint=_digest(text)))
     return tuple(stamped)
+
+
+def _digest(text: str) -> str:
+    from hashlib import sha256  # costs start-up time, and clean stages need none
+
+    return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16]
 
 
 def _order(finding: Finding) -> tuple[object, ...]:

@@ -33,6 +33,8 @@ def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Des
         raise UsageError(f"{len(files)} times --output, but {len(named)} times --output-format")
     if len(named) - len(files) > 1:
         raise UsageError("only one report can go to standard output: give the others an --output")
+    if len({os.path.abspath(file) for file in files}) < len(files):
+        raise UsageError("one file can't take several reports: name each --output once")
     destinations = [
         Destination(format, files[index] if index < len(files) else None)
         for index, format in enumerate(named)
@@ -48,21 +50,22 @@ def check_writable(destinations: Sequence[Destination]) -> None:
         if destination.file is None:
             continue
         file = Path(destination.file)
-        if file.is_dir():
+        if os.path.isdir(file):
             raise UsageError(f"--output {destination.file}: this is a folder, name a file")
-        if not file.parent.is_dir():
+        if not os.path.isdir(file.parent):
             raise UsageError(f"--output {destination.file}: there is no folder {file.parent}")
-        if not os.access(file.parent, os.W_OK):
+        if not os.access(file if _is_device(file) else file.parent, os.W_OK):
             raise UsageError(f"--output {destination.file}: no permission to write there")
 
 
 def write(report: Report, destinations: Sequence[Destination], options: Options) -> None:
     """Renders and writes every report; files appear whole or not at all.
 
+    Files come first, because standard output may end early.
     A file that can't be written is said when all others are out, its report on standard output.
     """
     failures = []
-    for destination in destinations:
+    for destination in sorted(destinations, key=lambda each: each.file is None):
         if destination.file is None:
             print_text(render(report, destination.format, options))
             continue
@@ -89,20 +92,39 @@ def _terminal_wants_color() -> bool:
         return False
     if os.environ.get("FORCE_COLOR"):
         return True
-    return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+    return sys.stdout is not None and sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
 
 
 def print_text(text: str) -> None:
     """Writes text as UTF-8 whatever the locale: names in a stage are not bound to it."""
-    sys.stdout.flush()
-    sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
-    sys.stdout.buffer.flush()
+    if sys.stdout is None:
+        raise UsageError("there is no standard output to print to")
+    try:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
+        sys.stdout.buffer.flush()
+    except OSError as error:
+        # What is still in the buffer must not fail once more when Python ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        # Where the reader went away, as `head` does, there is nobody to tell.
+        if not isinstance(error, BrokenPipeError):
+            raise UsageError(f"can't write to standard output: {error.strerror}") from error
 
 
 def _replace(file: Path, text: str) -> None:
-    temporary = file.with_name(f".{file.name}.{os.getpid()}.tmp")
+    contents = text.encode("utf-8", "backslashreplace")
+    if _is_device(file):
+        file.write_bytes(contents)
+        return
+    target = Path(os.path.realpath(file))
+    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
-        temporary.write_bytes(text.encode("utf-8", "backslashreplace"))
-        temporary.replace(file)
+        temporary.write_bytes(contents)
+        temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _is_device(file: Path) -> bool:
+    """Whether the file is there and not one to replace, such as /dev/null or a pipe."""
+    return os.path.exists(file) and not os.path.isfile(file)

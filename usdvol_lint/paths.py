@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 """What USD's own layers end in."""
+_IN_PACKAGE = re.compile(r"(?P<package>.+?\.usdz)(?P<inside>\[.+\])", re.IGNORECASE | re.DOTALL)
 
 
 def discover(paths: Iterable[str]) -> list[str]:
     """The stages to check: files as given, folders walked, each once, in the order given.
 
     Hidden folders are skipped.
-    A folder that holds no stage stays in the list, so that somebody says so.
+    A folder that holds no stage or can't be read stays in the list, so that somebody says so.
     """
     found: dict[str, None] = {}
     for path in paths:
@@ -26,18 +28,21 @@ def discover(paths: Iterable[str]) -> list[str]:
 
 
 def _inside(folder: str) -> Iterator[str]:
-    for place, folders, files in os.walk(folder):
+    unreadable: list[OSError] = []
+    for place, folders, files in os.walk(folder, onerror=unreadable.append):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in files:
             if name.lower().endswith(SUFFIXES) and not name.startswith("."):
                 yield os.path.join(place, name)
+    yield from (str(error.filename) for error in unreadable)
 
 
 def display(path: str) -> str:
     """A path relative to the working directory, with `/`; `package.usdz[inner]` stays as it is."""
-    outer, bracket, inner = path.partition("[")
+    package = _IN_PACKAGE.fullmatch(path)
+    outer, inner = (package["package"], package["inside"]) if package else (path, "")
     try:
         relative = os.path.relpath(outer)
     except ValueError:  # another drive
         relative = os.path.abspath(outer)
-    return relative.replace(os.sep, "/") + bracket + inner
+    return relative.replace(os.sep, "/") + inner

@@ -5,96 +5,101 @@ from __future__ import annotations
 import pickle
 import queue
 import signal
-import subprocess
-import sys
 import threading
 import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import IO, Any
+from contextlib import suppress
+from typing import IO, TYPE_CHECKING, Any
 
+from usdvol_lint.child import start_child
 from usdvol_lint.model import StageReport, Status, UsageError
 from usdvol_lint.protocol import Advance, Ready, Refusal, Setup
 from usdvol_lint.trouble import Unreadable, report_trouble
 
-_PROGRAM = "import sys; sys.path[:] = {path!r}; from usdvol_lint.worker import main; main()"
-"""A worker imports from where its parent does, and nothing else from the working directory."""
+if TYPE_CHECKING:
+    import subprocess
+
 _PATIENCE = 0.3
 """A further worker pays about so many seconds for importing USD: it starts only if work is left."""
 
 
 class Worker:
-    """One child process; `start` returns at once, and the child imports USD meanwhile."""
+    """One child process, the given one or a new one, which imports USD meanwhile."""
 
-    def __init__(self) -> None:
+    def __init__(self, child: subprocess.Popen[bytes] | None = None) -> None:
         self.usd_version = ""
-        self._setup: Setup | None = None
-        self._start()
+        self._adopt(child or start_child())
 
-    def _start(self) -> None:
-        self._process = subprocess.Popen(
-            [sys.executable, "-c", _PROGRAM.format(path=sys.path)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
+    def _adopt(self, child: subprocess.Popen[bytes]) -> None:
+        self._process = child
+        self._gone = False
         self._said: deque[bytes] = deque(maxlen=20)
-        threading.Thread(
-            target=_drain, args=(self._process.stderr, self._said), daemon=True
-        ).start()
+        self._listener = threading.Thread(
+            target=_drain, args=(child.stderr, self._said), daemon=True
+        )
+        self._listener.start()
 
     def prepare(self, setup: Setup, limit: float) -> None:
         """Hands over the rules; raises UsageError if the worker can't work with them."""
-        self._setup = setup
-        reply, _ = self._ask(setup, limit, lambda samples: None)
+        self._setup, self._patience = setup, limit
+        reply, expired = self._ask(setup, limit, lambda samples: None)
         if isinstance(reply, Refusal):
-            raise UsageError(reply.reason)
+            raise UsageError(" ".join(reply.reason.split()))
         if not isinstance(reply, Ready):
-            raise UsageError(f"the process that loads USD does not start: {self._last_words()}")
+            how = f"not ready after {limit:g} s" if expired else _cause(self._process.wait())
+            words = self._last_words().splitlines() or ["it said nothing"]
+            raise UsageError(f"the process that loads USD does not start ({how}): {words[-1]}")
         self.usd_version = reply.usd_version
 
     def lint(self, path: str, limit: float, advance: Callable[[int], None]) -> StageReport:
         """The report on a stage; a crash or a hang of USD becomes the report, and a new child."""
+        if self._gone:
+            self.stop()
+            self._adopt(start_child())
+            self.prepare(self._setup, self._patience)
         began = time.perf_counter()
         reply, timed_out = self._ask(path, limit, advance)
+        self._gone = timed_out or not isinstance(reply, StageReport)
         if isinstance(reply, StageReport):
             return reply
         seconds = {"total": time.perf_counter() - began}
         trouble = self._timed_out(limit) if timed_out else self._crashed()
         status = Status.TIMED_OUT if timed_out else Status.CRASHED
-        self._restart(limit)
         return report_trouble(path, trouble, status, seconds)
 
     def stop(self) -> None:
         """Ends the child without ceremony."""
         self._process.kill()
         self._process.wait()
-
-    def _restart(self, limit: float) -> None:
-        self.stop()
-        self._start()
-        if self._setup:
-            self.prepare(self._setup, limit)
+        for stream in (self._stdin, self._stdout):
+            with suppress(OSError):
+                stream.close()
 
     def _ask(
         self, message: Setup | str, limit: float, advance: Callable[[int], None]
     ) -> tuple[Any, bool]:
-        """The child's answer, or None if it died; and whether the limit ended it."""
+        """The child's answer, or None if it died or was stopped; and whether the limit ended it."""
         expired = threading.Event()
-        timer = threading.Timer(limit, lambda: (expired.set(), self._process.kill()))
+        timer = threading.Timer(limit, self._expire, (expired,))
         timer.daemon = True
         timer.start()
         try:
-            pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
-            self._stdin.flush()
+            with suppress(OSError):  # a child that has gone may have said why
+                pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
+                self._stdin.flush()
             while isinstance(reply := pickle.load(self._stdout), Advance):
                 advance(reply.samples)
-            return reply, False
-        except (EOFError, OSError, pickle.UnpicklingError):
+            return reply, expired.is_set()
+        except (EOFError, OSError, ValueError, pickle.UnpicklingError):
             return None, expired.is_set()
         finally:
             timer.cancel()
+
+    def _expire(self, expired: threading.Event) -> None:
+        expired.set()
+        self._process.kill()
 
     @property
     def _stdin(self) -> IO[bytes]:
@@ -114,6 +119,12 @@ class Worker:
 
     def _crashed(self) -> Unreadable:
         code = self._process.wait()
+        if 0 <= code < 256:
+            return Unreadable(
+                f"the process that checked it ended early ({_cause(code)})",
+                "a bug of usdvol-lint, a rule pack or a USD plugin; --verbose shows what it said",
+                detail=self._last_words(),
+            )
         return Unreadable(
             f"the USD library crashed while reading it ({_cause(code)})",
             "the file or a layer it names is probably corrupt: open it with usdcat to see which",
@@ -122,17 +133,19 @@ class Worker:
 
     def _last_words(self) -> str:
         self._process.wait()
+        self._listener.join(timeout=1)
         return b"".join(self._said).decode("utf-8", "replace").strip()
 
 
 class Pool:
     """Workers behind the interface of an executor: `submit` gives a Future of a StageReport.
 
-    The first worker starts at once; others follow only while stages are waiting.
+    The first worker starts at once, unless its child process is given; others follow only while
+    stages are waiting.
     """
 
-    def __init__(self) -> None:
-        self._first = Worker()
+    def __init__(self, child: subprocess.Popen[bytes] | None = None) -> None:
+        self._first = Worker(child)
         self._waiting: queue.SimpleQueue[tuple[str, Future[StageReport]]] = queue.SimpleQueue()
         self._workers: list[Worker] = [self._first]
         self._closed = False
@@ -165,10 +178,13 @@ class Pool:
                     return
                 worker = Worker()
                 self._workers.append(worker)
-                worker.prepare(setup, patience)
+                try:
+                    worker.prepare(setup, patience)
+                except UsageError:  # the others do its work, or did it and ended the run
+                    return
             else:
                 worker = self._first
-            while True:
+            while not self._closed:
                 try:
                     path, future = self._waiting.get_nowait()
                 except queue.Empty:
@@ -189,13 +205,13 @@ class Pool:
 
 
 def _drain(stream: IO[bytes], lines: deque[bytes]) -> None:
-    for line in stream:
-        lines.append(line)
+    with stream:
+        lines.extend(stream)
 
 
 def _cause(code: int) -> str:
     if code >= 0:
-        return f"exit code {code}"
+        return f"exit code {code if code < 256 else hex(code)}"
     try:
         return signal.Signals(-code).name
     except ValueError:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, TypeAlias
 
 from usdvol_lint.facts import Facts
-from usdvol_lint.facts.states import AssetState, Emptiness, TargetState
+from usdvol_lint.facts.states import AssetState, Emptiness, FileFault, TargetState
 from usdvol_lint.model import Severity
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
 
@@ -22,6 +21,7 @@ __all__ = [
     "AssetState",
     "Emptiness",
     "Facts",
+    "FileFault",
     "NotChecked",
     "Prim",
     "Problem",
@@ -111,7 +111,6 @@ def rule(
     """Makes the decorated generator a rule, named after it: `file_missing` is `file-missing`."""
 
     def decorate(check: Check) -> Rule:
-        parameters = inspect.signature(check).parameters.values()
         return Rule(
             code=code,
             name=check.__name__.replace("_", "-"),
@@ -119,7 +118,7 @@ def rule(
             severity=severity,
             since=since,
             check=check,
-            options={p.name: p.default for p in parameters if p.kind is p.KEYWORD_ONLY},
+            options=dict(check.__kwdefaults__ or {}),
             default=default,
         )
 

@@ -6,7 +6,7 @@ import os
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from usdvol_lint import __version__
 from usdvol_lint.catalog import load
@@ -15,6 +15,9 @@ from usdvol_lint.model import Report
 from usdvol_lint.paths import discover
 from usdvol_lint.pool import Pool
 from usdvol_lint.protocol import Setup
+
+if TYPE_CHECKING:
+    from subprocess import Popen
 
 
 class Progress(Protocol):
@@ -35,16 +38,18 @@ def lint(
     paths: Iterable[str],
     config: Config | Callable[[], Config] | None = None,
     progress: Progress | None = None,
+    child: Popen[bytes] | None = None,
 ) -> Report:
     """Checks the stages at `paths`, files or folders.
 
     `config` may be a function: the first worker process then imports USD while it runs.
+    `child` is that process, if it was started already.
     Raises UsageError for mistakes in the configuration; whatever is wrong with a stage is in the
     report.
     """
     began = time.perf_counter()
     shown = progress or _Silent()
-    pool = Pool()
+    pool = Pool(child)
     try:
         settled = config() if callable(config) else config or Config()
         catalog = load(settled.packs)

@@ -6,8 +6,6 @@ Source: `usdVol/schema.usda` of OpenUSD 24.11 to 26.11.
 
 from __future__ import annotations
 
-from difflib import get_close_matches
-
 VOLUME = "Volume"
 FIELD = "VolumeFieldBase"
 FIELD_ASSET = "FieldAsset"
@@ -42,8 +40,6 @@ TYPE_BASES: dict[str, tuple[str, ...]] = {
 
 ABSTRACT_TYPES = frozenset({"VolumeFieldBase", "FieldBase", "VolumeFieldAsset", "FieldAsset"})
 CONCRETE_TYPES = frozenset(TYPE_BASES) - ABSTRACT_TYPES
-FIELD_BASES = ("VolumeFieldBase", "FieldBase")
-"""A prim is a field if it is one of these: third-party types may derive from either."""
 
 POSITION_BASE = "ParticleFieldPositionBaseAPI"
 KERNEL_BASE = "ParticleFieldKernelBaseAPI"
@@ -93,30 +89,41 @@ API_ATTRIBUTES: dict[str, tuple[str, ...]] = {
 }
 """The attributes that come with each applied API."""
 
+API_PROVIDERS: dict[str, tuple[str, ...]] = {
+    base: tuple(api for api, included in API_INCLUDES.items() if base in included)
+    for base in BASE_APIS
+}
+"""The APIs of UsdVol that bring each base API along, and carry what it stands for."""
 
 PRE_STANDARD_TYPES: dict[str, str] = {
     "ParticleField_3DGaussianSplat": "ParticleField3DGaussianSplat",
+    "ParticleField3DGS": "ParticleField3DGaussianSplat",
     "GaussianSplat": "ParticleField3DGaussianSplat",
     "GaussianSplats": "ParticleField3DGaussianSplat",
     "Gaussians": "ParticleField3DGaussianSplat",
     "LightField": "ParticleField",
+    "OpenVDB": "OpenVDBAsset",
+    "OpenVDBField": "OpenVDBAsset",
+    "OpenVDBFieldAsset": "OpenVDBAsset",
+    "VDBAsset": "OpenVDBAsset",
+    "Field3D": "Field3DAsset",
 }
-"""Type names from before the schema was released, and what they became."""
+"""Type names from before the schema was released, or from guesswork, and what is meant."""
 
 PRE_STANDARD_APIS: dict[str, str] = {
+    "GaussianShapeAPI": "ParticleFieldKernelGaussianEllipsoidAPI",
+    "GaussianFalloffFunctionAPI": "ParticleFieldKernelGaussianEllipsoidAPI",
     "PositionBaseAPI": POSITION_BASE,
     "PositionAttributeAPI": "ParticleFieldPositionAttributeAPI",
     "OrientationAttributeAPI": "ParticleFieldOrientationAttributeAPI",
     "ScaleAttributeAPI": "ParticleFieldScaleAttributeAPI",
     "OpacityAttributeAPI": "ParticleFieldOpacityAttributeAPI",
-    "LightFieldKernelBaseAPI": KERNEL_BASE,
-    "LightFieldRadianceBaseAPI": RADIANCE_BASE,
-    "LightFieldKernelGaussianEllipsoidAPI": "ParticleFieldKernelGaussianEllipsoidAPI",
-    "LightFieldKernelGaussianSurfletAPI": "ParticleFieldKernelGaussianSurfletAPI",
-    "LightFieldKernelConstantSurfletAPI": "ParticleFieldKernelConstantSurfletAPI",
-    "LightFieldSphericalHarmonicsAttributeAPI": "ParticleFieldSphericalHarmonicsAttributeAPI",
+    "SphericalHarmonicsAttributeAPI": "ParticleFieldSphericalHarmonicsAttributeAPI",
+    "ParticleFieldOpacitiesAttributeAPI": "ParticleFieldOpacityAttributeAPI",
+    **{api.replace("ParticleField", "LightField"): api for api in API_INCLUDES},
+    **{api.replace("Attribute", ""): api for api in API_ATTRIBUTES},
 }
-"""API names from before the schema was released, and what they became."""
+"""API names from before the schema was released, or from guesswork, and what is meant."""
 
 
 def expand_apis(apis: tuple[str, ...]) -> tuple[str, ...]:
@@ -125,12 +132,43 @@ def expand_apis(apis: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(expanded))
 
 
-def nearest(name: str, candidates: tuple[str, ...] | frozenset[str]) -> str | None:
-    """The candidate that `name` is most likely a misspelling of, if one is close enough."""
-    folded = {_fold(candidate): candidate for candidate in sorted(candidates)}
-    matches = get_close_matches(_fold(name), folded, n=1, cutoff=0.84)
+def misspelt_type(name: str) -> str | None:
+    """The type of UsdVol that an unregistered type name was probably meant to be."""
+    return PRE_STANDARD_TYPES.get(name) or nearest(name, CONCRETE_TYPES)
+
+
+def misspelt_api(name: str) -> str | None:
+    """The API of UsdVol that an unregistered API name was probably meant to be.
+
+    The names share most of their letters, so a third party's own may look alike: a near one
+    differs by a letter or two.
+    """
+    return PRE_STANDARD_APIS.get(name) or nearest(name, tuple(API_INCLUDES), cutoff=0.95)
+
+
+def nearest(
+    name: str, candidates: tuple[str, ...] | frozenset[str], cutoff: float = 0.84
+) -> str | None:
+    """The candidate that `name` is most likely a misspelling of, if one is close enough.
+
+    Another number is another thing, however close: a 2D splat is no misspelt 3D splat.
+    """
+    from difflib import get_close_matches  # costs start-up time, and few names are misspelt
+
+    digits = _digits(name)
+    folded = {
+        _fold(candidate): candidate
+        for candidate in sorted(candidates)
+        if digits in ("", _digits(candidate))
+    }
+    matches = get_close_matches(_fold(name), folded, n=1, cutoff=cutoff)
     return folded[matches[0]] if matches else None
 
 
 def _fold(name: str) -> str:
-    return name.replace("_", "").replace("-", "").lower()
+    """The name without case, separators and the prefix that it has in C++."""
+    return name.replace("_", "").replace("-", "").lower().removeprefix("usdvol")
+
+
+def _digits(name: str) -> str:
+    return "".join(filter(str.isdigit, name))

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Ar, Usd
 
 from usdvol_lint.facts.instances import shown
-from usdvol_lint.facts.lines import TextLayer
+from usdvol_lint.facts.opinions import opinion
 from usdvol_lint.model import Site
 from usdvol_lint.paths import display
 from usdvol_lint.rule import NotChecked, Problem
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.lines import TextLayer
 
 _TEXT_SIGNATURES = (b"#usda", b"#sdf", b"#usd ")
 
@@ -52,6 +55,8 @@ class Sites:
         return Located(site, where.instances)
 
     def _text(self, layer: Any) -> TextLayer | None:
+        from usdvol_lint.facts.lines import TextLayer  # costs start-up time; clean stages need none
+
         key = layer.identifier
         if key not in self._texts:
             data = _read(layer)
@@ -63,17 +68,14 @@ def blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None
     """The spec whose opinion counts, and the first time as its layer has it."""
     if not isinstance(problem.at, Usd.Property):
         return _blamed_prim_spec(problem.at), None
-    if problem.at_default or not problem.times:
-        specs = problem.at.GetPropertyStack()
-        spec = next((spec for spec in specs if _has_value(spec)), specs[0] if specs else None)
-        return spec or _blamed_prim_spec(problem.at.GetPrim()), None
-    first = problem.times[0]
-    if not isinstance(problem.at, Usd.Attribute):
-        return next(iter(problem.at.GetPropertyStack()), None), None
-    for spec, offset in problem.at.GetPropertyStackWithLayerOffsets(first):
-        if _has_value(spec):
-            return spec, offset.GetInverse() * first
-    return _blamed_prim_spec(problem.at.GetPrim()), None
+    if isinstance(problem.at, Usd.Attribute) and (problem.at_default or problem.times):
+        time = None if problem.at_default else problem.times[0]
+        if held := opinion(problem.at, time):
+            spec, offset = held
+            return spec, None if time is None else offset.GetInverse() * time
+    specs = problem.at.GetPropertyStack()
+    spec = next((spec for spec in specs if _has_value(spec)), specs[0] if specs else None)
+    return spec or _blamed_prim_spec(problem.at.GetPrim()), None
 
 
 def _blamed_prim_spec(prim: Any) -> Any | None:

@@ -11,33 +11,48 @@ from typing import Any
 from pxr import Sdf, Tf, Usd
 
 from usdvol_lint.facts.files import LFS_SIGNATURE
-from usdvol_lint.paths import SUFFIXES
+from usdvol_lint.paths import SUFFIXES, display
 from usdvol_lint.trouble import Unreadable
 
 _CRATE = b"PXR-USDC"
 _ZIP = b"PK\x03\x04"
 _TEXT = (b"#usda", b"#sdf", b"#usd ")
-_ERROR = re.compile(r"Error in '.*?' at line \d+ in file .*? : '(.*?)'\n", re.S)
-_PLACE = re.compile(r"^(?P<path>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:\s*(?P<what>.*)", re.S)
+_BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+_CRATE_HEADER = 88
+_HOLDS = (
+    (_CRATE, "a crate file", (".usdc", ".usd")),
+    (_ZIP, "a zip file", (".usdz",)),
+    (_TEXT, "USD text", (".usda", ".usd")),
+)
+"""What a file can begin with, what it is then, and the names under which USD reads that."""
+_UNEXPECTED = re.compile(r"parse error matching .*? at '(?P<text>.*)'(?= in <)", re.DOTALL)
+_MENTION = re.compile(r"[@<]([^@<>]+)[@>]")
+_PLACE = re.compile(r"^(?P<path>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:\s*(?P<what>.*)", re.DOTALL)
 _LONGEST = 300
+_EXPORT_AGAIN = "copy or export it again"
 
 
 def open_stage(path: str, load: str) -> Any:
     """Opens a stage, without a session layer; raises Unreadable with the reason if it can't."""
-    _diagnose(path)
+    head = _diagnose(path)
     policy = Usd.Stage.LoadNone if load == "none" else Usd.Stage.LoadAll
     try:
         layer = Sdf.Layer.FindOrOpen(os.path.abspath(path))
         stage = Usd.Stage.Open(layer, None, policy) if layer else None
     except Tf.ErrorException as error:
-        raise _explain(path, str(error) + "\n") from error
+        raise _explain(path, in_usds_words(error), head) from error
+    if stage is None and head.startswith(_ZIP):
+        raise Unreadable("a package in which USD finds no layer to open", "package it again")
     if stage is None:
         raise Unreadable("USD can't open this layer and does not say why")
     return stage
 
 
-def _diagnose(path: str) -> None:
-    """Looks at the file before USD does, whose words for these cases are long and unclear."""
+def _diagnose(path: str) -> bytes:
+    """Looks at the file before USD does, whose words for these cases are long and unclear.
+
+    Returns how the file begins.
+    """
     try:
         status = os.stat(path)
     except FileNotFoundError:
@@ -48,52 +63,113 @@ def _diagnose(path: str) -> None:
     except OSError as error:
         raise Unreadable(f"can't be read: {error.strerror or error}") from error
     if stat.S_ISDIR(status.st_mode):
-        raise Unreadable("a folder that holds no USD file", f"USD files end in {_suffixes()}")
+        raise _diagnose_folder(path)
     if not stat.S_ISREG(status.st_mode):
         raise Unreadable("not a regular file (a pipe, socket or device)")
-    suffix = Path(path).suffix
-    if suffix.lower() not in SUFFIXES:
-        raise Unreadable(f"unsupported file type {suffix!r}", f"USD files end in {_suffixes()}")
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        what = f"unsupported file type {suffix!r}" if suffix else "a file name without an extension"
+        raise Unreadable(what, f"USD files end in {_suffixes()}")
+    if not _is_unicode(os.path.abspath(path)):
+        raise Unreadable("USD opens no file whose path is not UTF-8", "rename the file or folder")
     try:
         with Path(path).open("rb") as file:
             head = file.read(64)
     except OSError as error:
         raise Unreadable(f"can't be read: {error.strerror or error}") from error
-    _diagnose_head(head, status.st_size)
+    _diagnose_head(head, status.st_size, suffix)
+    return head
 
 
-def _diagnose_head(head: bytes, size: int) -> None:
+def _diagnose_folder(path: str) -> Unreadable:
+    try:
+        os.listdir(path)
+    except OSError as error:
+        return Unreadable(f"can't be read: {error.strerror or error}")
+    return Unreadable("a folder that holds no USD file", f"USD files end in {_suffixes()}")
+
+
+def _diagnose_head(head: bytes, size: int, suffix: str) -> None:
     if not size:
         raise Unreadable("an empty file (0 bytes)", "export it again")
     if head.startswith(LFS_SIGNATURE):
         raise Unreadable("a Git-LFS pointer, not the file itself", "run `git lfs pull`")
+    if head.startswith(_BYTE_ORDER_MARK):
+        raise Unreadable(
+            "begins with a byte order mark, which USD does not read", "save it as UTF-8 without one"
+        )
+    if _CRATE.startswith(head[:8]) and size < _CRATE_HEADER:
+        raise Unreadable(
+            f"a truncated crate file: {size} bytes, its header alone takes {_CRATE_HEADER}",
+            _EXPORT_AGAIN,
+        )
+    for signature, what, suffixes in _HOLDS:
+        if head.startswith(signature):
+            if suffix not in suffixes:
+                names = " or ".join(suffixes)
+                raise Unreadable(f"{what} under the name of a {suffix}", f"rename it to {names}")
+            break
+    else:
+        raise Unreadable(f"not a USD file: it begins with {head[:12]!r}")
     if head.startswith(_CRATE):
-        if size < 88:
-            raise Unreadable(f"a truncated crate file: {size} bytes, its header alone takes 88")
         contents = int.from_bytes(head[16:24], "little", signed=True)
         if not 0 < contents < size:
             raise Unreadable(
                 f"a truncated or corrupt crate file: its table of contents should be at byte "
                 f"{contents}, the file has {size} bytes",
-                "copy or export it again",
+                _EXPORT_AGAIN,
             )
-    elif not head.lstrip(b"\xef\xbb\xbf").startswith((_ZIP, *_TEXT)):
-        raise Unreadable(f"not a USD file: it begins with {head[:12]!r}")
 
 
-def _explain(path: str, text: str) -> Unreadable:
-    """The first of USD's errors in one line, with its place in the text where it has one."""
-    errors = _ERROR.findall(text) or [text]
-    first = " ".join(errors[0].split())[:_LONGEST]
-    place = _PLACE.match(first)
-    if place is None:
-        return Unreadable(f"USD can't open it: {first}")
-    at_fault = place["path"]
-    column = int(place["column"]) if place["column"] else None
-    layer = None if os.path.abspath(path) == at_fault else at_fault
-    return Unreadable(
-        f"parse error: {place['what']}", layer=layer, line=int(place["line"]), column=column
-    )
+def _explain(path: str, errors: list[str], head: bytes) -> Unreadable:
+    """One of USD's errors in one line: the first that has a place in the text, or the first."""
+    lines = [_in_one_line(path, error) for error in errors]
+    place = next(filter(None, map(_PLACE.match, lines)), None)
+    if place:
+        at_fault = place["path"]
+        return Unreadable(
+            f"parse error: {place['what']}"[:_LONGEST],
+            layer=None if os.path.abspath(path) == at_fault else at_fault,
+            line=int(place["line"]),
+            column=int(place["column"]) if place["column"] else None,
+        )
+    first = lines[0] if lines else "no reason given"
+    if head.startswith(_CRATE):
+        return Unreadable(f"a truncated or corrupt crate file: {first}"[:_LONGEST], _EXPORT_AGAIN)
+    return Unreadable(f"USD can't open it: {first}"[:_LONGEST])
+
+
+def _in_one_line(path: str, error: str) -> str:
+    """An error of USD's without the path that the finding names anyway, and without C++."""
+    for mention in (f", while reading {display(path)}", "Encountered: "):
+        error = error.replace(mention, "")
+    return _UNEXPECTED.sub(_unexpected, " ".join(error.split()))
+
+
+def _unexpected(match: re.Match[str]) -> str:
+    return f"unexpected '{match['text']}'" if match["text"] else "unexpected end of text"
+
+
+def in_usds_words(error: Any) -> list[str]:
+    """What the errors in a `Tf.ErrorException` say."""
+    return [_commentary(each) for each in error.args]
+
+
+def _commentary(error: Any) -> str:
+    """It need not be text, because it quotes the file; files are named as findings name them."""
+    try:
+        text = str(error.commentary)
+    except UnicodeDecodeError as undecodable:
+        text = undecodable.object.decode("utf-8", "backslashreplace")
+    return _MENTION.sub(lambda m: display(m[1]) if os.path.isfile(m[1]) else m[0], text)
+
+
+def _is_unicode(text: str) -> bool:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _suffixes() -> str:

@@ -10,7 +10,7 @@ from usdvol_lint.paths import display
 
 
 @dataclass(slots=True)
-class Unreadable(Exception):
+class Unreadable(Exception):  # noqa: N818  (it says what a path is, like a status)
     """Why a path is not a stage; the place is where text does not parse."""
 
     message: str

@@ -14,7 +14,8 @@ from usdvol_lint import schema
 from usdvol_lint.facts.kinds import Key, Kinds
 from usdvol_lint.rule import Rule
 
-_BATCH = 16_384
+_BATCH = 256
+"""Small enough that its objects are gone before the garbage collector looks at them."""
 _COUNTED = frozenset({schema.VOLUME, schema.FIELD, schema.PARTICLE_FIELD})
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pickle
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from usdvol_lint.catalog import load
 from usdvol_lint.model import StageReport, UsageError
@@ -15,10 +15,14 @@ def main() -> None:
     """Answers each path with a report, until the pipe closes."""
     requests, replies = _take_pipes()
     try:
-        from usdvol_lint.engine import Engine, usd_version
+        from pxr import Usd  # noqa: F401
     except ImportError as error:
         return _send(replies, Refusal(f"USD can't be imported ({error}); install usd-core"))
-    setup: Setup = pickle.load(requests)
+    from usdvol_lint.engine import Engine, usd_version
+
+    setup: Setup | None = _next(requests)
+    if setup is None:
+        return
     try:
         rules = load(setup.packs).rules
     except UsageError as error:
@@ -27,18 +31,18 @@ def main() -> None:
         rules, setup.active, setup.load, lambda samples: _send(replies, Advance(samples))
     )
     _send(replies, Ready(usd_version()))
-    while path := _next_path(requests):
+    while path := _next(requests):
         _send(replies, engine.lint(path))
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
 
 
-def _next_path(requests: BinaryIO) -> str | None:
+def _next(requests: BinaryIO) -> Any:
+    """The next message, or None if the parent has gone."""
     try:
-        path: str = pickle.load(requests)
+        return pickle.load(requests)
     except EOFError:
         return None
-    return path
 
 
 def _take_pipes() -> tuple[BinaryIO, BinaryIO]:

@@ -1,4 +1,4 @@
-"""AST002: the file a field names must exist."""
+"""AST002: the file that a field names must exist."""
 
 from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, rule
 
@@ -7,11 +7,12 @@ from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, 
 def file_missing(field: Prim, facts: Facts) -> Problems:
     missing = facts.assets(field, "filePath").of(AssetState.MISSING)
     if missing:
-        similar = facts.files.similar(missing.anchored())
+        reason, similar = facts.files.absence(missing.anchored(), missing.first.path)
         yield Problem(
-            f"no file at {missing.first.authored!r}{missing.count}",
+            f"no file at {missing.shown}{reason}{missing.count}",
             at=missing.attribute,
             times=missing.times,
             at_default=missing.at_default,
+            asset=missing.first.authored,
             suggestion=f"did you mean {similar!r}?" if similar else None,
         )

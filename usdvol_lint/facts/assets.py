@@ -5,27 +5,32 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
-from pxr import Sdf, Usd
+from pxr import Ar, Sdf, Usd
 
-from usdvol_lint.facts.clips import ClipSet
+from usdvol_lint.facts.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.files import Files
+from usdvol_lint.facts.instances import shown
+from usdvol_lint.facts.opinions import opinion
+from usdvol_lint.facts.patterns import find_pattern
 from usdvol_lint.facts.states import AssetState
 from usdvol_lint.model import frame_ranges
 
-_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+-]+:")
-_LIVE_SCHEMES = ("op:", "opdef:", "oplib:")
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
+_LIVE_SCHEMES = frozenset({"op", "opdef", "oplib"})
 _FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
-_PATTERN = re.compile(
-    r"\$\{?F\d*\}?|\$SF\d*|#+|%0?\d*d|<(?:UDIM|f|frame|F)\d*>|@{3,}|\{frame[^}]*\}", re.IGNORECASE
-)
+_LAYERS_NAMED = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Sample:
-    """One value: `time` is None for the default, `path` is evaluated, `detail` says why."""
+class Sample(NamedTuple):
+    """One value of an asset attribute.
+
+    `time` is None for the default; `authored` is as written, an expression where it is one and
+    `path` what it evaluates to; `resolved` is the file, without arguments for a file format;
+    `detail` says more of the state: the fault, the error, the variable, the scheme, the pattern.
+    """
 
     time: float | None
     authored: str
@@ -37,26 +42,44 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class AssetSamples:
-    """All samples of one asset attribute in ascending time, the default first."""
+    """All samples of one asset attribute in ascending time, the default first.
+
+    `states` are those that occur: most rules find nothing, and need not look at each sample.
+    """
 
     attribute: Any
     samples: tuple[Sample, ...]
+    states: frozenset[AssetState]
 
     def of(self, *states: AssetState) -> Affected | None:
         """The samples in one of these states, or None if there are none."""
+        if self.states.isdisjoint(states):
+            return None
         found = tuple(sample for sample in self.samples if sample.state in states)
-        return Affected(self.attribute, found, len(self.samples)) if found else None
+        timed = sum(sample.time is not None for sample in self.samples)
+        return Affected(self.attribute, found, timed)
+
+    def by_detail(self, *states: AssetState) -> Iterator[Affected]:
+        """The samples in one of these states, apart for each detail."""
+        found = self.of(*states)
+        details = dict.fromkeys(sample.detail for sample in found.samples) if found else ()
+        for detail in details:
+            assert found
+            samples = tuple(sample for sample in found.samples if sample.detail == detail)
+            yield replace(found, samples=samples)
 
     @property
     def names_a_path(self) -> bool:
         """Whether there is a value of some kind at some time."""
-        nothing = (AssetState.EMPTY, AssetState.BLOCKED)
-        return any(sample.state not in nothing for sample in self.samples)
+        return not self.states <= {AssetState.EMPTY, AssetState.BLOCKED}
 
 
 @dataclass(frozen=True, slots=True)
 class Affected:
-    """Some of an attribute's samples, never none, with what a finding says of them."""
+    """Some of an attribute's samples, never none, with what a finding says of them.
+
+    `total` is how many time samples the attribute has.
+    """
 
     attribute: Any
     samples: tuple[Sample, ...]
@@ -76,32 +99,52 @@ class Affected:
         return self.samples[0].time is None
 
     @property
+    def shown(self) -> str:
+        """The first path in quotes, with the expression that it was evaluated from."""
+        first = self.first
+        origin = "" if first.authored == first.path else f" (from {first.authored!r})"
+        return f"{first.path!r}{origin}"
+
+    @property
     def count(self) -> str:
-        """`` for a single value, else ` (4 of 240 samples)`, with authored frames if they differ."""
-        if self.total == 1:
+        """Empty for a single value, else ` (4 of 240 samples)`.
+
+        Says the frames as authored where they differ, and the layers where there are several.
+        """
+        if self.total == 0:
             return ""
-        words = f"{len(self.samples)} of {self.total} samples"
+        times = self.times
+        if not times:
+            return f" (the default alone, none of the {self.total} time samples)"
+        words = [f"{len(times)} of {self.total} samples"]
         authored = self._authored_times()
-        if authored and authored != self.times:
-            words += f", authored as frames {frame_ranges(authored)}"
-        return f" ({words})"
+        if authored != times:
+            words.append(f"authored as frames {frame_ranges(authored)}")
+        layers = self._layers()
+        if len(layers) > 1:
+            more = f" and {len(layers) - _LAYERS_NAMED} more" if len(layers) > _LAYERS_NAMED else ""
+            words.append(f"in {len(layers)} layers: {', '.join(layers[:_LAYERS_NAMED])}{more}")
+        return f" ({', '.join(words)})"
 
     def _authored_times(self) -> tuple[float, ...]:
         """The times as the layer of the first sample has them, before its layer offset."""
-        if not self.times:
-            return ()
-        stack = self.attribute.GetPropertyStackWithLayerOffsets(self.times[0])
-        if not stack or stack[0][1].IsIdentity():
+        held = opinion(self.attribute, self.times[0])
+        if held is None or held.offset.IsIdentity():
             return self.times
-        inverse = stack[0][1].GetInverse()
+        inverse = held.offset.GetInverse()
         return tuple(sorted(inverse * time for time in self.times))
+
+    def _layers(self) -> list[str]:
+        """The names of the layers that hold the samples; only clips spread them over several."""
+        info = self.attribute.GetResolveInfo(self.times[0])
+        from_clips = info.GetSource() == Usd.ResolveInfoSourceValueClips
+        asked = self.samples if from_clips else (self.samples[0], self.samples[-1])
+        held = (opinion(self.attribute, sample.time) for sample in asked)
+        return list(dict.fromkeys(found.spec.layer.GetDisplayName() for found in held if found))
 
     def anchored(self) -> str:
         """The absolute path that the first sample would have, did it exist."""
-        time = self.first.time
-        stack = self.attribute.GetPropertyStack(Usd.TimeCode.Default() if time is None else time)
-        path, _ = Sdf.Layer.SplitIdentifier(self.first.path)
-        return str(stack[0].layer.ComputeAbsolutePath(path)) if stack else path
+        return _anchored(self.attribute, self.first.time, self.first.path)
 
 
 def read_asset_samples(
@@ -116,36 +159,57 @@ def read_asset_samples(
         samples.append(_classify(attribute, time, value, files))
         if number % 1024 == 0:
             advance(1024)
-    return AssetSamples(attribute, tuple(samples))
+    states = frozenset(sample.state for sample in samples)
+    return AssetSamples(attribute, tuple(samples), states)
 
 
-def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> Any | None:
-    """The weaker spec, or clip set, whose animation a stronger layer's default hides."""
-    stack = attribute.GetPropertyStack()
-    valued = [spec for spec in stack if spec.HasInfo("default") or _has_samples(spec)]
-    if not valued or _has_samples(valued[0]) or attribute.Get() is None:
+def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:
+    """The weaker time samples or clip set, in words, that a stronger default hides."""
+    held = opinion(attribute, None)
+    if held is None or attribute.Get() is None or attribute.GetNumTimeSamples():
         return None
-    weaker = next((spec for spec in valued[1:] if _has_samples(spec)), None)
-    return weaker or next(
-        (clip_set for clip_set in clips if clip_with_samples(attribute, clip_set)), None
-    )
-
-
-def clip_with_samples(attribute: Any, clip_set: ClipSet) -> Any | None:
-    """The first of the set's leading clip layers that holds time samples of the attribute."""
-    path = clip_set.layer_path(attribute.GetPrim()).AppendProperty(attribute.GetName())
-    for clip in clip_set.clips[:_CLIPS_LOOKED_AT]:
-        layer = Sdf.Layer.FindOrOpen(clip.resolvedPath) if clip.resolvedPath else None
-        if layer and layer.GetNumTimeSamplesForPath(path):
-            return layer
+    for spec in attribute.GetPropertyStack():
+        if count := spec.layer.GetNumTimeSamplesForPath(spec.path):
+            samples = "time sample" if count == 1 else f"{count} time samples"
+            return f"the {samples} in {spec.layer.GetDisplayName()!r}"
+    for clip_set in clips:
+        if clip_set.is_outranked_by(held.spec) and clip_set.layer_with_samples(attribute):
+            return f"the value clips {clip_set.name!r} on <{shown(clip_set.prim).path}>"
     return None
 
 
-_CLIPS_LOOKED_AT = 4
+@dataclass(frozen=True, slots=True)
+class UnlistedClips:
+    """Clips that hold samples of an attribute which their manifest does not declare.
+
+    `clip` and `manifest` are the names of layers; `spec` names the manifest at `manifest_path`.
+    """
+
+    clip: str
+    manifest: str
+    manifest_path: str
+    spec: Any
 
 
-def _has_samples(spec: Any) -> bool:
-    return bool(spec.layer.GetNumTimeSamplesForPath(spec.path))
+def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips | None:
+    """The clips that would give the attribute its values if the manifest declared it."""
+    held = opinion(attribute, None)
+    for clip_set in () if attribute.GetNumTimeSamples() else clips:
+        if held and clip_set.is_outranked_by(held.spec):
+            return None
+        manifest = clip_set.manifest
+        declared = open_layer(manifest) if manifest else None
+        if not manifest or not declared:
+            continue
+        clip = clip_set.layer_with_samples(attribute)
+        if clip and not declared.GetAttributeAtPath(clip_set.path_in_layers(attribute)):
+            return UnlistedClips(
+                clip.GetDisplayName(),
+                declared.GetDisplayName(),
+                authored_path(manifest) or manifest.path,
+                clip_set.spec_with("manifestAssetPath"),
+            )
+    return None
 
 
 def _values(attribute: Any) -> Iterator[tuple[float | None, Any]]:
@@ -155,7 +219,7 @@ def _values(attribute: Any) -> Iterator[tuple[float | None, Any]]:
     times = attribute.GetTimeSamples()
     if default is not None or not times:
         yield None, default
-    get = attribute.Get
+    get = Usd.AttributeQuery(attribute).Get  # resolves the attribute once, not at every time
     for index, time in enumerate(times):
         # Where a clip begins, USD adds a sample a hair before it that repeats the last value.
         if index + 1 < len(times) and times[index + 1] - time < 1e-6 * max(1.0, abs(time)):
@@ -168,55 +232,85 @@ def _classify(attribute: Any, time: float | None, value: Any, files: Files) -> S
         return Sample(time, "", "", "", AssetState.BLOCKED)
     if not isinstance(value, Sdf.AssetPath):
         return Sample(time, str(value), "", "", AssetState.MISTYPED)
-    resolved = value.resolvedPath
-    authored = value.authoredPath if _KEEPS_AUTHORED else _authored_path(attribute, time)
-    if resolved:
-        fault = files.fault(resolved)
-        state = AssetState.NOT_A_FILE if fault else AssetState.FILE
-        return Sample(time, authored, value.path, resolved, state, fault or "")
-    state, detail = _why_unresolved(attribute, authored, value.path)
-    return Sample(time, authored, value.path, "", state, detail)
+    path, resolved = value.path, value.resolvedPath
+    if _FORMAT_ARGUMENTS in path:
+        resolved = _resolved_without_arguments(attribute, time, path)
+    fault = files.fault(resolved) if resolved else None
+    if resolved and not fault:
+        return Sample(time, authored_path(value) or path, path, resolved, AssetState.FILE)
+    authored = authored_path(value) or _authored_in_layer(attribute, time) or path
+    if fault:
+        return Sample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault)
+    state, detail = _why_unresolved(attribute, time, authored, path)
+    return Sample(time, authored, path, "", state, detail)
 
 
-_KEEPS_AUTHORED = hasattr(Sdf.AssetPath, "authoredPath")
-"""Old USD forgets the expression that a path was evaluated from."""
+def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
+    held = opinion(attribute, time)
+    if held is None:
+        return None
+    spec, offset = held
+    if time is None:
+        value = spec.default
+    else:
+        value = spec.layer.QueryTimeSample(spec.path, offset.GetInverse() * time) or spec.default
+    return str(value.path) if isinstance(value, Sdf.AssetPath) else None
 
 
-def _authored_path(attribute: Any, time: float | None) -> str:
-    spec = attribute.GetPropertyStack(Usd.TimeCode.Default() if time is None else time)[0]
-    value = spec.default if time is None else spec.layer.QueryTimeSample(spec.path, time)
-    return value.path if isinstance(value, Sdf.AssetPath) else attribute.Get(time).path
+def _resolved_without_arguments(attribute: Any, time: float | None, path: str) -> str:
+    """The file that a path with file format arguments names: USD versions do not agree here."""
+    with Ar.ResolverContextBinder(attribute.GetStage().GetPathResolverContext()):
+        return str(Ar.GetResolver().Resolve(_anchored(attribute, time, path)))
 
 
-def _why_unresolved(attribute: Any, authored: str, path: str) -> tuple[AssetState, str]:
+def _anchored(attribute: Any, time: float | None, path: str) -> str:
+    """The absolute path, in relation to the layer that holds the opinion, without arguments."""
+    bare = str(Sdf.Layer.SplitIdentifier(path)[0])
+    held = opinion(attribute, time)
+    if held is None:
+        return bare
+    layer = held.spec.layer
+    absolute = str(layer.ComputeAbsolutePath(bare))
+    # USD leaves a bare name that it finds nowhere to the resolver's search path.
+    searched = absolute == bare and not (os.path.isabs(bare) or is_uri(bare))
+    return str(layer.ComputeAbsolutePath(f"./{bare}")) if searched else absolute
+
+
+def _why_unresolved(
+    attribute: Any, time: float | None, authored: str, path: str
+) -> tuple[AssetState, str]:
     if Sdf.VariableExpression.IsExpression(authored):
-        errors = Sdf.VariableExpression(authored).GetErrors()
-        if errors:
-            return AssetState.BROKEN_EXPRESSION, errors[0]
-        unset = _unset_variables(attribute, authored)
+        variables = _expression_variables(attribute, time)
+        result = Sdf.VariableExpression(authored).Evaluate(variables)
+        if result.errors:
+            return AssetState.BROKEN_EXPRESSION, result.errors[0]
+        if result.value not in (None, "") and not isinstance(result.value, str):
+            return AssetState.BROKEN_EXPRESSION, f"it gives {result.value!r}, not a string"
+        unset = sorted(name for name in result.usedVariables - variables.keys() if name in path)
         if unset:
-            return AssetState.UNSET_VARIABLE, unset[0]
-        if Sdf.VariableExpression.IsExpression(path):
-            return AssetState.BROKEN_EXPRESSION, "it does not evaluate to a string"
+            return AssetState.UNSET_VARIABLE, ", ".join(unset)
+        path = result.value or ""
     if not path:
         return AssetState.EMPTY, ""
-    if path.startswith(_LIVE_SCHEMES):
-        return AssetState.LIVE_SESSION, path.partition(":")[0]
     if is_uri(path):
-        return AssetState.UNVERIFIABLE, path.partition(":")[0]
-    if pattern := _PATTERN.search(os.path.basename(path)):
-        return AssetState.PATTERN, pattern.group()
+        scheme = path.partition(":")[0]
+        live = scheme in _LIVE_SCHEMES
+        return AssetState.LIVE_SESSION if live else AssetState.UNVERIFIABLE, scheme
+    if pattern := find_pattern(path):
+        return AssetState.PATTERN, pattern
     return AssetState.MISSING, ""
 
 
+def _expression_variables(attribute: Any, time: float | None) -> dict[str, Any]:
+    """The variables that USD knows where the opinion is."""
+    code = Usd.TimeCode.Default() if time is None else time
+    node = attribute.GetResolveInfo(code).GetNode()
+    return dict(node.layerStack.expressionVariables.GetVariables()) if node else {}
+
+
 def is_uri(path: str) -> bool:
-    """Whether a path names a scheme that some resolver, not the file system, answers for."""
-    return bool(_SCHEME.match(path)) and _FORMAT_ARGUMENTS not in path
-
-
-def _unset_variables(attribute: Any, expression: str) -> list[str]:
-    """The variables of an expression that no layer of the stage sets."""
-    used = Sdf.VariableExpression(expression).Evaluate({}).usedVariables
-    layers = attribute.GetStage().GetUsedLayers()
-    known = {name for layer in layers for name in layer.expressionVariables}
-    return sorted(set(used) - known)
+    """Whether a path has a scheme that no resolver here answers for."""
+    if ":" not in path:
+        return False
+    scheme = _SCHEME.match(Sdf.Layer.SplitIdentifier(path)[0])
+    return scheme is not None and scheme[1].lower() not in Ar.GetRegisteredURISchemes()

@@ -5,22 +5,76 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from pxr import Sdf, Usd
+from pxr import Sdf, Tf, Usd
+
+_CLIPS_LOOKED_AT = 4
 
 
 @dataclass(frozen=True, slots=True)
 class ClipSet:
-    """One clip set as authored on `prim`: asset paths are as USD resolved them."""
+    """One clip set as authored on `prim`: asset paths are as USD resolved them.
+
+    `template` names clips by a pattern, and is None where `clips` are named one by one.
+    Where there is no `manifest`, USD makes one.
+    """
 
     prim: Any
     name: str
     prim_path: str
     clips: tuple[Any, ...]
     manifest: Any | None
+    template: str | None
 
-    def layer_path(self, prim: Any) -> Any:
-        """Where the values of `prim`, this one or one below it, lie in the clip layers."""
-        return prim.GetPath().ReplacePrefix(self.prim.GetPath(), Sdf.Path(self.prim_path))
+    def path_in_layers(self, attribute: Any) -> Any:
+        """Where the values of an attribute of this prim, or of one below it, lie in the clips."""
+        place = attribute.GetPrim().GetPath().ReplacePrefix(self.prim.GetPath(), self.prim_path)
+        return place.AppendProperty(attribute.GetName())
+
+    def layer_with_samples(self, attribute: Any) -> Any | None:
+        """The first of the leading clip layers that holds time samples of an attribute."""
+        path = self.path_in_layers(attribute)
+        for clip in self.clips[:_CLIPS_LOOKED_AT]:
+            layer = open_layer(clip)
+            if layer and layer.GetNumTimeSamplesForPath(path):
+                return layer
+        return None
+
+    def spec_with(self, key: str) -> Any:
+        """The strongest spec of the prim that authors a key of the clip set."""
+        stack = self.prim.GetPrimStack()
+        authors = (
+            spec
+            for spec in stack
+            if spec.HasInfo("clips") and key in spec.GetInfo("clips").get(self.name, {})
+        )
+        return next(authors, stack[0])
+
+    def is_outranked_by(self, spec: Any) -> bool:
+        """Whether a spec of an attribute, of this prim or of one below it, beats the clips.
+
+        Clips are weaker than what their own layer says, and stronger than weaker layers.
+        """
+        stack = self.prim.GetPrimStack()
+        own = self.spec_with("templateAssetPath" if self.template else "assetPaths")
+        ranks = (
+            rank
+            for rank, other in enumerate(stack)
+            if spec.layer == other.layer and spec.path.HasPrefix(other.path)
+        )
+        return bool(next(ranks, 0) <= stack.index(own))
+
+
+def open_layer(asset: Any) -> Any | None:
+    """The layer at a resolved asset path; None where there is none that USD can read."""
+    try:
+        return Sdf.Layer.FindOrOpen(asset.resolvedPath) if asset.resolvedPath else None
+    except Tf.ErrorException:
+        return None
+
+
+def authored_path(asset: Any) -> str:
+    """An asset path as written; empty in a USD that forgets what it was evaluated from."""
+    return str(getattr(asset, "authoredPath", ""))
 
 
 def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
@@ -35,7 +89,10 @@ def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
             manifest = api.GetClipManifestAssetPath(name)
             paths = tuple(api.ComputeClipAssetPaths(name) or ())
             named = manifest is not None and bool(manifest.path)
-            found.append(ClipSet(prim, name, prim_path, paths, manifest if named else None))
+            template = None if api.GetClipAssetPaths(name) else api.GetClipTemplateAssetPath(name)
+            found.append(
+                ClipSet(prim, name, prim_path, paths, manifest if named else None, template or None)
+            )
     return tuple(found)
 
 

@@ -2,35 +2,50 @@
 
 from __future__ import annotations
 
+import os
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
-from pxr import Pcp, Sdf
+from pxr import Pcp, Sdf, Tf
 
 from usdvol_lint.facts.assets import is_uri
-from usdvol_lint.facts.clips import ClipSet
+from usdvol_lint.facts.clips import ClipSet, authored_path
+from usdvol_lint.facts.files import file_fault
+from usdvol_lint.facts.instances import in_prototype
+from usdvol_lint.paths import display
 
 _QUOTED = re.compile(r"@(.+?)@(?:<([^>]*)>)?")
+_INTRODUCED = re.compile(r"introduced by @(.+?)@<([^>]*)>")
+_IN_LAYER = re.compile(r" at (?P<path>/\S*) in @(?P<layer>.+?)@")
+_ABSOLUTE = re.compile(r"(?<=@)/[^@]+(?=@)")
 _ANONYMOUS = re.compile(r"(?:,@)?anon:0x[0-9a-f]+(?::[^@>\s]*)?@?")
+_ASSET_ERRORS = frozenset({Pcp.ErrorType_InvalidAssetPath, Pcp.ErrorType_InvalidSublayerPath})
+_ARCS = ("sublayer", "reference", "payload")
 
 
 @dataclass(frozen=True, slots=True)
 class MissingLayer:
     """A layer that an arc names and USD can't open.
 
-    `arc` is sublayer, reference, payload, clip or clip manifest; `asset` is the path as authored.
-    `layer` holds the arc, on the spec at `path` of that layer; `prim` is the prim of the stage.
-    `reason` is what USD says of a file that is there but can't be read, or "".
+    `arc` is sublayer, reference, payload, clip, clip template or clip manifest; `asset` is the
+    path as authored, `path` the absolute one.  `spec` holds the arc; `prims` are those of the
+    stage that lack something for it.  `reason` is what is wrong with a file that is there, or "".
     """
 
     arc: str
     asset: str
-    layer: Any
-    path: Any
-    prim: Any
+    path: str
+    spec: Any
     reason: str
+    prims: tuple[Any, ...]
+
+    @property
+    def prim(self) -> Any:
+        return self.prims[0]
 
     @property
     def is_uri(self) -> bool:
@@ -39,13 +54,18 @@ class MissingLayer:
 
 @dataclass(frozen=True, slots=True)
 class CompositionError:
-    """Any other error: `message` in one line, `prim` is where the stage shows it."""
+    """Any other error: `message` in one line, `spec` is to blame, `prims` are where it shows."""
 
     message: str
-    prim: Any
+    spec: Any | None
+    prims: tuple[Any, ...]
+
+    @property
+    def prim(self) -> Any:
+        return self.prims[0]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Composition:
     """Everything that a stage could not compose, each once, in a stable order."""
 
@@ -54,81 +74,179 @@ class Composition:
     unloaded: tuple[Any, ...]
     """Prims with payloads that were not loaded."""
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether every layer that an arc names was there and loaded."""
+        return not self.unloaded and not self._lack_opinions
+
+    def may_lack(self, prim: Any) -> bool:
+        """Whether a layer that does not open may say something about a prim and what is below."""
+        return _is_at_or_below(prim, self._lack_opinions)
+
+    def may_lack_values(self, prim: Any) -> bool:
+        """The same with value clips, which say nothing but what attributes are worth."""
+        return _is_at_or_below(prim, self._lack_opinions | self._lack_clips)
+
+    @cached_property
+    def _lack_opinions(self) -> frozenset[Any]:
+        return _as_walked(missing for missing in self.missing_layers if missing.arc in _ARCS)
+
+    @cached_property
+    def _lack_clips(self) -> frozenset[Any]:
+        return _as_walked(missing for missing in self.missing_layers if missing.arc not in _ARCS)
+
 
 def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
-    """Reads the composition errors of the whole stage and opens what the clip sets name."""
-    missing = set(_missing_clips(clip_sets))
-    errors = set()
+    """Reads the composition errors of the whole stage and opens what the clip sets name.
+
+    An error of a layer that many prims compose is one error: it is known by its place.
+    """
+    missing: dict[_Arc, list[Any]] = defaultdict(list)
+    errors: dict[tuple[str, Any], list[Any]] = defaultdict(list)
+    for arc, prim in _missing_clips(clip_sets):
+        missing[arc].append(prim)
     for error in stage.GetCompositionErrors():
+        text = str(error)
         prim = stage.GetPrimAtPath(error.rootSite.path) or stage.GetPseudoRoot()
-        layer = _missing_layer(error, prim)
-        if layer:
-            missing.add(layer)
+        if not prim.IsActive():
+            continue
+        unopened = _missing_arc(text) if error.errorType in _ASSET_ERRORS else None
+        if unopened:
+            missing[unopened].append(prim)
         else:
-            errors.add(CompositionError(_one_line(str(error)), prim))
+            errors[_as_sentence(text), _blamed_spec(text)].append(prim)
     loaded = set(stage.GetLoadSet())
     unloaded = (path for path in stage.FindLoadable() if path not in loaded)
     return Composition(
-        tuple(sorted(missing, key=lambda m: (str(m.prim.GetPath()), m.arc, m.asset))),
-        tuple(sorted(errors, key=lambda e: (str(e.prim.GetPath()), e.message))),
+        tuple(sorted((_missing_layer(*item) for item in missing.items()), key=_missing_order)),
+        tuple(
+            sorted(
+                (CompositionError(*error, _sorted(prims)) for error, prims in errors.items()),
+                key=lambda error: (str(error.prim.GetPath()), error.message),
+            )
+        ),
         tuple(stage.GetPrimAtPath(path) for path in sorted(unloaded)),
     )
 
 
-def _missing_layer(error: Any, prim: Any) -> MissingLayer | None:
+class _Arc(NamedTuple):
+    """An arc to a layer that does not open, known by its place."""
+
+    arc: str
+    asset: str
+    path: str
+    spec: Any
+    said: str
+
+
+def _missing_layer(arc: _Arc, prims: list[Any]) -> MissingLayer:
+    fault = file_fault(arc.path) if os.path.exists(arc.path) else None
+    return MissingLayer(*arc[:4], f"it is {fault}" if fault else arc.said, _sorted(prims))
+
+
+def _missing_order(missing: MissingLayer) -> tuple[str, ...]:
+    spec = missing.spec
+    return (str(missing.prim.GetPath()), spec.layer.identifier, str(spec.path), missing.asset)
+
+
+def _missing_arc(text: str) -> _Arc | None:
     """Python sees no more of these errors than their text, which is the same in all versions."""
-    text = str(error)
     quoted = _QUOTED.findall(text)
-    if error.errorType not in _ASSET_ERRORS or len(quoted) < 2:
+    if len(quoted) < 2:
         return None
-    (resolved, _), (identifier, path) = quoted[:2]
+    (resolved, _), (identifier, place) = quoted[:2]
+    spec = _spec(identifier, place)
+    if spec is None:
+        return None
+    words, reason, *_ = [*text.partition(" -- ")[::2], ""]
+    arc = next(arc for arc in _ARCS if f" {arc} " in _QUOTED.sub("", words))
+    reason = reason.removesuffix("; skipping.").replace(f"<{resolved}>", "it")
+    return _Arc(arc, _authored(spec, resolved), resolved, spec, _one_line(reason).rstrip("."))
+
+
+def _spec(identifier: str, place: str) -> Any | None:
     layer = Sdf.Layer.Find(identifier)
-    if layer is None:
-        return None
-    sdf_path = Sdf.Path(path) if path else Sdf.Path.absoluteRootPath
-    arc = next((arc for arc in _ARCS if f" {arc} " in text.partition("@")[0] + _between(text)), "")
-    _, _, reason = text.partition(" -- ")
-    authored = _authored(layer, sdf_path, resolved)
-    return MissingLayer(arc, authored, layer, sdf_path, prim, _one_line(reason))
+    return layer.GetObjectAtPath(place or "/") if layer else None
 
 
-_ASSET_ERRORS = frozenset({Pcp.ErrorType_InvalidAssetPath, Pcp.ErrorType_InvalidSublayerPath})
-_ARCS = ("sublayer", "reference", "payload")
+def _blamed_spec(text: str) -> Any | None:
+    """The spec that the text of an error says has introduced it."""
+    introduced = _INTRODUCED.search(text)
+    if introduced:
+        return _spec(introduced[1], introduced[2])
+    place = _IN_LAYER.search(text)
+    return _spec(place["layer"], place["path"]) if place else None
 
 
-def _between(text: str) -> str:
-    """The words between the first and the second quoted layer."""
-    parts = text.split("@")
-    return parts[2] if len(parts) > 2 else ""
-
-
-def _authored(layer: Any, path: Any, resolved: str) -> str:
+def _authored(spec: Any, resolved: str) -> str:
     """The asset path as the layer has it, where USD only says what it became."""
-    for asset in _assets_named(layer, path):
-        if resolved in (asset, layer.ComputeAbsolutePath(asset), asset.replace("//", "/")):
-            return asset
-    return resolved
+    named = list(_assets_named(spec))
+    for asset in named:
+        anchored = spec.layer.ComputeAbsolutePath(asset)
+        if resolved in (asset, anchored, asset.replace("//", "/")):
+            return str(asset)
+    expressions = [asset for asset in named if Sdf.VariableExpression.IsExpression(asset)]
+    return expressions[0] if len(expressions) == 1 else display(resolved)
 
 
-def _assets_named(layer: Any, path: Any) -> Iterator[str]:
-    if path == Sdf.Path.absoluteRootPath:
-        yield from layer.subLayerPaths
+def _assets_named(spec: Any) -> Iterator[str]:
+    if spec.path == Sdf.Path.absoluteRootPath:
+        yield from spec.layer.subLayerPaths
         return
-    spec = layer.GetPrimAtPath(path)
-    if spec:
-        for list_op in (spec.referenceList, spec.payloadList):
+    prim = spec.layer.GetPrimAtPath(spec.path)
+    if prim:
+        for list_op in (prim.referenceList, prim.payloadList):
             yield from (arc.assetPath for arc in list_op.GetAddedOrExplicitItems())
 
 
-def _missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[MissingLayer]:
+def _missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[_Arc, Any]]:
     for clip_set in clip_sets:
-        spec = clip_set.prim.GetPrimStack()[0]
-        named = [("clip", clip) for clip in clip_set.clips]
-        if clip_set.manifest:
-            named.append(("clip manifest", clip_set.manifest))
-        for arc, asset in named:
-            if not asset.resolvedPath:
-                yield MissingLayer(arc, asset.path, spec.layer, spec.path, clip_set.prim, "")
+        for arc, key, asset in _clip_assets(clip_set):
+            said = _why_not_open(asset.resolvedPath) if asset.resolvedPath else ""
+            if not asset.resolvedPath or said:
+                spec = clip_set.spec_with(key)
+                path = asset.resolvedPath or spec.layer.ComputeAbsolutePath(asset.path)
+                yield _Arc(arc, authored_path(asset) or asset.path, path, spec, said), clip_set.prim
+
+
+def _clip_assets(clip_set: ClipSet) -> Iterator[tuple[str, str, Any]]:
+    """What a clip set names: the kind of layer, the key that names it, the asset path."""
+    if clip_set.template and not clip_set.clips:
+        yield "clip template", "templateAssetPath", Sdf.AssetPath(clip_set.template)
+    if not clip_set.template:
+        yield from (("clip", "assetPaths", clip) for clip in clip_set.clips)
+    if clip_set.manifest:
+        yield "clip manifest", "manifestAssetPath", clip_set.manifest
+
+
+def _why_not_open(resolved: str) -> str:
+    """Why USD can't open a layer that is there, or "" if it can."""
+    try:
+        return "" if Sdf.Layer.FindOrOpen(resolved) else "it is not a valid layer"
+    except Tf.ErrorException:
+        return "it is not a valid layer"
+
+
+def _as_walked(missing_layers: Iterable[MissingLayer]) -> frozenset[Any]:
+    """The paths of the prims that lack something, as the walk meets these prims."""
+    prims = [prim for missing in missing_layers for prim in missing.prims]
+    prims += [prim.GetPrototype() for prim in prims if prim.IsInstance()]
+    return frozenset(in_prototype(prim).GetPath() for prim in prims)
+
+
+def _is_at_or_below(prim: Any, paths: frozenset[Any]) -> bool:
+    path = in_prototype(prim).GetPath()
+    return not paths.isdisjoint([Sdf.Path.absoluteRootPath, *path.GetPrefixes()])
+
+
+def _sorted(prims: Iterable[Any]) -> tuple[Any, ...]:
+    return tuple(sorted(dict.fromkeys(prims), key=lambda prim: prim.GetPath()))
+
+
+def _as_sentence(text: str) -> str:
+    """USD's words in the manner of messages, with layers relative to the working directory."""
+    line = _ABSOLUTE.sub(lambda path: display(path.group()), _one_line(text)).rstrip(". ")
+    return line[:1].lower() + line[1:]
 
 
 def _one_line(text: str) -> str:

@@ -26,6 +26,15 @@ def shown(prim: Any) -> Shown:
     )
 
 
+def shown_path(stage: Any, path: Any) -> str:
+    """A path as the stage shows it, also where no prim is."""
+    root = path.GetPrefixes()[0] if path.pathElementCount else path
+    prim = stage.GetPrimAtPath(root)
+    if not prim or not prim.IsInPrototype():
+        return str(path)
+    return shown(prim).path + str(path)[len(str(root)) :]
+
+
 def in_prototype(prim: Any) -> Any:
     """The prim that the walk meets in place of an instance proxy."""
     return prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim

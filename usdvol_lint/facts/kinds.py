@@ -33,7 +33,7 @@ class Kinds:
         return applied + schema.expand_apis(built_in + ours)
 
     def names(self, key: Key) -> frozenset[str]:
-        """Every schema name that prims of this kind answer to, and UNKNOWN_TYPE or ABSTRACT_TYPE."""
+        """The schema names that prims of this kind answer to, UNKNOWN_TYPE or ABSTRACT_TYPE too."""
         if key not in self._names:
             self._names[key] = frozenset(key[1:]) | type_names(key[0])
         return self._names[key]
@@ -44,8 +44,8 @@ class Kinds:
 
 
 def is_registered(type_name: str) -> bool:
-    """Whether some plugin declares a prim type of that name."""
-    return not Usd.SchemaRegistry.GetTypeFromName(type_name).isUnknown
+    """Whether some plugin declares a schema, for prims or applied, of that name."""
+    return not Usd.SchemaRegistry.GetTypeFromSchemaTypeName(type_name).isUnknown
 
 
 def is_concrete(type_name: str) -> bool:
@@ -60,17 +60,18 @@ def type_names(type_name: str) -> frozenset[str]:
     if not is_registered(type_name):
         if type_name in schema.CONCRETE_TYPES:
             return frozenset((type_name, *schema.TYPE_BASES[type_name]))
-        return frozenset((schema.UNKNOWN_TYPE,))
+        abstract = type_name in schema.ABSTRACT_TYPES
+        return frozenset((schema.ABSTRACT_TYPE if abstract else schema.UNKNOWN_TYPE,))
     if not is_concrete(type_name):
         return frozenset((schema.ABSTRACT_TYPE,))
     ancestors = Usd.SchemaRegistry.GetTypeFromName(type_name).GetAllAncestorTypes()
     names = {Usd.SchemaRegistry.GetSchemaTypeName(ancestor) for ancestor in ancestors}
-    if not names.isdisjoint(schema.FIELD_BASES):
-        names.add(schema.FIELD)
+    names.update(*(schema.TYPE_BASES.get(name, ()) for name in names))  # those of newer USD too
+    if "VolumeFieldAsset" in names:
+        names.add(schema.FIELD_ASSET)  # what old USD calls it, and what rules subscribe to
     return frozenset(names - {""})
 
 
 def raw_apis(prim: Any) -> tuple[str, ...]:
     """The composed `apiSchemas` as written, those that nobody registers among them."""
-    composed = prim.GetMetadata("apiSchemas")
-    return tuple(composed.ApplyOperations([])) if composed else ()
+    return tuple(prim.GetPrimTypeInfo().GetAppliedAPISchemas())

@@ -8,7 +8,7 @@ from typing import Any
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.kinds import Kinds, raw_apis
+from usdvol_lint.facts.kinds import Kinds, is_registered, raw_apis
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,37 +16,49 @@ class ParticleApis:
     """The APIs of one prim.
 
     `applied` are the registered ones with all that they bring along, in order.
-    `unregistered` are names in `apiSchemas` that no plugin declares: USD ignores them.
-    `built_in_type` says that the prim type is UsdVol's own, so its APIs are all known.
+    `third_party` are names in `apiSchemas` that no plugin declares and that look like none of
+    ours: USD ignores them, another installation may know them.
+    `misspelt` are those that no plugin declares either, by the API that was probably meant.
+    `built_in_type` says that the prim type is UsdVol's own, so that its APIs are all known.
     """
 
     applied: tuple[str, ...]
-    unregistered: tuple[str, ...]
+    third_party: tuple[str, ...]
+    misspelt: dict[str, str]
     built_in_type: bool
 
+    def has(self, api: str) -> bool:
+        """Whether the API is applied, or would be if no name were misspelt."""
+        return api in self.applied or api in schema.expand_apis(tuple(self.misspelt.values()))
+
     def providers(self, base: str) -> tuple[str, ...]:
-        """The applied APIs, the base itself aside, that bring that base API along."""
-        return tuple(api for api in self.applied if api != base and base in _includes(api))
+        """The applied APIs that bring that base API along, and that no other provider brings."""
+        providers = [api for api in self.applied if api != base and base in _includes(api)]
+        brought = {api for provider in providers for api in _includes(provider) if api != provider}
+        return tuple(api for api in providers if api not in brought)
 
     @property
-    def third_party(self) -> tuple[str, ...]:
-        """Unregistered APIs that are not a misspelling of one of ours."""
-        return tuple(name for name in self.unregistered if not misspelt_api(name))
+    def doubt(self) -> str:
+        """What to add to the words that something is missing: who else may provide it."""
+        names = ", ".join(map(repr, self.third_party))
+        return f"; {names}, unknown to this USD, may provide this" if names else ""
 
 
 def read_particle_apis(prim: Any, kinds: Kinds) -> ParticleApis:
     """Reads the applied schemas, composed and raw."""
     applied = tuple(dict.fromkeys(kinds.applied(prim)))
-    known = set(applied)
-    unregistered = tuple(
-        name for name in raw_apis(prim) if name not in known and not _is_registered_api(name)
+    unregistered = [
+        name
+        for name in raw_apis(prim)
+        if name not in applied and not is_registered(name.partition(":")[0])
+    ]
+    meant = {name: schema.misspelt_api(name) for name in unregistered}
+    return ParticleApis(
+        applied=applied,
+        third_party=tuple(name for name in unregistered if not meant[name]),
+        misspelt={name: api for name, api in meant.items() if api},
+        built_in_type=prim.GetTypeName() in schema.CONCRETE_TYPES,
     )
-    return ParticleApis(applied, unregistered, prim.GetTypeName() in schema.CONCRETE_TYPES)
-
-
-def misspelt_api(name: str) -> str | None:
-    """The API of UsdVol that an unregistered name was probably meant to be."""
-    return schema.PRE_STANDARD_APIS.get(name) or schema.nearest(name, tuple(schema.API_INCLUDES))
 
 
 def material_is_bound(prim: Any) -> bool:
@@ -62,8 +74,3 @@ def _includes(api: str) -> tuple[str, ...]:
         return schema.API_INCLUDES[api]
     definition = Usd.SchemaRegistry().FindAppliedAPIPrimDefinition(api)
     return tuple(definition.GetAppliedAPISchemas()) if definition else ()
-
-
-def _is_registered_api(name: str) -> bool:
-    family, _, _ = name.partition(":")
-    return bool(Usd.SchemaRegistry.GetTypeFromName(family))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from enum import Enum, auto
+from enum import Enum, StrEnum, auto
 
 
 class AssetState(Enum):
@@ -19,7 +19,7 @@ class AssetState(Enum):
     BROKEN_EXPRESSION = auto()
     """A variable expression that can't be evaluated."""
     UNSET_VARIABLE = auto()
-    """A variable expression with a variable that no layer sets."""
+    """A variable expression with a variable that is not set where it is evaluated."""
     UNVERIFIABLE = auto()
     """A URI that no resolver here answers for."""
     LIVE_SESSION = auto()
@@ -31,6 +31,16 @@ class AssetState(Enum):
     """A value that is no asset path."""
 
 
+class FileFault(StrEnum):
+    """Why something that is there is no readable file with content, in words that follow `is`."""
+
+    FOLDER = "a folder"
+    SPECIAL = "not a regular file"
+    EMPTY = "empty (0 bytes)"
+    UNREADABLE = "not readable"
+    LFS_POINTER = "a Git-LFS pointer, not the file itself"
+
+
 class TargetState(Enum):
     """What one target of a field relationship turns out to be; each has exactly one."""
 
@@ -38,6 +48,8 @@ class TargetState(Enum):
     MISSING = auto()
     UNLOADED = auto()
     """It may lie in a payload that was not loaded."""
+    UNCOMPOSED = auto()
+    """What it is may be said in a layer that does not open, which is a finding by itself."""
     PROPERTY = auto()
     NOT_A_FIELD = auto()
     UNKNOWN_TYPE = auto()

@@ -1,0 +1,17 @@
+"""AST014: the manifest of value clips must declare what the clips hold."""
+
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
+
+
+@rule("AST014", on="FieldAsset", severity=ERROR, since="0.1")
+def clip_manifest_incomplete(field: Prim, facts: Facts) -> Problems:
+    unlisted = facts.unlisted_clips(field, "filePath")
+    if unlisted:
+        yield Problem(
+            f"the clip {unlisted.clip!r} holds filePath, but the manifest {unlisted.manifest!r} "
+            "does not declare it: USD ignores the clips",
+            at=field.GetAttribute("filePath"),
+            spec=unlisted.spec,
+            asset=unlisted.manifest_path,
+            suggestion="write the manifest again, or remove manifestAssetPath: USD then makes one",
+        )

@@ -1,0 +1,19 @@
+"""AST001: a field must name a file at some time."""
+
+from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, rule
+
+
+@rule("AST001", on="FieldAsset", severity=ERROR, since="0.1")
+def file_path_missing(field: Prim, facts: Facts) -> Problems:
+    paths = facts.assets(field, "filePath")
+    if paths.names_a_path or facts.unlisted_clips(field, "filePath"):
+        return
+    if facts.composition.may_lack_values(field):
+        return
+    if paths.of(AssetState.EMPTY):
+        message = "filePath is empty"
+    else:
+        message = "filePath is blocked" if paths.samples else "no filePath"
+    yield Problem(
+        message, at=paths.attribute, suggestion="author the path of the file that holds the field"
+    )

@@ -1,0 +1,24 @@
+"""AST005: what a field names must be a file with content that can be read."""
+
+from usdvol_lint.rule import ERROR, AssetState, Facts, FileFault, Prim, Problem, Problems, rule
+
+_ADVICE = {
+    FileFault.FOLDER: "name a file in it",
+    FileFault.EMPTY: "write it again: this is what a simulation that died leaves behind",
+    FileFault.UNREADABLE: "check its permissions",
+    FileFault.LFS_POINTER: "run `git lfs pull`",
+}
+
+
+@rule("AST005", on="FieldAsset", severity=ERROR, since="0.1")
+def not_a_file(field: Prim, facts: Facts) -> Problems:
+    for found in facts.assets(field, "filePath").by_detail(AssetState.NOT_A_FILE):
+        fault = FileFault(found.first.detail)
+        yield Problem(
+            f"{found.shown} is {fault}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion=_ADVICE.get(fault),
+        )

@@ -1,0 +1,30 @@
+"""AST004: a variable expression must evaluate to a path."""
+
+from usdvol_lint.rule import ERROR, WARNING, AssetState, Facts, Prim, Problem, Problems, rule
+
+
+@rule("AST004", on="FieldAsset", severity=ERROR, since="0.1")
+def path_expression_broken(field: Prim, facts: Facts) -> Problems:
+    paths = facts.assets(field, "filePath")
+    for broken in paths.by_detail(AssetState.BROKEN_EXPRESSION):
+        reason = broken.first.detail[:1].lower() + broken.first.detail[1:]
+        yield Problem(
+            f"the expression {broken.first.authored!r} can't be evaluated: {reason}{broken.count}",
+            at=broken.attribute,
+            times=broken.times,
+            at_default=broken.at_default,
+            asset=broken.first.authored,
+        )
+    for unset in paths.by_detail(AssetState.UNSET_VARIABLE):
+        variables = unset.first.detail
+        yield Problem(
+            f"the expression {unset.first.authored!r} needs a variable that is not set: "
+            f"{variables}{unset.count}",
+            at=unset.attribute,
+            times=unset.times,
+            at_default=unset.at_default,
+            asset=unset.first.authored,
+            suggestion=f"set {variables} in expressionVariables of the root layer; USD does not "
+            "read those of sublayers",
+            severity=WARNING,
+        )

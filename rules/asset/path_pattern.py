@@ -1,0 +1,35 @@
+"""AST003: a path must not hold a placeholder, which USD does not replace."""
+
+from collections.abc import Sequence
+
+from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, rule
+
+_SHOWN = 4
+
+
+@rule("AST003", on="FieldAsset", severity=ERROR, since="0.1")
+def path_pattern(field: Prim, facts: Facts) -> Problems:
+    for found in facts.assets(field, "filePath").by_detail(AssetState.PATTERN):
+        frames = facts.files.frames(found.anchored(), found.first.path)
+        yield Problem(
+            f"no file at {found.shown}: USD does not replace {found.first.detail!r}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion=_time_samples(frames) if frames else _advice(found.first.path),
+        )
+
+
+def _advice(path: str) -> str:
+    if "${" in path:
+        return f'USD replaces variables in an expression alone: @`"{path}"`@'
+    return "write the path out, with a time sample for each frame"
+
+
+def _time_samples(frames: Sequence[tuple[int, str]]) -> str:
+    """The files that are there, as text to paste."""
+    samples = ", ".join(f"{number}: @{path}@" for number, path in frames[:_SHOWN])
+    more = ", …" if len(frames) > _SHOWN else ""
+    files = f"{len(frames)} files" if len(frames) > 1 else "1 file"
+    return f"author filePath.timeSamples = {{ {samples}{more} }} ({files} found)"

@@ -1,0 +1,15 @@
+"""FLD006: a default must not hide the animation of a field's file."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("FLD006", on="FieldAsset", severity=WARNING, since="0.1")
+def default_hides_animation(field: Prim, facts: Facts) -> Problems:
+    hidden = facts.hidden_animation(field, "filePath")
+    if hidden:
+        paths = facts.assets(field, "filePath")
+        yield Problem(
+            f"the default {paths.samples[0].authored!r} holds at all times and hides {hidden}",
+            at=paths.attribute,
+            suggestion="author time samples in its place, or remove it",
+        )

@@ -1,0 +1,15 @@
+"""FLD001: a field must say which of the fields in its file it is."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("FLD001", on="FieldAsset", severity=WARNING, since="0.1")
+def field_name_missing(field: Prim, facts: Facts) -> Problems:
+    name = field.GetAttribute("fieldName")
+    names = {name.Get(), *map(name.Get, name.GetTimeSamples())}
+    if not any(names) and ("" in names or not name.HasAuthoredValue()):
+        yield Problem(
+            "fieldName is empty" if "" in names else "no fieldName",
+            at=name if name.IsAuthored() else field,
+            suggestion="author the name that the field has in its file, such as 'density'",
+        )

@@ -1,0 +1,21 @@
+"""PRT004: a base API only marks what another API must provide."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.schema import API_PROVIDERS, RADIANCE_BASE
+
+
+@rule("PRT004", on="ParticleField", severity=WARNING, since="0.1")
+def base_api_alone(particles: Prim, facts: Facts) -> Problems:
+    apis = facts.apis(particles)
+    if apis.third_party or not apis.built_in_type:
+        return
+    for base, providers in API_PROVIDERS.items():
+        if base not in apis.applied or apis.providers(base) or any(map(apis.has, providers)):
+            continue
+        if base == RADIANCE_BASE and facts.material_is_bound(particles):
+            continue
+        yield Problem(
+            f"{base!r} is applied, but nothing that provides its data",
+            at=particles,
+            suggestion=f"apply {' or '.join(providers)} in its place",
+        )

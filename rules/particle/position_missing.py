@@ -1,0 +1,17 @@
+"""PRT001: a particle field must say where its particles are."""
+
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.schema import POSITION_BASE
+
+
+@rule("PRT001", on="ParticleField", severity=ERROR, since="0.1")
+def position_missing(particles: Prim, facts: Facts) -> Problems:
+    apis = facts.apis(particles)
+    if not apis.has(POSITION_BASE):
+        yield Problem(
+            f"no applied API provides positions{apis.doubt}",
+            at=particles,
+            severity=WARNING if apis.third_party else None,
+            suggestion="apply ParticleFieldPositionAttributeAPI, or use the type "
+            "ParticleField3DGaussianSplat, which has it built in",
+        )

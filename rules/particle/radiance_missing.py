@@ -1,0 +1,19 @@
+"""PRT003: a particle field must say how its particles look."""
+
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.schema import RADIANCE_BASE
+
+
+@rule("PRT003", on="ParticleField", severity=ERROR, since="0.1")
+def radiance_missing(particles: Prim, facts: Facts) -> Problems:
+    apis = facts.apis(particles)
+    if apis.has(RADIANCE_BASE):
+        return
+    bound = facts.material_is_bound(particles)
+    material = "; the bound material serves only renderers that prefer it" if bound else ""
+    yield Problem(
+        f"no applied API provides radiance{material}{apis.doubt}",
+        at=particles,
+        severity=WARNING if bound or apis.third_party else None,
+        suggestion="apply ParticleFieldSphericalHarmonicsAttributeAPI",
+    )

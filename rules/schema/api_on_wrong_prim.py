@@ -1,0 +1,21 @@
+"""SCH010: the APIs of particle fields belong on particle fields."""
+
+from usdvol_lint.rule import ERROR, UNKNOWN_TYPE, Facts, NotChecked, Prim, Problem, Problems, rule
+from usdvol_lint.schema import PARTICLE_FIELD, PARTICLE_FIELD_ONLY_APIS, misspelt_type
+
+
+@rule("SCH010", on=PARTICLE_FIELD_ONLY_APIS, severity=ERROR, since="0.1")
+def api_on_wrong_prim(prim: Prim, facts: Facts) -> Problems:
+    if facts.is_a(prim, PARTICLE_FIELD):
+        return
+    type_name = prim.GetTypeName()
+    applied = [api for api in facts.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS]
+    names = ", ".join(map(repr, applied))
+    if not facts.is_a(prim, UNKNOWN_TYPE):
+        yield Problem(
+            f"{names} on {type_name!r}" if type_name else f"{names} on a prim without a type",
+            at=prim,
+            suggestion="make the type ParticleField or ParticleField3DGaussianSplat",
+        )
+    elif not misspelt_type(type_name):
+        yield NotChecked(f"{names} on {type_name!r}, a type this USD does not know", at=prim)

@@ -1,0 +1,19 @@
+"""SCH011: volumes and splats in encodings from before the schema are none to other readers."""
+
+from usdvol_lint.rule import UNKNOWN_TYPE, WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule(
+    "SCH011",
+    on=(UNKNOWN_TYPE, "Points", "ParticleField", "Volume"),
+    severity=WARNING,
+    since="0.1",
+)
+def pre_standard_encoding(prim: Prim, facts: Facts) -> Problems:
+    encoding = facts.encoding(prim)
+    if encoding:
+        yield Problem(
+            f"{encoding.sign} is not UsdVol: {encoding.origin}",
+            at=prim,
+            suggestion=encoding.advice,
+        )

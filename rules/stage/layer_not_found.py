@@ -1,0 +1,38 @@
+"""STG001: every layer that the stage names must open."""
+
+from usdvol_lint.rule import ERROR, STAGE, Facts, NotChecked, Prim, Problem, Problems, rule
+
+_NAMED = 3
+
+
+@rule("STG001", on=STAGE, severity=ERROR, since="0.1")
+def layer_not_found(root: Prim, facts: Facts) -> Problems:
+    for missing in facts.composition.missing_layers:
+        layer = f"the {missing.arc} {missing.asset!r}"
+        where = f" (on {len(missing.prims)} prims)" if len(missing.prims) > 1 else ""
+        if missing.is_uri:
+            yield NotChecked(
+                f"no resolver here answers for {layer}, what it holds was not checked{where}",
+                at=missing.prim,
+                spec=missing.spec,
+                asset=missing.asset,
+            )
+            continue
+        reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"
+        absence = facts.files.absence(missing.path, missing.asset)
+        similar = None if missing.reason else absence.similar
+        yield Problem(
+            f"{layer} {reason}; what it holds was not checked{where}",
+            at=missing.prim,
+            spec=missing.spec,
+            asset=missing.asset,
+            suggestion=f"did you mean {similar!r}?" if similar else None,
+        )
+    unloaded = [str(prim.GetPath()) for prim in facts.composition.unloaded]
+    if unloaded:
+        more = ", …" if len(unloaded) > _NAMED else ""
+        yield NotChecked(
+            f"{len(unloaded)} payload{'s' * (len(unloaded) > 1)} not loaded, what is below was not "
+            f"checked: {', '.join(unloaded[:_NAMED])}{more}",
+            at=root,
+        )

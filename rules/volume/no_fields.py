@@ -1,0 +1,20 @@
+"""VOL010: a Volume without fields shows nothing, unless a renderer fills it by other means."""
+
+from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("VOL010", on="Volume", severity=WARNING, since="0.1")
+def no_fields(volume: Prim, facts: Facts) -> Problems:
+    fields = facts.fields(volume)
+    if fields.bindings or fields.strays:
+        return
+    unbound = facts.unbound_fields(volume)
+    if not unbound:
+        yield Problem("the Volume has no field", at=volume, severity=INFO)
+        return
+    names = [str(field.GetPath().MakeRelativePath(volume.GetPath())) for field in unbound]
+    yield Problem(
+        f"the Volume has no field, though there is {', '.join(map(repr, names))} below it",
+        at=volume,
+        suggestion=f"add 'rel field:{unbound[0].GetName()} = <{names[0]}>'",
+    )

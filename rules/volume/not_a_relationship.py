@@ -1,0 +1,24 @@
+"""VOL006: a field must be bound by a relationship in the `field:` namespace."""
+
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("VOL006", on="Volume", severity=ERROR, since="0.1")
+def not_a_relationship(volume: Prim, facts: Facts) -> Problems:
+    fields = facts.fields(volume)
+    for binding in fields.bindings:
+        if not binding.is_relationship:
+            yield Problem(
+                f"'field:{binding.name}' is an attribute, not a relationship",
+                at=binding.property,
+                suggestion=f"write 'rel field:{binding.name} = <path of the field prim>'",
+            )
+    for stray in fields.strays:
+        name = stray.GetName()
+        wanted = "<name>" if name == "field" else stray.GetBaseName()
+        yield Problem(
+            f"the relationship {name!r} is outside the 'field:' namespace, so it binds no field",
+            at=stray,
+            severity=WARNING,
+            suggestion=f"name it 'field:{wanted}'",
+        )

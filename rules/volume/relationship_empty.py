@@ -1,0 +1,24 @@
+"""VOL003: a field relationship must have a target."""
+
+from usdvol_lint.rule import INFO, WARNING, Emptiness, Facts, Prim, Problem, Problems, rule
+
+
+@rule("VOL003", on="Volume", severity=WARNING, since="0.1")
+def relationship_empty(volume: Prim, facts: Facts) -> Problems:
+    for binding in facts.fields(volume).relationships:
+        if binding.emptiness is Emptiness.UNAUTHORED:
+            meant = facts.meant_field(binding)
+            behind = f" behind <{binding.forwards_to}>" if binding.forwards_to else ""
+            yield Problem(
+                f"'field:{binding.name}' has no target{behind}",
+                at=binding.property,
+                suggestion=f"did you mean <{meant}>?" if meant else "name a field, or remove it",
+            )
+        elif binding.emptiness in (Emptiness.BLOCKED, Emptiness.DELETED):
+            yield Problem(
+                f"'field:{binding.name}' has no target, since a stronger opinion takes it away"
+                if binding.emptiness is Emptiness.DELETED
+                else f"'field:{binding.name}' is authored to have no target",
+                at=binding.property,
+                severity=INFO,
+            )

@@ -1,0 +1,14 @@
+"""VOL005: a field relationship must target a prim, not one of its properties."""
+
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, rule
+
+
+@rule("VOL005", on="Volume", severity=ERROR, since="0.1")
+def target_is_a_property(volume: Prim, facts: Facts) -> Problems:
+    for binding, target in facts.fields(volume).with_target(TargetState.PROPERTY):
+        meant = facts.meant_field(binding)
+        yield Problem(
+            f"'field:{binding.name}' targets the property <{target.shown}>, not a field prim",
+            at=binding.property,
+            suggestion=f"target the prim <{meant}>" if meant else "target the field prim",
+        )

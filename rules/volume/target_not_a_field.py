@@ -1,0 +1,27 @@
+"""VOL002: a field relationship must target a field."""
+
+from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, rule
+from usdvol_lint.schema import misspelt_type
+
+
+@rule("VOL002", on="Volume", severity=ERROR, since="0.1")
+def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
+    bindings = facts.fields(volume)
+    for binding, target in bindings.with_target(TargetState.NOT_A_FIELD):
+        type_name = target.prim.GetTypeName()
+        meant = facts.meant_field(binding)
+        advice = None if type_name else "give it a type, such as 'OpenVDBAsset'"
+        yield Problem(
+            f"'field:{binding.name}' targets <{target.shown}>, which "
+            + (f"is of type {type_name!r}, not a field" if type_name else "has no type"),
+            at=binding.property,
+            suggestion=f"did you mean <{meant}>?" if meant else advice,
+        )
+    for binding, target in bindings.with_target(TargetState.UNKNOWN_TYPE):
+        type_name = target.prim.GetTypeName()
+        if not misspelt_type(type_name) and not facts.encoding(target.prim):
+            yield NotChecked(
+                f"'field:{binding.name}' targets <{target.shown}> of type {type_name!r}, which no "
+                "installed plugin declares",
+                at=binding.property,
+            )

@@ -1,0 +1,21 @@
+"""VOL008: the target of a field relationship must be active, defined and concrete."""
+
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, rule
+
+_WHY = {
+    TargetState.INACTIVE: ("inactive", "activate <{}>"),
+    TargetState.OVER: ("an 'over' that nothing defines", "define <{}> with 'def'"),
+    TargetState.ABSTRACT: ("an abstract 'class'", "target a prim that inherits <{}>"),
+}
+
+
+@rule("VOL008", on="Volume", severity=ERROR, since="0.1")
+def target_not_live(volume: Prim, facts: Facts) -> Problems:
+    for binding, target in facts.fields(volume).with_target(*_WHY):
+        what, advice = _WHY[target.state]
+        below = "" if target.culprit == target.shown else f" below <{target.culprit}>"
+        yield Problem(
+            f"'field:{binding.name}' targets <{target.shown}>{below}, which is {what}",
+            at=binding.property,
+            suggestion=advice.format(target.culprit),
+        )

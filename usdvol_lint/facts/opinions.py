@@ -1,0 +1,27 @@
+"""Which spec holds the value that USD gives for an attribute."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from pxr import Usd
+
+
+class Opinion(NamedTuple):
+    """A spec that holds a value, and the offset from its layer's time to the stage's."""
+
+    spec: Any
+    offset: Any
+
+
+def opinion(attribute: Any, time: float | None) -> Opinion | None:
+    """The opinion that counts at a time code of the stage; None stands for the default time.
+
+    Stronger specs may hold only metadata, and time samples say nothing of the default.
+    """
+    code = Usd.TimeCode.Default() if time is None else time
+    kinds = ("default",) if time is None else ("timeSamples", "default", "spline")
+    for spec, offset in attribute.GetPropertyStackWithLayerOffsets(code):
+        if any(spec.HasInfo(kind) for kind in kinds):
+            return Opinion(spec, offset)
+    return None

@@ -1,0 +1,51 @@
+"""Placeholders in paths that USD does not replace, and the files that they stand for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import NamedTuple
+
+_MARK = re.compile(r"[$%#@<{*`]")
+_FRAME = re.compile(
+    r"""
+      \$\{S?FF?\d*\}  | \$S?FF?(?P<houdini>\d*)(?![A-Za-z_])          # $F, $F4, ${F4}, $SF, $FF
+    | %0?(?P<printf>\d*)d(?![a-z])                                     # %d, %04d
+    | \#{2,} | (?<![A-Za-z0-9])\#(?![A-Za-z0-9])                       # ####
+    | @{2,}                                                            # @@@
+    | <(?:frame|f)(?P<renderman>\d*)>                                  # <f>, <f4>, <frame>
+    | \{frame(?::0?(?P<python>\d*)d?)?\}                               # {frame}, {frame:04d}
+    """,
+    re.VERBOSE | re.IGNORECASE,
+)
+_OTHER = re.compile(
+    r"<(?:UDIM|UVTILE)>|%\(UDIM\)d|\$\{[A-Za-z_]\w*\}|\$[A-Za-z_]\w*|[*]|`[^`]*`", re.IGNORECASE
+)
+
+
+class Frame(NamedTuple):
+    """A file that a pattern stands for: its frame number and its name."""
+
+    number: int
+    name: str
+
+
+def find_pattern(path: str) -> str | None:
+    """The first placeholder in a path, as written; None if it has none."""
+    if not _MARK.search(path):
+        return None
+    found = _FRAME.search(path) or _OTHER.search(path)
+    return found.group() if found else None
+
+
+def matching_frames(pattern: str, names: Iterable[str]) -> list[Frame]:
+    """The names that a file name with a frame placeholder stands for, by their frame numbers."""
+    found = _FRAME.search(pattern)
+    if found is None:
+        return []
+    width = int(next((digits for digits in found.groups() if digits), 0))
+    width = width or (len(found.group()) if found.group()[0] in "#@" else 1)
+    before, after = map(re.escape, (pattern[: found.start()], pattern[found.end() :]))
+    name_of = re.compile(rf"{before}(-?\d{{{width},}}){after}")
+    matches = map(name_of.fullmatch, names)
+    return sorted(Frame(int(match[1]), match[0]) for match in matches if match)
