@@ -6,9 +6,11 @@ import sys
 from pathlib import Path
 
 from usdvol_lint.catalog import Catalog, load
+from usdvol_lint.cli import help_text
 
 ROOT = Path(__file__).parent.parent
 RULES = ROOT / "rules"
+HELP = ROOT / "usdvol_lint" / "help.txt"
 
 
 def rule_index(catalog: Catalog) -> str:
@@ -38,7 +40,7 @@ def rule_index(catalog: Catalog) -> str:
 
 def main(arguments: list[str]) -> int:
     """Writes every generated file; with --check only says which are out of date."""
-    generated = {RULES / "README.md": rule_index(load())}
+    generated = {RULES / "README.md": rule_index(load()), HELP: help_text()}
     stale = [
         path
         for path, text in generated.items()
