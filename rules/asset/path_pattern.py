@@ -24,7 +24,7 @@ def path_pattern(field: Prim, facts: Facts) -> Problems:
 def _advice(path: str) -> str:
     if "${" in path:
         return f'USD replaces variables in an expression alone: @`"{path}"`@'
-    return "write the path out, with a time sample for each frame"
+    return "name one file, or author a time sample for each frame"
 
 
 def _time_samples(frames: Sequence[tuple[int, str]]) -> str:

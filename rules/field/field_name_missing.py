@@ -7,7 +7,9 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 def field_name_missing(field: Prim, facts: Facts) -> Problems:
     name = field.GetAttribute("fieldName")
     names = {name.Get(), *map(name.Get, name.GetTimeSamples())}
-    if not any(names) and ("" in names or not name.HasAuthoredValue()):
+    if any(names) or ("" not in names and name.HasAuthoredValue()):
+        return
+    if not facts.composition.may_lack_values(field):
         yield Problem(
             "fieldName is empty" if "" in names else "no fieldName",
             at=name if name.IsAuthored() else field,

@@ -7,12 +7,15 @@ from usdvol_lint.schema import KERNEL_BASE
 @rule("PRT002", on="ParticleField", severity=ERROR, since="0.1")
 def kernel_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.apis(particles)
-    if not apis.has(KERNEL_BASE):
+    if KERNEL_BASE not in apis.applied:
         yield Problem(
             f"no applied API provides a kernel{apis.doubt}",
             at=particles,
             severity=WARNING if apis.third_party else None,
-            suggestion="apply ParticleFieldKernelGaussianEllipsoidAPI for splats with depth, "
-            "ParticleFieldKernelGaussianSurfletAPI or ParticleFieldKernelConstantSurfletAPI for "
-            "flat ones",
+            suggestion=apis.remedy(
+                KERNEL_BASE,
+                "apply ParticleFieldKernelGaussianEllipsoidAPI for splats with depth, "
+                "ParticleFieldKernelGaussianSurfletAPI or ParticleFieldKernelConstantSurfletAPI "
+                "for flat ones",
+            ),
         )

@@ -7,11 +7,14 @@ from usdvol_lint.schema import POSITION_BASE
 @rule("PRT001", on="ParticleField", severity=ERROR, since="0.1")
 def position_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.apis(particles)
-    if not apis.has(POSITION_BASE):
+    if POSITION_BASE not in apis.applied:
         yield Problem(
             f"no applied API provides positions{apis.doubt}",
             at=particles,
             severity=WARNING if apis.third_party else None,
-            suggestion="apply ParticleFieldPositionAttributeAPI, or use the type "
-            "ParticleField3DGaussianSplat, which has it built in",
+            suggestion=apis.remedy(
+                POSITION_BASE,
+                "apply ParticleFieldPositionAttributeAPI, or use the type "
+                "ParticleField3DGaussianSplat, which has it built in",
+            ),
         )

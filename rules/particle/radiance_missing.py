@@ -7,7 +7,7 @@ from usdvol_lint.schema import RADIANCE_BASE
 @rule("PRT003", on="ParticleField", severity=ERROR, since="0.1")
 def radiance_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.apis(particles)
-    if apis.has(RADIANCE_BASE):
+    if RADIANCE_BASE in apis.applied:
         return
     bound = facts.material_is_bound(particles)
     material = "; the bound material serves only renderers that prefer it" if bound else ""
@@ -15,5 +15,7 @@ def radiance_missing(particles: Prim, facts: Facts) -> Problems:
         f"no applied API provides radiance{material}{apis.doubt}",
         at=particles,
         severity=WARNING if bound or apis.third_party else None,
-        suggestion="apply ParticleFieldSphericalHarmonicsAttributeAPI",
+        suggestion=apis.remedy(
+            RADIANCE_BASE, "apply ParticleFieldSphericalHarmonicsAttributeAPI"
+        ),
     )

@@ -13,7 +13,7 @@ def pre_standard_encoding(prim: Prim, facts: Facts) -> Problems:
     encoding = facts.encoding(prim)
     if encoding:
         yield Problem(
-            f"{encoding.sign} is not UsdVol: {encoding.origin}",
+            f"not UsdVol but {encoding.origin} ({encoding.sign})",
             at=prim,
             suggestion=encoding.advice,
         )

@@ -7,7 +7,7 @@ from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rul
 def empty_stage(root: Prim, facts: Facts) -> Problems:
     layers = facts.stage.GetLayerStack(False)
     if not any(layer.rootPrims for layer in layers) and not facts.composition.missing_layers:
-        sublayers = f", nor in its {len(layers) - 1} sublayers" if len(layers) > 1 else ""
+        sublayers = ", nor in its sublayers" if len(layers) > 1 else ""
         yield Problem(
             f"no prims at all in this layer{sublayers}",
             at=root,

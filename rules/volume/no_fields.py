@@ -6,7 +6,7 @@ from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
 @rule("VOL010", on="Volume", severity=WARNING, since="0.1")
 def no_fields(volume: Prim, facts: Facts) -> Problems:
     fields = facts.fields(volume)
-    if fields.bindings or fields.strays:
+    if fields.bindings or fields.strays or facts.composition.may_lack(volume):
         return
     unbound = facts.unbound_fields(volume)
     if not unbound:

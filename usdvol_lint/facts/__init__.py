@@ -170,7 +170,8 @@ class Facts:
         """What USD could not compose."""
         from usdvol_lint.facts.composition import read_composition
 
-        subjects = [*self.of(schema.FIELD), *self.of(schema.VOLUME), *self.of(schema.PARTICLE_FIELD)]
+        names = (schema.FIELD, schema.VOLUME, schema.PARTICLE_FIELD)
+        subjects = [prim for name in names for prim in self.of(name)]
         clip_sets = dict.fromkeys(found for prim in subjects for found in self.clip_sets(prim))
         return read_composition(self.stage, clip_sets)
 

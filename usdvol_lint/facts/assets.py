@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -15,7 +16,7 @@ from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.instances import shown
 from usdvol_lint.facts.opinions import opinion
 from usdvol_lint.facts.patterns import find_pattern
-from usdvol_lint.facts.states import AssetState
+from usdvol_lint.facts.states import AssetState, FileFault
 from usdvol_lint.model import frame_ranges
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
@@ -62,11 +63,11 @@ class AssetSamples:
     def by_detail(self, *states: AssetState) -> Iterator[Affected]:
         """The samples in one of these states, apart for each detail."""
         found = self.of(*states)
-        details = dict.fromkeys(sample.detail for sample in found.samples) if found else ()
-        for detail in details:
-            assert found
-            samples = tuple(sample for sample in found.samples if sample.detail == detail)
-            yield replace(found, samples=samples)
+        if found:
+            apart: dict[str, list[Sample]] = defaultdict(list)
+            for sample in found.samples:
+                apart[sample.detail].append(sample)
+            yield from (replace(found, samples=tuple(samples)) for samples in apart.values())
 
     @property
     def names_a_path(self) -> bool:
@@ -119,7 +120,8 @@ class Affected:
         words = [f"{len(times)} of {self.total} samples"]
         authored = self._authored_times()
         if authored != times:
-            words.append(f"authored as frames {frame_ranges(authored)}")
+            frames = "frame" if len(authored) == 1 else "frames"
+            words.append(f"authored as {frames} {frame_ranges(authored)}")
         layers = self._layers()
         if len(layers) > 1:
             more = f" and {len(layers) - _LAYERS_NAMED} more" if len(layers) > _LAYERS_NAMED else ""
@@ -236,6 +238,8 @@ def _classify(attribute: Any, time: float | None, value: Any, files: Files) -> S
     if _FORMAT_ARGUMENTS in path:
         resolved = _resolved_without_arguments(attribute, time, path)
     fault = files.fault(resolved) if resolved else None
+    if fault is FileFault.BROKEN_LINK:
+        resolved, fault = "", None  # USD takes a link for a file, wherever it leads
     if resolved and not fault:
         return Sample(time, authored_path(value) or path, path, resolved, AssetState.FILE)
     authored = authored_path(value) or _authored_in_layer(attribute, time) or path
@@ -250,10 +254,13 @@ def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
     if held is None:
         return None
     spec, offset = held
-    if time is None:
-        value = spec.default
-    else:
-        value = spec.layer.QueryTimeSample(spec.path, offset.GetInverse() * time) or spec.default
+    value = None
+    if time is not None:
+        there = offset.GetInverse() * time
+        _, *around = spec.layer.GetBracketingTimeSamplesForPath(spec.path, there)
+        nearest = min(around, key=lambda sample: abs(sample - there))
+        value = spec.layer.QueryTimeSample(spec.path, nearest)
+    value = value or spec.default
     return str(value.path) if isinstance(value, Sdf.AssetPath) else None
 
 

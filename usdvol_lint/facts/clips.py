@@ -87,13 +87,21 @@ def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
         prim_path = api.GetClipPrimPath(name)
         if prim_path and Sdf.Path.IsValidPathString(prim_path):
             manifest = api.GetClipManifestAssetPath(name)
-            paths = tuple(api.ComputeClipAssetPaths(name) or ())
+            paths = _clip_paths(api, name)
             named = manifest is not None and bool(manifest.path)
             template = None if api.GetClipAssetPaths(name) else api.GetClipTemplateAssetPath(name)
             found.append(
                 ClipSet(prim, name, prim_path, paths, manifest if named else None, template or None)
             )
     return tuple(found)
+
+
+def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
+    try:
+        return tuple(api.ComputeClipAssetPaths(name) or ())
+    except Tf.ErrorException:
+        # So USD answers where a template fits no file, and for a set that it can't use.
+        return ()
 
 
 class Clips:

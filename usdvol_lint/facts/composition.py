@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from pxr import Pcp, Sdf, Tf
+from pxr import Pcp, Sdf, Tf, Usd
 
 from usdvol_lint.facts.assets import is_uri
 from usdvol_lint.facts.clips import ClipSet, authored_path
@@ -115,8 +115,6 @@ def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
             missing[unopened].append(prim)
         else:
             errors[_as_sentence(text), _blamed_spec(text)].append(prim)
-    loaded = set(stage.GetLoadSet())
-    unloaded = (path for path in stage.FindLoadable() if path not in loaded)
     return Composition(
         tuple(sorted((_missing_layer(*item) for item in missing.items()), key=_missing_order)),
         tuple(
@@ -125,8 +123,15 @@ def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
                 key=lambda error: (str(error.prim.GetPath()), error.message),
             )
         ),
-        tuple(stage.GetPrimAtPath(path) for path in sorted(unloaded)),
+        _unloaded_prims(stage),
     )
+
+
+def _unloaded_prims(stage: Any) -> tuple[Any, ...]:
+    if stage.GetLoadRules() == Usd.StageLoadRules.LoadAll():
+        return ()  # to find what can be loaded, USD would traverse the whole stage once more
+    loadable = map(stage.GetPrimAtPath, sorted(stage.FindLoadable()))
+    return tuple(prim for prim in loadable if prim and not prim.IsLoaded())
 
 
 class _Arc(NamedTuple):
@@ -161,6 +166,7 @@ def _missing_arc(text: str) -> _Arc | None:
     words, reason, *_ = [*text.partition(" -- ")[::2], ""]
     arc = next(arc for arc in _ARCS if f" {arc} " in _QUOTED.sub("", words))
     reason = reason.removesuffix("; skipping.").replace(f"<{resolved}>", "it")
+    reason = reason.replace(resolved, display(resolved))
     return _Arc(arc, _authored(spec, resolved), resolved, spec, _one_line(reason).rstrip("."))
 
 

@@ -83,11 +83,15 @@ def recognise(prim: Any) -> Encoding | None:
 
 def _by_properties(prim: Any, known: _Fingerprints) -> Encoding | None:
     names = prim.GetAuthoredPropertyNames()
-    text = "\n".join(["", *names])
+    text = " ".join(names)
     for beginnings, encoding in known.items():
-        if all(f"\n{beginning}" in text for beginning in beginnings):
+        if beginnings[0] in text and all(_begins(names, beginning) for beginning in beginnings):
             if any(child.GetTypeName() in _BY_TYPE for child in prim.GetChildren()):
                 return None  # the field prims below say it
             first = next(name for name in names if name.startswith(beginnings[0]))
             return replace(encoding, sign=f"property {first!r}")
     return None
+
+
+def _begins(names: list[str], beginning: str) -> bool:
+    return any(name.startswith(beginning) for name in names)

@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any, NamedTuple, TypeAlias
 
-from pxr import Ar
+from pxr import Ar, Sdf
 
 from usdvol_lint.facts.patterns import matching_frames
 from usdvol_lint.facts.states import FileFault
@@ -64,6 +64,7 @@ class Files:
 
     def absence(self, path: str, authored: str) -> Absence:
         """What is known of an absolute path where nothing is; `authored` is how it was written."""
+        authored, _ = Sdf.Layer.SplitIdentifier(authored)
         if Ar.IsPackageRelativePath(path):
             package, inner = Ar.SplitPackageRelativePathOuter(path)
             similar = self._nearest(package, inner)
@@ -112,7 +113,7 @@ def file_fault(path: str) -> str | None:
     try:
         status = os.stat(path)
     except OSError:
-        return FileFault.UNREADABLE
+        return FileFault.BROKEN_LINK if os.path.islink(path) else FileFault.UNREADABLE
     if stat.S_ISDIR(status.st_mode):
         return FileFault.FOLDER
     if not stat.S_ISREG(status.st_mode):

@@ -37,6 +37,13 @@ class ParticleApis:
         brought = {api for provider in providers for api in _includes(provider) if api != provider}
         return tuple(api for api in providers if api not in brought)
 
+    def remedy(self, base: str, otherwise: str) -> str:
+        """How to get a missing base API: by spelling an API right, or else as the rule says."""
+        for name, meant in self.misspelt.items():
+            if base in schema.expand_apis((meant,)):
+                return f"write {meant!r} for {name!r}"
+        return otherwise
+
     @property
     def doubt(self) -> str:
         """What to add to the words that something is missing: who else may provide it."""

@@ -36,8 +36,9 @@ class FileFault(StrEnum):
 
     FOLDER = "a folder"
     SPECIAL = "not a regular file"
-    EMPTY = "empty (0 bytes)"
+    EMPTY = "a file of 0 bytes"
     UNREADABLE = "not readable"
+    BROKEN_LINK = "a symbolic link that leads nowhere"
     LFS_POINTER = "a Git-LFS pointer, not the file itself"
 
 

@@ -1,0 +1,74 @@
+"""Runs the tool as users do: a real process, in a folder that is not the checkout."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).parent.parent
+PACKS = Path(__file__).parent / "packs"
+STUDIO = PACKS / "studio"
+"""A pack with rules that report the same whatever rules are built in."""
+ROUGH = PACKS / "rough"
+"""A pack that crashes, hangs, ends the process or raises, as the name of a prim says."""
+TIMEOUT = 120
+PROGRAM = [sys.executable, "-P", "-m", "usdvol_lint"]
+_TAKEN_OVER = ("PATH", "SYSTEMROOT", "TEMP", "TMP", "TMPDIR", "HOME", "USERPROFILE", "LANG")
+
+
+@dataclass(frozen=True)
+class Ran:
+    """What came of a run."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.out)
+
+
+def environment(**changes: str) -> dict[str, str]:
+    """What the tool sees of the world: nothing that changes its colours or its imports."""
+    kept = {name: os.environ[name] for name in _TAKEN_OVER if name in os.environ}
+    return {**kept, "PYTHONPATH": str(ROOT), **changes}
+
+
+def run(*arguments: str | Path, cwd: Path, env: dict[str, str] | None = None) -> Ran:
+    """Runs the tool; only `--verbose` may show a traceback, whatever happens."""
+    done = subprocess.run(
+        [*PROGRAM, *map(str, arguments)],
+        cwd=cwd,
+        env=env or environment(),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        timeout=TIMEOUT,
+        check=False,
+    )
+    ran = Ran(done.returncode, _text(done.stdout), _text(done.stderr))
+    if "--verbose" not in arguments:
+        assert "Traceback" not in ran.out + ran.err, ran.out + ran.err
+    return ran
+
+
+def _text(data: bytes) -> str:
+    return data.decode("utf-8").replace("\r\n", "\n")
+
+
+def volume(name: str) -> str:
+    """A stage with one Volume of that name."""
+    return f'#usda 1.0\ndef Volume "{name}"\n{{\n}}\n'
+
+
+def write(folder: Path, **texts: str) -> Path:
+    """Stages by name, in a folder that is made if need be."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in texts.items():
+        (folder / f"{name}.usda").write_text(text, encoding="utf-8", newline="\n")
+    return folder

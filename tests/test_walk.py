@@ -1,0 +1,190 @@
+"""The walk meets every live prim once, and hands each to the rules that asked for it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from pxr import Usd
+
+from usdvol_lint.engine import Engine
+from usdvol_lint.facts.kinds import Kinds
+from usdvol_lint.model import Severity
+from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
+from usdvol_lint.walk import assign, walk
+
+
+def asks(code: str, *on: str) -> Rule:
+    return Rule(code, code.lower(), on, Severity.INFO, "1", lambda prim, facts: iter(()), {})
+
+
+def write_stage(folder: Path, text: str, **layers: str) -> str:
+    for name, layer in layers.items():
+        (folder / f"{name}.usda").write_text(f"#usda 1.0\n{layer}", encoding="utf-8")
+    path = folder / "stage.usda"
+    path.write_text(f"#usda 1.0\n{text}", encoding="utf-8")
+    return str(path)
+
+
+def walked(
+    folder: Path, text: str, load: object = Usd.Stage.LoadAll, **layers: str
+) -> tuple[int, list[str]]:
+    """How many prims there are, and which of them a rule for Volumes gets.
+
+    Those in a prototype are named by where they are in it.
+    """
+    stage = Usd.Stage.Open(write_stage(folder, text, **layers), load)
+    result = walk(stage, [asks("ONE001", "Volume")], Kinds())
+    kept = [prim for prims in result.kept.values() for prim in prims]
+    return result.prims, sorted(map(_path, kept))
+
+
+def _path(prim: Usd.Prim) -> str:
+    return f"prototype{_below(prim)}" if prim.IsInPrototype() else str(prim.GetPath())
+
+
+def _below(prim: Usd.Prim) -> str:
+    prototype = prim
+    while not prototype.IsPrototype():
+        prototype = prototype.GetParent()
+    return str(prim.GetPath())[len(str(prototype.GetPath())) :]
+
+
+LIVE = 'def Volume "live"\n{\n}\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "prims", "kept"),
+    [
+        ("", 0, []),
+        (LIVE, 1, ["/live"]),
+        (f'def Xform "a"\n{{\n{LIVE}}}\n', 2, ["/a/live"]),
+        (f'def "untyped"\n{{\n{LIVE}}}\n', 2, ["/untyped/live"]),
+        (f'class "library"\n{{\n{LIVE}}}\n', 0, []),
+        (f'class Volume "library"\n{{\n}}\n{LIVE}', 1, ["/live"]),
+        (f'over "nowhere"\n{{\n{LIVE}}}\n', 0, []),
+        (f'def Xform "off" (\n    active = false\n)\n{{\n{LIVE}}}\n', 0, []),
+        (
+            f'def Xform "a"\n{{\n{LIVE}def Volume "off" (active = false)\n{{\n}}\n}}\n',
+            2,
+            ["/a/live"],
+        ),
+        ('def Volume "a"\n{\n    def Volume "b"\n    {\n    }\n}\n', 2, ["/a", "/a/b"]),
+    ],
+)
+def test_live_prims(text: str, prims: int, kept: list[str], tmp_path: Path) -> None:
+    assert walked(tmp_path, text) == (prims, kept)
+
+
+CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'
+INSTANCE = 'def "{}" (\n    instanceable = true\n    references = @./lib.usda@</{}>\n)\n{{\n}}\n'
+
+
+def test_instances_are_walked_once(tmp_path: Path) -> None:
+    text = "".join(INSTANCE.format(f"i{n}", "cloud") for n in range(50))
+    assert walked(tmp_path, text, lib=CLOUD) == (52, ["prototype/thick"])
+
+
+def test_instances_inside_instances_are_walked_once(tmp_path: Path) -> None:
+    sky = 'def Xform "sky"\n{\n' + INSTANCE.format("left", "cloud") + "}\n"
+    text = "".join(INSTANCE.format(f"i{n}", "sky") for n in range(5))
+    assert walked(tmp_path, text, lib=CLOUD + sky) == (9, ["prototype/thick"])
+
+
+def test_payloads(tmp_path: Path) -> None:
+    text = f'def "far" (\n    payload = @./lib.usda@</cloud>\n)\n{{\n}}\n{LIVE}'
+    assert walked(tmp_path, text, lib=CLOUD) == (3, ["/far/thick", "/live"])
+    assert walked(tmp_path, text, Usd.Stage.LoadNone, lib=CLOUD) == (1, ["/live"])
+
+
+def test_more_prims_than_are_read_at_a_time(tmp_path: Path) -> None:
+    names = [f"v{n}" for n in range(1000)]
+    text = "".join(f'def Volume "{name}"\n{{\n}}\n' for name in names)
+    assert walked(tmp_path, text) == (1000, sorted(f"/{name}" for name in names))
+
+
+def test_rules_get_what_they_asked_for(tmp_path: Path) -> None:
+    stage = Usd.Stage.Open(
+        write_stage(
+            tmp_path,
+            """
+def Volume "volume" (
+    prepend apiSchemas = ["CollectionAPI:lights", "MaterialBindingAPI"]
+)
+{
+}
+def OpenVDBAsset "vdb"
+{
+}
+def Field3DAsset "f3d"
+{
+}
+def FieldAsset "abstract"
+{
+}
+def Nonsense "unknown"
+{
+}
+def "untyped"
+{
+}
+def Sphere "ball"
+{
+}
+""",
+        )
+    )
+    asked = [
+        ("Volume", "volume"),
+        ("Gprim", "ball volume"),
+        ("Xformable", "ball f3d vdb volume"),
+        ("FieldAsset", "f3d vdb"),
+        ("FieldBase", "f3d vdb"),
+        ("VolumeFieldBase", "f3d vdb"),
+        ("OpenVDBAsset", "vdb"),
+        ("MaterialBindingAPI", "volume"),
+        (UNKNOWN_TYPE, "unknown"),
+        (ABSTRACT_TYPE, "abstract"),
+        (STAGE, ""),
+        ("Camera", ""),
+    ]
+    rules = [asks(name, name) for name, _ in asked]
+    rules.append(asks("TWO001", "Volume", "Gprim", "MaterialBindingAPI"))
+    kinds = Kinds()
+    pairs = Counter(
+        (rule.code, prim.GetName())
+        for rule, prim in assign(walk(stage, rules, kinds), rules, kinds)
+    )
+    assert pairs == Counter(
+        (code, name)
+        for code, names in [*asked, ("TWO001", "ball volume")]
+        for name in names.split()
+    )
+
+
+def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
+    stage = Usd.Stage.Open(write_stage(tmp_path, 'def Sphere "ball"\n{\n}\n' + LIVE))
+    result = walk(stage, [], Kinds())
+    assert result.prims == 2
+    assert [str(prim.GetPath()) for prims in result.kept.values() for prim in prims] == ["/live"]
+
+
+def test_an_instanced_finding_says_where_and_how_often(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from usdvol_lint.config import ActiveRules
+    from usdvol_lint.rule import Problem
+
+    monkeypatch.chdir(tmp_path)
+    seen = Rule(
+        *("SEE001", "seen", ("Volume",), Severity.INFO, "1"),
+        lambda prim, facts: iter([Problem("seen", at=prim)]),
+        {},
+    )
+    text = "".join(INSTANCE.format(name, "cloud") for name in ("b", "a", "c"))
+    write_stage(tmp_path, text, lib=CLOUD)
+    engine = Engine({"SEE001": seen}, ActiveRules({"SEE001": Severity.INFO}, {}))
+    (finding,) = engine.lint("stage.usda").findings
+    assert finding.message == "seen (shown by 3 instances)"
+    assert (finding.site.prim, finding.site.layer, finding.site.line) == ("/a/thick", "lib.usda", 4)
