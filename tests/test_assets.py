@@ -368,6 +368,10 @@ def test_expressions_in_a_usd_that_forgets_them(
             "AST004 the expression '`\"./${TAKE.vdb\"`' can't be evaluated: missing ending '}' at "
             "character 10"
         ),
+        '`if(defined("NOPE"), "./${NOPE}.vdb", "./clod.vdb")`': (
+            "AST002 no file at './clod.vdb' (from "
+            '\'`if(defined("NOPE"), "./${NOPE}.vdb", "./clod.vdb")`\')'
+        ),
         '`""`': "AST001 filePath is empty -> author the path of the file that holds the field",
     }
     for expression, expected in expressions.items():

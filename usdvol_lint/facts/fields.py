@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+from bisect import bisect
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -133,8 +134,7 @@ class FieldNames:
     def __init__(self, fields: Iterable[Any]) -> None:
         self._by_name: dict[str, list[Any]] = defaultdict(list)
         self._by_parent: dict[Any, dict[str, Any]] = defaultdict(dict)
-        for field in fields:
-            path = field.GetPath()
+        for path in sorted(field.GetPath() for field in fields):
             self._by_name[path.name].append(path)
             self._by_parent[path.GetParentPath()][path.name] = path
 
@@ -146,8 +146,10 @@ class FieldNames:
         siblings = self._by_parent.get(path.GetParentPath(), {})
         for name in get_close_matches(path.name, siblings, n=1, cutoff=0.7):
             return siblings[name]
+        namesakes = self._by_name.get(path.name, [])
+        place = bisect(namesakes, path)  # in sorted order, the closest are next to it
         shared = defaultdict(list)
-        for other in self._by_name.get(path.name, ()):
+        for other in namesakes[max(place - 2, 0) : place + 2]:
             shared[path.GetCommonPrefix(other).pathElementCount].append(other)
         closest = shared[max(shared)] if shared else []
         return closest[0] if len(closest) == 1 else None

@@ -1,0 +1,1 @@
+"""Benchmarks: how much longer than bare USD the linter takes."""
