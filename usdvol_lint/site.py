@@ -1,4 +1,4 @@
-"""A problem's place becomes a Site: the layer that holds the opinion, its line, the stage's prim."""
+"""Where a problem is: the layer that holds the opinion, its line there, the prim on the stage."""
 
 from __future__ import annotations
 

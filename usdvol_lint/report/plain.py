@@ -28,7 +28,7 @@ def paint(text: str, style: str, color: bool) -> str:
     if not color:
         return text
     # rich costs more start-up time than all our formats together, and most runs have no colour.
-    from rich.color import ColorSystem  # noqa: PLC0415
-    from rich.style import Style  # noqa: PLC0415
+    from rich.color import ColorSystem
+    from rich.style import Style
 
     return Style.parse(style).render(text, color_system=ColorSystem.STANDARD)

@@ -166,7 +166,7 @@ def _labelled(label: str, text: str, style: str, indent: str, options: Options) 
 
 def _wrap(text: str, width: int) -> Iterator[str]:
     """Text in lines of at most `width` cells; a longer word is left whole."""
-    from rich.cells import cell_len  # noqa: PLC0415  (see paint)
+    from rich.cells import cell_len
 
     line = ""
     for word in (match.group() for match in _WORD.finditer(text)):

@@ -1,0 +1,153 @@
+"""What a page cannot say of field relationships: payloads not loaded, layers that do not open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from usdvol_lint.catalog import Catalog
+from usdvol_lint.config import Config, activate
+from usdvol_lint.engine import Engine
+from usdvol_lint.model import StageReport
+
+FIELD = 'def OpenVDBAsset "{name}" {{\n asset filePath = @./cloud.vdb@\n token fieldName = "density"\n}}\n'
+Lint = Callable[..., list[tuple[str, str, str | None]]]
+
+
+@pytest.fixture
+def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lint:
+    monkeypatch.chdir(tmp_path)
+
+    def run(text: str, load: str = "all", **files: str) -> list[tuple[str, str, str | None]]:
+        for name, content in {**files, "stage": text}.items():
+            Path(f"{name}.usda").write_text("#usda 1.0\n" + content, encoding="utf-8")
+        active = activate(Config(select=("VOL", "LNT")), catalog)
+        report: StageReport = Engine(catalog.rules, active, load).lint("stage.usda")
+        return [(finding.code, finding.message, finding.suggestion) for finding in report.findings]
+
+    return run
+
+
+PAYLOAD = f"""
+def Xform "fields" (payload = @./lib.usda@</fields>) {{
+}}
+def Volume "cloud" {{
+    rel field:density = </fields/density>
+}}
+def Xform "spare" {{
+{FIELD.format(name="spare")}
+}}
+"""
+FIELDS = f'def Xform "fields" {{\n{FIELD.format(name="density")}}}\n'
+
+
+def test_target_in_a_payload_that_was_not_loaded(lint: Lint) -> None:
+    assert lint(PAYLOAD, load="none", lib=FIELDS)[-1:] == [
+        (
+            "LNT005",
+            "'field:density' targets </fields/density>, which lies in a payload that was not loaded",
+            None,
+        )
+    ]
+    assert lint(PAYLOAD, lib=FIELDS) == [
+        (
+            "VOL012",
+            "no Volume of this stage targets the field 'spare'",
+            "bind it with 'rel field:spare' on a Volume, or remove it",
+        )
+    ]
+
+
+@pytest.mark.parametrize("arc", ["references", "payload"])
+@pytest.mark.parametrize("instanceable", ["", "instanceable = true"])
+def test_target_below_a_layer_that_does_not_open(
+    lint: Lint, arc: str, instanceable: str
+) -> None:
+    text = f"""
+def Volume "cloud" {{
+    rel field:density = </cloud/density>
+    rel field:heat = </cloud/fields/heat>
+    rel field:fuel = </cloud/fields/deep/fuel>
+    def "density" ({arc} = @./gone.usda@</density>) {{
+    }}
+    def Scope "fields" ({arc} = @./gone.usda@</fields>
+        {instanceable}) {{
+        over "heat" {{
+        }}
+    }}
+}}
+def Scope "elsewhere" {{
+{FIELD.format(name="spare")}
+}}
+"""
+    assert lint(text) == []
+    again = f'def "a" (references = @./asset.usda@</cloud>\n{instanceable}) {{\n}}\n'
+    assert lint(again + again.replace('"a"', '"b"'), asset=text) == []
+
+
+def test_sublayer_that_does_not_open(lint: Lint) -> None:
+    text = """(
+    subLayers = [@./gone.usda@]
+)
+def Volume "cloud" {
+    rel field:density = </fields/density>
+}
+"""
+    assert lint(text) == []
+
+
+def test_missing_field_in_a_nested_prototype_has_a_path_of_the_stage(lint: Lint) -> None:
+    inner = """
+def Scope "inner" {
+    def Volume "cloud" {
+        rel field:density = </inner/density>
+    }
+}
+"""
+    outer = """
+def Scope "outer" {
+    def "one" (references = @./inner.usda@</inner>
+        instanceable = true) {
+    }
+    def "two" (references = @./inner.usda@</inner>
+        instanceable = true) {
+    }
+}
+"""
+    stage = """
+def "a" (references = @./outer.usda@</outer>
+    instanceable = true) {
+}
+def "b" (references = @./outer.usda@</outer>
+    instanceable = true) {
+}
+"""
+    assert lint(stage, inner=inner, outer=outer) == [
+        (
+            "VOL001",
+            "'field:density' targets </a/one/density>, and there is no such prim "
+            "(shown by 4 instances)",
+            None,
+        )
+    ]
+
+
+def test_two_fields_that_are_equally_near_are_no_suggestion(lint: Lint) -> None:
+    text = f"""
+def Volume "cloud" {{
+    rel field:density = </gone/density>
+}}
+def Volume "one" {{
+    rel field:density = </one/density>
+    {FIELD.format(name="density")}
+}}
+def Volume "two" {{
+    rel field:density = </two/density>
+    {FIELD.format(name="density")}
+}}
+"""
+    assert lint(text) == [
+        ("VOL001", "'field:density' targets </gone/density>, and there is no such prim", None)
+    ]
