@@ -1,0 +1,160 @@
+"""Field3D: layers in partitions, kept in an Ogawa or an HDF5 file."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Final
+
+from usdvol_lint.volumefile.model import (
+    FileWarning,
+    Grid,
+    IndexBounds,
+    MetadataValue,
+    Metadatum,
+    VolumeFile,
+    VolumeFileError,
+    quoted,
+)
+from usdvol_lint.volumefile.transform import (
+    Matrix,
+    Transform,
+    finite,
+    multiply,
+    rows,
+    scale_translate,
+)
+
+LARGEST_VALUE: Final = 1 << 20
+DEEPEST: Final = 4
+"""Root, partition, layer, metadata: nothing below matters."""
+MOST: Final = 100_000
+
+_IDENTITY = scale_translate((1, 1, 1))
+_VALUE_TYPES: dict[tuple[MetadataValue, MetadataValue], str] = {
+    (components, bits): name
+    for components, names in ((1, ("half", "float", "double")), (3, ("vec3h", "vec3s", "vec3d")))
+    for bits, name in zip((16, 32, 64), names, strict=True)
+}
+
+
+@dataclass(slots=True)
+class Group:
+    """A named group of either container, without its data sets."""
+
+    name: str
+    attributes: dict[str, Metadatum] = field(default_factory=dict)
+    groups: list[Group] = field(default_factory=list)
+
+    def value(self, name: str) -> MetadataValue:
+        entry = self.attributes.get(name)
+        return None if entry is None else entry.value
+
+    def group(self, name: str) -> Group | None:
+        return next((group for group in self.groups if group.name == name), None)
+
+
+def volume_file(root: Group) -> VolumeFile:
+    """What a container's groups say in the terms of Field3D."""
+    version = root.value("version_number")
+    if not (isinstance(version, tuple) and len(version) == 3):
+        raise VolumeFileError("not-a-volume-file", "the container holds no Field3D")
+    major, minor, patch = map(int, version)
+    grids: list[Grid] = []
+    warnings: list[FileWarning] = []
+    ordinals: Counter[tuple[str, str]] = Counter()
+    for partition in root.groups:
+        if partition.value("is_field3d_partition") != "1":
+            continue
+        purpose = _purpose(partition.name)
+        mapping, warning = _mapping(partition)
+        for layer in partition.groups:
+            if layer.value("class_type") != "field3d_layer":
+                continue
+            if warning is not None:
+                warnings.append(FileWarning(warning.code, warning.message, len(grids)))
+            grids.append(_grid(layer, purpose, mapping, ordinals[purpose, layer.name]))
+            ordinals[purpose, layer.name] += 1
+    return VolumeFile(
+        format="field3d",
+        version=f"{major}.{minor}.{patch}",
+        version_number=major * 10_000 + minor * 100 + patch,
+        grids=tuple(grids),
+        warnings=tuple(warnings),
+        grid_count=len(grids),
+    )
+
+
+def _purpose(partition: str) -> str:
+    """`cloud` of `cloud.1`: the number tells apart partitions that are mapped differently."""
+    name, dot, number = partition.rpartition(".")
+    return name if dot and number.isdigit() else partition
+
+
+def _mapping(partition: Group) -> tuple[tuple[str, Matrix] | None, FileWarning | None]:
+    """The map from the unit cube that a partition's extents span to the world."""
+    mapping = partition.group("mapping")
+    kind = mapping.value("mapping_type") if mapping else None
+    if mapping is None or kind == "NullFieldMapping":
+        return ("NullFieldMapping", _IDENTITY), None
+    numbers = mapping.value("matrix_0")
+    if kind != "MatrixFieldMapping" or not isinstance(numbers, tuple) or len(numbers) != 16:
+        message = f"partition {quoted(partition.name)}: no {quoted(str(kind))} is read"
+        return None, FileWarning("mapping-unread", message)
+    if not finite(numbers):
+        message = f"the mapping of partition {quoted(partition.name)} is not finite"
+        raise VolumeFileError("not-a-volume-file", message)
+    samples = mapping.value("num_time_samples")
+    warning = None
+    if isinstance(samples, int) and samples > 1:
+        message = f"the mapping of partition {quoted(partition.name)} moves in {samples} samples"
+        warning = FileWarning("mapping-animated", message)
+    return ("MatrixFieldMapping", rows(numbers)), warning
+
+
+def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None, index: int) -> Grid:
+    components, bits = layer.value("components"), layer.value("bits_per_component")
+    extents, window = _box(layer, "extents"), _box(layer, "data_window")
+    user = layer.group("metadata")
+    return Grid(
+        name=layer.name,
+        unique_name=layer.name,
+        index=index,
+        purpose=purpose,
+        value_type=_VALUE_TYPES.get((components, bits), "unknown"),
+        tree_type=str(layer.value("class_name") or "unknown"),
+        index_bounds=_overlap(extents, window),
+        transform=_transform(mapping, extents),
+        metadata=(user.attributes if user else {}) | layer.attributes,
+    )
+
+
+def _box(layer: Group, name: str) -> IndexBounds | None:
+    """Two corners: one value in HDF5, two in Ogawa."""
+    corners = layer.value(name)
+    if corners is None:
+        low, high = layer.value(f"{name}_min"), layer.value(f"{name}_max")
+        corners = low + high if isinstance(low, tuple) and isinstance(high, tuple) else None
+    if not (isinstance(corners, tuple) and len(corners) == 6 and finite(corners)):
+        return None
+    x, y, z, u, v, w = map(int, corners)
+    return ((x, y, z), (u, v, w)) if x <= u and y <= v and z <= w else None
+
+
+def _overlap(extents: IndexBounds | None, window: IndexBounds | None) -> IndexBounds | None:
+    """The voxels that both hold data and lie in what the mapping spans."""
+    if extents is None or window is None:
+        return extents or window
+    x, y, z = map(max, extents[0], window[0])
+    u, v, w = map(min, extents[1], window[1])
+    return ((x, y, z), (u, v, w)) if x <= u and y <= v and z <= w else extents
+
+
+def _transform(mapping: tuple[str, Matrix] | None, extents: IndexBounds | None) -> Transform | None:
+    """From voxels to the unit cube of the extents, whose faces are those of the outer voxels."""
+    if mapping is None or extents is None:
+        return None
+    kind, matrix = mapping
+    scale = [1 / (high - low + 1) for low, high in zip(*extents, strict=True)]
+    offset = [(0.5 - low) * size for low, size in zip(extents[0], scale, strict=True)]
+    return Transform(kind, multiply(scale_translate(scale, offset), matrix))

@@ -1,0 +1,161 @@
+"""What the header and metadata of a field file say, and the error that stops a reader."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from usdvol_lint.volumefile.transform import Bounds, Transform
+
+Format: TypeAlias = Literal["openvdb", "nanovdb", "field3d"]
+ErrorCode: TypeAlias = Literal[
+    "not-a-file",
+    "not-a-volume-file",
+    "truncated",
+    "version-unsupported",
+    "needs-h5py",
+]
+WarningCode: TypeAlias = Literal[
+    "version-newer",
+    "type-unregistered",
+    "name-differs",
+    "name-repeated",
+    "half-differs",
+    "instance-parent-missing",
+    "mapping-unread",
+    "mapping-animated",
+]
+MetadataValue: TypeAlias = bool | int | float | str | tuple[int, ...] | tuple[float, ...] | None
+Coordinate: TypeAlias = tuple[int, int, int]
+IndexBounds: TypeAlias = tuple[Coordinate, Coordinate]
+
+_LONGEST_QUOTE = 80
+
+
+@dataclass(frozen=True, slots=True)
+class Metadatum:
+    """One entry of a file's or a grid's metadata.
+
+    `value` is None for types that this reader does not know and for values too large to matter.
+    """
+
+    type: str
+    value: MetadataValue
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
+class FileWarning:
+    """Something odd that did not stop the reader; `grid` is a position in `VolumeFile.grids`."""
+
+    code: WarningCode
+    message: str
+    grid: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """One grid, or one Field3D layer.
+
+    `name` is that of the metadata, `unique_name` that of the descriptor without its suffix, which
+    is what files are searched by; in NanoVDB and Field3D they are the same.
+    `suffix` tells same-named grids apart on disk; `index` counts them in file order.
+    `purpose` is Field3D's partition, what `fieldPurpose` names.
+    `value_type` is spelt as in OpenVDB, `tree_type` as in the file.
+    `half` says that values are stored in half precision; `registered`, that stock OpenVDB knows
+    the type.
+    `index_bounds` are inclusive, and None where the file holds none or the grid is empty.
+    `instance_of` is the label of the grid whose voxels an instance shares, and whose bounds it
+    is given here.
+    """
+
+    name: str
+    unique_name: str
+    index: int
+    value_type: str
+    tree_type: str
+    suffix: str | None = None
+    purpose: str | None = None
+    half: bool = False
+    registered: bool = True
+    grid_class: str = "unknown"
+    vector_type: str = "invariant"
+    index_bounds: IndexBounds | None = None
+    is_empty: bool = False
+    transform: Transform | None = None
+    metadata: dict[str, Metadatum] = field(default_factory=dict)
+    instance_of: str | None = None
+
+    @property
+    def label(self) -> str:
+        """The name as OpenVDB's tools print it, `density[1]` where others share it."""
+        return self.unique_name if self.suffix is None else f"{self.unique_name}[{self.suffix}]"
+
+    def world_bounds(self, padding: float = 0.0) -> Bounds | None:
+        """The box of the active voxels' centres, widened by `padding` voxels, in world space.
+
+        None where the grid is empty, the file tells no bounds or no transform, or numbers overflow.
+        """
+        if self.index_bounds is None or self.transform is None:
+            return None
+        (x, y, z), (u, v, w) = self.index_bounds
+        bounds = self.transform.bounds(
+            (x - padding, y - padding, z - padding), (u + padding, v + padding, w + padding)
+        )
+        return (
+            bounds if all(math.isfinite(number) for corner in bounds for number in corner) else None
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class VolumeFile:
+    """What a file says of itself and its grids, in file order.
+
+    `version` is the file format's (OpenVDB's `224`, NanoVDB's `32.4.2`, Field3D's `1.7.3`), and
+    `version_number` the same as one ordered number; `library` is the OpenVDB that wrote the file.
+    `grid_count` is what the header promises.
+    `complete` is False where an error ended the reading, and where `grids` holds fewer: of a
+    `streamed` file only the first grid can be found without decoding voxels.
+    """
+
+    format: Format
+    version: str
+    version_number: int
+    library: str | None = None
+    uuid: str | None = None
+    metadata: dict[str, Metadatum] = field(default_factory=dict)
+    grids: tuple[Grid, ...] = ()
+    warnings: tuple[FileWarning, ...] = ()
+    grid_count: int = 0
+    streamed: bool = False
+    complete: bool = True
+
+
+class VolumeFileError(Exception):
+    """Why a file can't be read, or not to its end.
+
+    `offset` counts from the start of the volume file, which may lie inside a package.
+    `partial` is what was understood before, if anything was.
+    """
+
+    def __init__(
+        self,
+        code: ErrorCode,
+        message: str,
+        offset: int | None = None,
+        partial: VolumeFile | None = None,
+    ) -> None:
+        super().__init__(code, message, offset, partial)
+        self.code: ErrorCode = code
+        self.message = message
+        self.offset = offset
+        self.partial = partial
+
+    def __str__(self) -> str:
+        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
+
+
+def quoted(text: str) -> str:
+    """Text out of a file, printable and short enough for a message."""
+    return repr(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")

@@ -1,0 +1,294 @@
+"""NanoVDB: files of segments (`NanoVDB0`, `NanoVDB2`) and bare grid buffers (`NanoVDB1`)."""
+
+from __future__ import annotations
+
+import zlib
+from collections import Counter
+from struct import Struct
+from typing import Any, Final
+
+from usdvol_lint.volumefile.model import (
+    FileWarning,
+    Grid,
+    IndexBounds,
+    Metadatum,
+    VolumeFile,
+    VolumeFileError,
+    quoted,
+)
+from usdvol_lint.volumefile.transform import Bounds, Point, Transform, finite, scale_translate
+from usdvol_lint.volumefile.window import Window
+
+SIGNATURES: Final = (b"NanoVDB0", b"NanoVDB1", b"NanoVDB2")
+MAJOR_VERSION: Final = 32
+
+_BARE = b"NanoVDB1"
+_MOST = 100_000
+_LONGEST_NAME = 1 << 16
+_NONE, _ZIP = 0, 1
+_ZIPPED_HEAD = 4096
+
+# signature, version, grids, codec
+_SEGMENT = Struct("<8sIHH")
+# sizes in memory and on disk, voxels, type, class, world box, index box, voxel size, name's
+# length, codec
+_ENTRY = Struct("<QQ8xQII6d6i3dI28xH6x")
+# signature, version, index, grids, size, name, matrix, translation, world box, voxel size, class,
+# type
+_BUFFER = Struct("<8s8xI4xIIQ256s88x9d72x3d8x6d3dII32x")
+_TREE = Struct("<24xQ24xQ")
+_ROOT = Struct("<6i")
+_LENGTH = Struct("<Q")
+
+# In the words of OpenVDB, as far as it has any.
+_TYPES = dict(
+    enumerate(
+        (
+            *("unknown", "float", "double", "int16", "int32", "int64", "vec3s", "vec3d", "mask"),
+            *("half", "uint32", "bool", "rgba8", "float", "float", "float", "float", "vec4s"),
+            *("vec4d", "index", "onindex", "indexmask", "onindexmask", "ptidx32", "vec3u8"),
+            *("vec3u16", "uint8"),
+        )
+    )
+)
+_QUANTIZED = {13: "Fp4", 14: "Fp8", 15: "Fp16", 16: "FpN"}
+_CLASSES = {1: "level set", 2: "fog volume", 3: "staggered"}
+
+
+def read_nvdb(window: Window) -> VolumeFile:
+    """The file that starts at the window's start, whose signature is known to be right."""
+    reader = _Reader(window)
+    try:
+        if window.peek(len(_BARE)) == _BARE:
+            reader.read_buffers()
+        else:
+            reader.read_segments()
+    except VolumeFileError as error:
+        partial = reader.result(finished=False) if reader.version is not None else None
+        if (reader.version or 0) >> 21 <= MAJOR_VERSION or error.code == "not-a-file":
+            error.partial = partial
+            raise
+        raise VolumeFileError(
+            "version-unsupported",
+            f"NanoVDB {_dotted(reader.version)} is newer than {MAJOR_VERSION}: {error.message}",
+            error.offset,
+            partial,
+        ) from None
+    return reader.result(finished=True)
+
+
+class _Reader:
+    """What is known so far."""
+
+    def __init__(self, window: Window) -> None:
+        self.window = window
+        self.version: int | None = None
+        self.grid_count = 0
+        self.grids: list[Grid] = []
+        self.warnings: list[FileWarning] = []
+        self.ordinals: Counter[str] = Counter()
+
+    def result(self, *, finished: bool) -> VolumeFile:
+        return VolumeFile(
+            format="nanovdb",
+            version=_dotted(self.version),
+            version_number=self.version or 0,
+            grids=tuple(self.grids),
+            warnings=tuple(self.warnings),
+            grid_count=self.grid_count,
+            complete=finished,
+        )
+
+    def read_segments(self) -> None:
+        """Every segment: a header, an entry and a name a grid, then the grids themselves."""
+        window = self.window
+        segments = 0
+        while self.version is None or self.goes_on():
+            at = window.position
+            segments += 1
+            if segments > _MOST:
+                raise _invalid(f"more than {_MOST} segments", at)
+            signature, version, count, _ = window.unpack(_SEGMENT)
+            if signature not in SIGNATURES or signature == _BARE:
+                raise _invalid("no segment where one should begin", at)
+            self.take_version(version, at)
+            self.count_grids(count)
+            window.require(count * _ENTRY.size)
+            entries = [self.read_entry() for _ in range(count)]
+            for name, entry in entries:
+                self.read_segment_grid(name, entry)
+
+    def goes_on(self) -> bool:
+        """Whether another segment follows; NanoVDB ignores a few bytes that are none."""
+        rest = self.window.peek(_SEGMENT.size)
+        signature = rest[: len(_BARE)]
+        is_start = bool(signature) and any(word.startswith(signature) for word in SIGNATURES)
+        return len(rest) == _SEGMENT.size or is_start
+
+    def take_version(self, version: int, at: int) -> None:
+        major = version >> 21
+        if major < MAJOR_VERSION:
+            self.version = self.version or version
+            raise VolumeFileError(
+                "version-unsupported",
+                f"NanoVDB {_dotted(version)} is older than {MAJOR_VERSION}, "
+                "which NanoVDB no longer reads",
+                at + len(_BARE),
+            )
+        if self.version is None and major > MAJOR_VERSION:
+            message = f"NanoVDB {_dotted(version)} is newer than {MAJOR_VERSION}"
+            self.warnings.append(FileWarning("version-newer", message))
+        self.version = self.version or version
+
+    def count_grids(self, count: int) -> None:
+        self.grid_count += count
+        if self.grid_count > _MOST:
+            raise _invalid(f"{self.grid_count} grids", self.window.position)
+
+    def read_entry(self) -> tuple[str, tuple[Any, ...]]:
+        window = self.window
+        entry = window.unpack(_ENTRY)
+        length = entry[20]
+        if length > _LONGEST_NAME:
+            raise _invalid(f"a grid's name of {length} bytes", window.position)
+        return _name(window.read(length)), entry
+
+    def read_segment_grid(self, name: str, entry: tuple[Any, ...]) -> None:
+        window = self.window
+        _, size, voxels, kind, grid_class = entry[:5]
+        world, index, voxel_size, codec = entry[5:11], entry[11:17], entry[17:20], entry[21]
+        start = window.position
+        end = start + size
+        bounds: IndexBounds = (index[:3], index[3:])
+        head = self.read_head(codec, size)
+        transform = _transform(head, start) if head else _aligned(bounds, world, voxel_size)
+        self.add(name, kind, grid_class, voxels, bounds, transform, world, voxel_size)
+        self.go_on(end)
+
+    def read_head(self, codec: int, size: int) -> bytes | None:
+        """A grid's own header, which holds its transform; None where Blosc would be needed."""
+        window = self.window
+        start = window.position
+        head = b""
+        if codec == _NONE and size >= _BUFFER.size:
+            head = window.peek(_BUFFER.size)
+        elif codec == _ZIP and size > _LENGTH.size:
+            packed = window.peek(min(size, _ZIPPED_HEAD))[_LENGTH.size :]
+            try:
+                head = zlib.decompressobj().decompress(packed, _BUFFER.size)
+            except zlib.error:
+                return None
+        window.position = start
+        return head if len(head) == _BUFFER.size and head[:8] in SIGNATURES else None
+
+    def read_buffers(self) -> None:
+        """Grid buffers one after the other, each of which knows how many they are."""
+        window = self.window
+        while self.version is None or len(self.grids) < self.grid_count:
+            start = window.position
+            head = window.read(_BUFFER.size)
+            fields = _BUFFER.unpack(head)
+            signature, version, _, count, size, name = fields[:6]
+            world, voxel_size, (grid_class, kind) = fields[18:24], fields[24:27], fields[27:]
+            if signature != _BARE:
+                raise _invalid("no grid where one should begin", start)
+            if self.version is None:
+                self.take_version(version, start + 8)
+                self.count_grids(max(1, count))
+                window.require((self.grid_count - 1) * _BUFFER.size)
+            root, voxels = window.unpack(_TREE)
+            # The way to the root counts from the start of the tree.
+            root += start + _BUFFER.size
+            if size < _BUFFER.size + _TREE.size or root > start + size:
+                raise _invalid(f"grid {quoted(_name(name))} of {size} bytes", start)
+            window.position = root
+            index = window.unpack(_ROOT)
+            bounds: IndexBounds = (index[:3], index[3:])
+            transform = _transform(head, start)
+            self.add(_name(name), kind, grid_class, voxels, bounds, transform, world, voxel_size)
+            self.go_on(start + size)
+
+    def add(
+        self,
+        name: str,
+        kind: int,
+        grid_class: int,
+        voxels: int,
+        bounds: IndexBounds,
+        transform: Transform | None,
+        world: tuple[float, ...],
+        voxel_size: Point,
+    ) -> None:
+        is_empty = any(low > high for low, high in zip(*bounds, strict=True))
+        value_type = _TYPES.get(kind, "unknown")
+        self.grids.append(
+            Grid(
+                name=name,
+                unique_name=name,
+                index=self.ordinals[name],
+                value_type=value_type,
+                tree_type=_QUANTIZED.get(kind, value_type),
+                grid_class=_CLASSES.get(grid_class, "unknown"),
+                index_bounds=None if is_empty else bounds,
+                is_empty=is_empty,
+                transform=transform,
+                metadata={
+                    "voxel_count": Metadatum("uint64", voxels, 8),
+                    "voxel_size": Metadatum("vec3d", voxel_size, 24),
+                    "world_bbox_min": Metadatum("vec3d", world[:3], 24),
+                    "world_bbox_max": Metadatum("vec3d", world[3:], 24),
+                },
+            )
+        )
+        self.ordinals[name] += 1
+
+    def go_on(self, end: int) -> None:
+        """Goes behind the voxels of the last grid, without reading them."""
+        window = self.window
+        if end > window.size:
+            label = quoted(self.grids[-1].label)
+            message = f"grid {label} ends at byte {end}, the file at {window.size}"
+            raise VolumeFileError("truncated", message, window.size)
+        window.position = end
+
+
+def _invalid(message: str, offset: int) -> VolumeFileError:
+    return VolumeFileError("not-a-volume-file", message, offset)
+
+
+def _dotted(version: int | None) -> str:
+    packed = version or 0
+    return f"{packed >> 21}.{packed >> 10 & 0x7FF}.{packed & 0x3FF}"
+
+
+def _name(stored: bytes) -> str:
+    return stored.partition(b"\0")[0].decode("utf-8", "surrogateescape")
+
+
+def _transform(head: bytes, at: int) -> Transform:
+    fields = _BUFFER.unpack(head)
+    a, b, c, d, e, f, g, h, i = fields[6:15]
+    x, y, z = fields[15:18]
+    if not finite(fields[6:18]):
+        raise _invalid("the grid's map holds numbers that are not finite", at)
+    # NanoVDB multiplies column vectors from the right.
+    return Transform("Map", ((a, d, g, 0.0), (b, e, h, 0.0), (c, f, i, 0.0), (x, y, z, 1.0)))
+
+
+def _aligned(bounds: IndexBounds, world: tuple[float, ...], voxel_size: Point) -> Transform | None:
+    """The transform that the boxes tell of, if it only scales and moves.
+
+    The world box reaches to one past the last voxel.
+    """
+    if not finite((*world, *voxel_size)):
+        return None
+    low, high = bounds
+    world_bounds: Bounds = (world[:3], world[3:])  # type: ignore[assignment]
+    for first, last, start, end, size in zip(low, high, *world_bounds, voxel_size, strict=True):
+        length = (last - first + 1) * size
+        if last < first or abs(end - start - length) > 1e-5 * max(abs(start), abs(end), length):
+            return None
+    translation = [
+        start - first * size for first, start, size in zip(low, world[:3], voxel_size, strict=True)
+    ]
+    return Transform("Map", scale_translate(voxel_size, translation))

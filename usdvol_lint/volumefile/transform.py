@@ -1,0 +1,105 @@
+"""From index space, where voxel centres have whole numbers, to the world space of a file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import product
+from typing import TypeAlias
+
+Point: TypeAlias = tuple[float, float, float]
+Bounds: TypeAlias = tuple[Point, Point]
+Row: TypeAlias = tuple[float, float, float, float]
+Matrix: TypeAlias = tuple[Row, Row, Row, Row]
+"""Row vectors are multiplied from the left, as in USD: the translation is the last row."""
+
+
+def scale_translate(scale: Iterable[float], translation: Iterable[float] = (0, 0, 0)) -> Matrix:
+    """The matrix that scales along the axes, then moves."""
+    (a, b, c), (x, y, z) = scale, translation
+    return (
+        (float(a), 0.0, 0.0, 0.0),
+        (0.0, float(b), 0.0, 0.0),
+        (0.0, 0.0, float(c), 0.0),
+        (float(x), float(y), float(z), 1.0),
+    )
+
+
+def rows(numbers: tuple[float, ...]) -> Matrix:
+    """Sixteen numbers, row by row, as a matrix."""
+    a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p = numbers  # noqa: E741
+    return (a, b, c, d), (e, f, g, h), (i, j, k, l), (m, n, o, p)
+
+
+def multiply(first: Matrix, second: Matrix) -> Matrix:
+    """The matrix that does `first`, then `second`."""
+    columns = tuple(zip(*second, strict=True))
+    return rows(
+        tuple(
+            sum(x * y for x, y in zip(row, column, strict=True))
+            for row in first
+            for column in columns
+        )
+    )
+
+
+def finite(numbers: Iterable[float]) -> bool:
+    return all(map(math.isfinite, numbers))
+
+
+@dataclass(frozen=True, slots=True)
+class Frustum:
+    """The perspective half of a frustum map: a box of index space becomes a pyramid's stump."""
+
+    minimum: Point
+    maximum: Point
+    taper: float
+    depth: float
+
+    def apply(self, point: Point) -> Point:
+        length_x, length_y, length_z = (
+            high - low for low, high in zip(self.minimum, self.maximum, strict=True)
+        )
+        x = point[0] - self.minimum[0] - length_x / 2
+        y = point[1] - self.minimum[1] - length_y / 2
+        z = (point[2] - self.minimum[2]) * self.depth / length_z
+        scale = ((1 / self.taper - 1) / self.depth * z + 1) / length_x
+        return x * scale, y * scale, z
+
+    @property
+    def valid(self) -> bool:
+        """Whether `apply` can be evaluated everywhere."""
+        numbers = (*self.minimum, *self.maximum, self.taper, self.depth)
+        lengths = tuple(high - low for low, high in zip(self.minimum, self.maximum, strict=True))
+        return finite(numbers) and 0 not in (*lengths, self.taper, self.depth)
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """A grid's own transform: `kind` is the map's type, and a frustum comes before the matrix."""
+
+    kind: str
+    matrix: Matrix
+    frustum: Frustum | None = None
+
+    @property
+    def linear(self) -> bool:
+        return self.frustum is None
+
+    def apply(self, point: Point) -> Point:
+        """A point of index space in world space."""
+        x, y, z = self.frustum.apply(point) if self.frustum else point
+        (a, b, c, _), (d, e, f, _), (g, h, i, _), (s, t, u, _) = self.matrix
+        return x * a + y * d + z * g + s, x * b + y * e + z * h + t, x * c + y * f + z * i + u
+
+    def bounds(self, minimum: Point, maximum: Point) -> Bounds:
+        """The world box around a box of index space.
+
+        It is the box of the eight corners; that is exact for a frustum too, whose scale is linear
+        along z.
+        """
+        (a, b, c), (d, e, f) = minimum, maximum
+        corners = [self.apply(corner) for corner in product((a, d), (b, e), (c, f))]
+        (x, u), (y, v), (z, w) = ((min(axis), max(axis)) for axis in zip(*corners, strict=True))
+        return (x, y, z), (u, v, w)

@@ -1,0 +1,142 @@
+"""A stretch of a regular file, read on demand; nothing outside it is ever read or believed."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from struct import Struct
+from typing import Any
+
+from usdvol_lint.volumefile.model import VolumeFileError
+
+# A FIFO must not hang, a descriptor not be inherited, Windows not translate line ends.
+_FLAGS = os.O_RDONLY | sum(
+    getattr(os, name, 0) for name in ("O_NONBLOCK", "O_CLOEXEC", "O_NOINHERIT", "O_BINARY")
+)
+_CHUNK = 8192
+_LENGTH = Struct("<I")
+
+
+class Window:
+    """Bytes `[0, size)` of a volume file, wherever in a real file they lie.
+
+    Reading starts at `position` and may not pass `limit`, which is `size` unless the caller
+    narrows it to a section; what lies beyond `size` is truncated, beyond `limit` invalid.
+    """
+
+    __slots__ = ("_base", "_buffer", "_descriptor", "_end", "_start", "limit", "position", "size")
+
+    def __init__(self, descriptor: int, start: int, size: int) -> None:
+        self._descriptor = descriptor
+        self._start = start
+        self._buffer = b""
+        self._base = self._end = 0
+        self.size = size
+        self.limit = size
+        self.position = 0
+
+    def _take(self, count: int) -> int:
+        """Passes over the next `count` bytes, and says where in the buffer they are."""
+        end = self.position + count
+        if end > self.limit:
+            raise self._beyond(end)
+        first = self.position - self._base
+        if first < 0 or end > self._end:
+            self._load(count)
+            first = 0
+        self.position = end
+        return first
+
+    def read(self, count: int) -> bytes:
+        """The next `count` bytes: all of them, or an error."""
+        first = self._take(count)
+        return self._buffer[first : first + count]
+
+    def peek(self, count: int) -> bytes:
+        """The next bytes, fewer where the file ends, without moving on."""
+        here = self.position
+        found = self.read(max(0, min(count, self.limit - here)))
+        self.position = here
+        return found
+
+    def unpack(self, form: Struct) -> tuple[Any, ...]:
+        first = self._take(form.size)
+        return form.unpack_from(self._buffer, first)
+
+    def string(self, longest: int) -> str:
+        """A 32-bit length and as many bytes of text, in which any byte survives."""
+        first = self._take(_LENGTH.size)
+        (length,) = _LENGTH.unpack_from(self._buffer, first)
+        if length > longest:
+            raise VolumeFileError(
+                "not-a-volume-file",
+                f"text of {length} bytes where at most {longest} make sense",
+                self.position - _LENGTH.size,
+            )
+        return self.read(length).decode("utf-8", "surrogateescape")
+
+    def skip(self, count: int) -> None:
+        self.require(count)
+        self.position += count
+
+    def require(self, count: int) -> None:
+        """Raises unless `count` more bytes lie ahead."""
+        if self.position + count > self.limit:
+            raise self._beyond(self.position + count)
+
+    def _beyond(self, end: int) -> VolumeFileError:
+        if end > self.size:
+            return VolumeFileError(
+                "truncated", f"the file ends at byte {self.size} of at least {end}", self.position
+            )
+        return VolumeFileError(
+            "not-a-volume-file",
+            f"the section that ends at byte {self.limit} would go on to byte {end}",
+            self.position,
+        )
+
+    def _load(self, count: int) -> None:
+        wanted = min(max(count, _CHUNK), self.size - self.position)
+        try:
+            os.lseek(self._descriptor, self._start + self.position, os.SEEK_SET)
+            pieces = []
+            while wanted > 0 and (piece := os.read(self._descriptor, wanted)):
+                pieces.append(piece)
+                wanted -= len(piece)
+        except OSError as error:
+            raise VolumeFileError("not-a-file", _words(error), self.position) from None
+        self._buffer = b"".join(pieces)
+        self._base = self.position
+        self._end = self._base + len(self._buffer)
+        if self._end < self._base + count:
+            self.size = self.limit = self._end
+            raise self._beyond(self._base + count)
+
+
+@contextmanager
+def open_window(path: str, offset: int, size: int | None) -> Iterator[Window]:
+    """The `size` bytes of a file from `offset` on, or fewer if the file ends before."""
+    try:
+        descriptor = os.open(path, _FLAGS)
+    except (OSError, ValueError) as error:
+        raise VolumeFileError("not-a-file", _words(error)) from None
+    try:
+        status = os.fstat(descriptor)
+        if stat.S_ISDIR(status.st_mode):
+            raise VolumeFileError("not-a-file", "a folder")
+        if not stat.S_ISREG(status.st_mode):
+            raise VolumeFileError("not-a-file", "not a regular file")
+        if offset > status.st_size:
+            message = f"the file ends at byte {status.st_size}, before byte {offset}"
+            raise VolumeFileError("truncated", message)
+        there = status.st_size - offset
+        yield Window(descriptor, offset, there if size is None else min(size, there))
+    finally:
+        os.close(descriptor)
+
+
+def _words(error: OSError | ValueError) -> str:
+    text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return text.lower()
