@@ -5,6 +5,9 @@ from __future__ import annotations
 import os
 import random
 import re
+import subprocess
+import sys
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +16,10 @@ from process import ROOT, ROUGH, STUDIO, Ran, environment, run, volume, write
 from pxr import Sdf, Usd, UsdVol
 
 from usdvol_lint.engine import Engine
+from usdvol_lint.model import UsageError
 from usdvol_lint.paths import discover, display
+from usdvol_lint.pool import Worker
+from usdvol_lint.protocol import Setup
 
 POSIX = os.name == "posix"
 STUDIO_ONLY = ("--isolated", "--pack", STUDIO, "--select", "STU001", "--output-format", "json")
@@ -284,6 +290,18 @@ def test_names_with_brackets(tmp_path: Path) -> None:
     assert layers == {"[1]/[2].usda", "[1]/a[3]b.usda"}
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere file names are Unicode")
+def test_names_that_are_no_text(tmp_path: Path) -> None:
+    write(tmp_path, fog=volume("fog"))
+    (tmp_path / os.fsdecode(b"\xff.usda")).write_text(volume("fog"))
+    ran = run(*STUDIO_ONLY, ".", cwd=tmp_path)
+    said = "USD opens no file whose path is not UTF-8"
+    assert troubles(ran) == {
+        "fog.usda": (GOOD, 2, 1, None),
+        "\udcff.usda": (said, None, None, "rename the file or folder"),
+    }
+
+
 # --- what happens while USD or a rule is at work --------------------------------------------------
 
 CRASHED = "the file or a layer it names is probably corrupt: open it with usdcat to see which"
@@ -321,11 +339,29 @@ def test_verbose_shows_what_the_process_said(tmp_path: Path) -> None:
     assert "\n    | last words\n" in run(*only, "--verbose", cwd=tmp_path).out
 
 
-def test_a_limit_shorter_than_the_import_of_usd(tmp_path: Path) -> None:
-    """The limit is for a stage, not for a new process."""
-    write(tmp_path, a=volume("hang"), b=volume("hang_again"), c=volume("c"))
-    ran = run(*ROUGH_ONLY, "--timeout", "0.2", "-j1", ".", cwd=tmp_path)
-    assert statuses(ran) == {"a.usda": "timed_out", "b.usda": "timed_out", "c.usda": "checked"}
+def test_the_limit_is_for_a_stage_not_for_a_new_process(tmp_path: Path) -> None:
+    """Which takes longer to start than the limit is, because of a slow pack."""
+    write(tmp_path, a=volume("hang"), b=volume("b"))
+    pack(tmp_path / "slow", a="import time; time.sleep(1)\n" + RULE.format(code="SLO001", name="a"))
+    ran = run(*ROUGH_ONLY, "--pack", "slow", "--timeout", "0.9", "-j1", ".", cwd=tmp_path)
+    assert (ran.code, ran.err) == (2, "")
+    assert statuses(ran) == {"a.usda": "timed_out", "b.usda": "checked"}
+
+
+def test_a_process_that_says_why_it_ends_is_heard() -> None:
+    """Even if it has gone before it was asked anything."""
+    program = (
+        "import pickle, sys; from usdvol_lint.protocol import Refusal; "
+        "sys.stdout.buffer.write(pickle.dumps(Refusal('not\\ntoday')))"
+    )
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    child = subprocess.Popen([sys.executable, "-P", "-c", program], env=environment(), **pipes)
+    child.wait()
+    worker = Worker(child)
+    nothing: Any = [None] * len(fields(Setup))
+    with pytest.raises(UsageError, match=r"^not today$"):
+        worker.prepare(Setup(*nothing), 60)
+    worker.stop()
 
 
 def test_a_rule_that_raises(tmp_path: Path) -> None:
@@ -387,7 +423,8 @@ def test_usd_fails_while_rules_read_a_stage(tmp_path: Path) -> None:
     ] == [
         (
             "LNT001",
-            "USD can't read what is here: Python runtime error: no value in damaged.usda at </damaged>",
+            "USD can't read what is here: Python runtime error: "
+            "no value in damaged.usda at </damaged>",
             "the layer is probably corrupt: copy or export it again",
         ),
         ("RGH001", "behaved", None),

@@ -94,7 +94,7 @@ def test_an_asset_path(locate: Locate) -> None:
 def test_the_strongest_opinion_counts(locate: Locate) -> None:
     layers = {
         "stage.usda": "(\n    subLayers = [@./over.usda@, @./base.usda@]\n)\n",
-        "over.usda": 'over "density"\n{\n    asset filePath (\n        doc = "only words"\n    )\n}\n',
+        "over.usda": 'over "density"\n{\n    asset filePath (\n        doc = "words"\n    )\n}\n',
         "base.usda": DENSITY,
     }
     found = locate("/density.filePath", layers, times=(1.0,)).site
@@ -253,7 +253,8 @@ def test_a_layer_without_a_file(locate: Locate) -> None:
 def test_instances_are_shown_at_the_first(locate: Locate) -> None:
     layers = {
         "stage.usda": "".join(
-            f'def "{name}" (\n    instanceable = true\n    references = @./lib.usda@</lib>\n)\n{{\n}}\n'
+            f'def "{name}" (\n    instanceable = true\n    references = @./lib.usda@</lib>\n)\n'
+            "{\n}\n"
             for name in ("b", "a")
         ),
         "lib.usda": f'def "lib"\n{{\n{DENSITY}}}\n',

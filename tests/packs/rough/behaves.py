@@ -17,7 +17,7 @@ def behaves(volume: Prim, facts: Facts) -> Problems:
     elif name == "segfault":
         os.kill(os.getpid(), signal.SIGSEGV)
     elif name == "exit":
-        print("last words", file=sys.stderr)
+        print("many words\n" * 50_000 + "last words", file=sys.stderr)
         os._exit(3)
     elif name == "leave":
         sys.exit(4)
@@ -29,7 +29,7 @@ def behaves(volume: Prim, facts: Facts) -> Problems:
     elif name == "damaged":
         fail_as_usd_does(volume)
     elif name == "print":
-        print("noise on standard output")
+        print("noise on standard output", flush=True)
     yield Problem("behaved", at=volume)
 
 
