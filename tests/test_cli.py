@@ -280,6 +280,7 @@ def test_exit_code(arguments: str, code: int, tmp_path: Path) -> None:
             "did you mean 'warning'?",
         ),
         ("--load some .", "--load must be one of all, none, not 'some'"),
+        ("--variants any .", "--variants must be one of selected, all, not 'any'"),
         (
             "--timeout 0 .",
             "--timeout must be a number of seconds above 0, at most 1,000,000, not 0.0",
@@ -397,6 +398,8 @@ packs = ["pack"]
 fail-on = "warning"
 output-format = "json"
 load = "none"
+variants = "all"
+variant-limit = 7
 jobs = 2
 timeout = 12
 severity = { STU001 = "info" }
@@ -415,6 +418,8 @@ strict = true
         "packs": [str(tmp_path / "pack")],
         "fail_on": "warning",
         "load": "none",
+        "variants": "all",
+        "variant_limit": 7,
         "timeout": 12.0,
     }
     shown = settings(tool("--show-settings"))
@@ -432,6 +437,8 @@ strict = true
         ),
         ("fail-on = 3", "fail-on must be one of error, warning, info, never, not 3"),
         ("load = []", "load must be one of all, none, not []"),
+        ("variants = true", "variants must be one of selected, all, not True"),
+        ("variant-limit = 0", "variant-limit must be a whole number from 1, not 0"),
         ("select = 'AST'", "select must be a list of strings, not 'AST'"),
         ("ignore = ['AST', 3]", "ignore must be a list of strings, not ['AST', 3]"),
         ("packs = true", "packs must be a list of strings, not True"),

@@ -14,7 +14,7 @@ from process import ROOT
 from pxr import Sdf, Usd, Vt
 
 from usdvol_lint import schema
-from usdvol_lint.catalog import ENGINE_RULES, Catalog, load
+from usdvol_lint.catalog import ENGINE_RULES, Catalog
 from usdvol_lint.config import Config, activate
 from usdvol_lint.engine import Engine
 from usdvol_lint.facts.kinds import is_registered
@@ -31,7 +31,7 @@ LAYERS = (
     {"rule"},
     {"catalog"},
     {"config", "trouble", "site", "walk"},
-    {"protocol", "stage"},
+    {"protocol", "stage", "variants"},
     {"engine"},
     {"child", "worker"},
     {"pool"},
@@ -154,7 +154,6 @@ def test_a_rule_module(path: Path) -> None:
     assert path.stem == name
     assert re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)*", name)
     assert re.fullmatch(r"[A-Z]{3}\d{3}", code)
-    assert path.with_suffix(".md").is_file()
     words = ast.get_docstring(module) or ""
     assert words.startswith(f"{code}: ")
     assert words.partition("\n")[0].endswith(".")
@@ -163,7 +162,6 @@ def test_a_rule_module(path: Path) -> None:
         root = imported.partition(".")[0]
         assert root != "logging"
         if root == "usdvol_lint":
-            assert re.match(r"usdvol_lint\.(rule|schema)\b|usdvol_lint\.facts\.", imported)
             assert imported.split(".")[1] in {"rule", "schema"}, f"a rule imports {imported}"
     roots = {imported.partition(".")[0] for imported in imports_at_once(path)}
     assert roots.isdisjoint({"pxr", "numpy"}), "the parent process loads rules too"
@@ -174,6 +172,7 @@ def test_a_rule_module(path: Path) -> None:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
     }
     assert called.isdisjoint({"print", "open", "input", "exec", "eval", "breakpoint"})
+    assert path.with_suffix(".md").is_file()
 
 
 def test_rules_say_what_they_are(built_in: dict[str, Rule]) -> None:

@@ -16,7 +16,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status
+from usdvol_lint.model import (
+    Finding,
+    ParticleFieldStats,
+    Report,
+    Severity,
+    Site,
+    StageReport,
+    Status,
+)
 from usdvol_lint.report import FORMATS, Options, render
 from usdvol_lint.report.json_report import SCHEMA_VERSION
 from usdvol_lint.report.plain import printable
@@ -347,12 +355,16 @@ def test_every_format_can_be_rendered() -> None:
         assert render(EVERYTHING, format, Options()).endswith("\n")
 
 
+OPTIONAL = {"particle_fields"}
+"""What is there only if it was asked for."""
+
+
 def test_schema_is_valid_and_describes_itself() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     objects = [SCHEMA, *(part for part in SCHEMA["$defs"].values() if "properties" in part)]
     for part in objects:
         assert part["additionalProperties"] is False
-        assert part["required"] == list(part["properties"])
+        assert part["required"] == [name for name in part["properties"] if name not in OPTIONAL]
         for name, described in part["properties"].items():
             assert "description" in described or "$ref" in described or name == "schema_version"
 
@@ -389,6 +401,23 @@ FINDINGS = st.builds(
     detail=st.none() | ANYTHING,
     fingerprint=ANYTHING,
 )
+NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
+CORNERS = st.tuples(NUMBERS, NUMBERS, NUMBERS)
+QUANTILES = st.fixed_dictionaries(
+    dict.fromkeys(("min", "p01", "p10", "p50", "p90", "p99", "max"), NUMBERS)
+)
+PARTICLE_FIELDS = st.builds(
+    ParticleFieldStats,
+    prim=ANYTHING,
+    count=st.integers(0, 10**9),
+    sh_degree=st.none() | st.integers(),
+    bytes=st.integers(0, 10**12),
+    precision=st.sampled_from([None, "float", "half", "mixed"]),
+    bounds=st.none() | st.tuples(CORNERS, CORNERS),
+    opacity=st.none() | QUANTILES,
+    scale=st.none() | QUANTILES,
+    transparent=st.none() | st.floats(0, 1),
+)
 STAGES = st.builds(
     StageReport,
     path=ANYTHING,
@@ -397,6 +426,7 @@ STAGES = st.builds(
     | st.fixed_dictionaries({"volumes": st.integers(0, 3), "files_checked": st.integers(0, 3)}),
     findings=st.lists(FINDINGS, max_size=4).map(tuple),
     seconds=st.dictionaries(ANYTHING, st.floats(0, 1e6), max_size=3),
+    particle_fields=st.none() | st.lists(PARTICLE_FIELDS, max_size=2).map(tuple),
 )
 SETTINGS: st.SearchStrategy[object] = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | ANYTHING | st.sampled_from(Severity),
@@ -439,6 +469,10 @@ def test_json_is_valid_and_says_everything(subject: Report, options: Options) ->
         (joined(stage.path), [(joined(f.message), list(f.site.times)) for f in stage.findings])
         for stage in subject.stages
     ]
+    for said, stage in zip(parsed["stages"], subject.stages, strict=True):
+        assert ("particle_fields" in said) == (stage.particle_fields is not None)
+        numbers = [(each["count"], each["transparent"]) for each in said.get("particle_fields", ())]
+        assert numbers == [(each.count, each.transparent) for each in stage.particle_fields or ()]
 
 
 def joined(text: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from pxr import Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.kinds import is_concrete, is_registered, type_names
@@ -188,3 +188,186 @@ def test_misspelt_api(name: str, meant: str) -> None:
 )
 def test_an_api_of_its_own_is_no_misspelling(name: str) -> None:
     assert schema.misspelt_api(name) is None
+
+
+# --- attributes -----------------------------------------------------------------------------------
+
+
+def registered_attributes(definition: Usd.PrimDefinition) -> dict[str, schema.Attribute]:
+    """What the registry says of each attribute, in the words of the table."""
+    found = {}
+    for name in definition.GetPropertyNames():
+        if definition.GetSpecType(name) == Sdf.SpecTypeAttribute:
+            spec = definition.GetSchemaAttributeSpec(name)
+            uniform = spec.variability == Sdf.VariabilityUniform
+            tokens = tuple(spec.allowedTokens or ())
+            found[name] = schema.Attribute(str(spec.typeName), uniform, tokens)
+    return found
+
+
+def assert_agrees(table: dict[str, schema.Attribute], found: dict[str, schema.Attribute]) -> None:
+    """The same names, types and variability; every token that this USD allows is in the table."""
+    of_geom = {name for kind in GEOM for name in schema.ATTRIBUTES[kind]}
+    assert {name: attribute[:2] for name, attribute in table.items()} == {
+        name: attribute[:2] for name, attribute in found.items()
+    }
+    for name in table.keys() - of_geom:
+        assert set(found[name].tokens) <= set(table[name].tokens)
+        if Usd.GetVersion() >= (0, 26, 5):
+            assert found[name].tokens == table[name].tokens
+
+
+GEOM = ("Imageable", "Xformable", "Boundable", "Gprim")
+
+
+@pytest.mark.parametrize("name", sorted(name for name in schema.CONCRETE_TYPES if name in TYPES))
+def test_attributes_of_a_type_agree_with_the_registry(name: str) -> None:
+    definition = REGISTRY.FindConcretePrimDefinition(name)
+    schemas = {name, *schema.TYPE_BASES[name], *schema.BUILT_IN_APIS.get(name, ())}
+    assert_agrees(schema.attributes_of(schemas), registered_attributes(definition))
+
+
+@needs_particle_fields
+@pytest.mark.parametrize("api", schema.API_INCLUDES)
+def test_attributes_of_an_api_agree_with_the_registry(api: str) -> None:
+    definition = REGISTRY.FindAppliedAPIPrimDefinition(api)
+    assert_agrees(schema.attributes_of((api,)), registered_attributes(definition))
+
+
+def test_attribute_tables_agree_with_each_other() -> None:
+    known = {*schema.TYPE_BASES, *schema.API_INCLUDES, *GEOM}
+    assert set(schema.ATTRIBUTES) <= known
+    order = list(schema.ATTRIBUTES)
+    for name in schema.ATTRIBUTES.keys() & schema.TYPE_BASES.keys():
+        bases = [base for base in schema.TYPE_BASES[name] if base in order]
+        assert all(order.index(base) < order.index(name) for base in bases), "bases come first"
+    attributes = schema.attributes_of(schema.ATTRIBUTES)
+    assert set(schema.GUESSED_ATTRIBUTES.values()) <= set(attributes)
+    assert not set(schema.GUESSED_ATTRIBUTES) & set(attributes)
+    for name, guesses in schema.GUESSED_TOKENS.items():
+        allowed = {
+            token
+            for table in schema.ATTRIBUTES.values()
+            if name in table
+            for token in table[name].tokens
+        }
+        assert set(guesses.values()) <= allowed
+        assert not set(guesses) & allowed
+    vdb = set(schema.ATTRIBUTES["OpenVDBAsset"]["fieldDataType"].tokens)
+    assert vdb > schema.SCALAR_DATA_TYPES
+
+
+FIELD_ATTRIBUTES = schema.attributes_of(("OpenVDBAsset", *schema.TYPE_BASES["OpenVDBAsset"]))
+SPLAT_ATTRIBUTES = schema.attributes_of(
+    (
+        "ParticleField3DGaussianSplat",
+        *schema.TYPE_BASES["ParticleField3DGaussianSplat"],
+        *schema.API_ATTRIBUTES,
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("filepath", "filePath"),
+        ("file_path", "filePath"),
+        ("filename", "filePath"),
+        ("feildName", "fieldName"),
+        ("FieldClass", "fieldClass"),
+        ("fieldType", "fieldDataType"),
+        ("vectorRoleHint", "vectorDataRoleHint"),
+        ("fieldIdx", "fieldIndex"),
+    ],
+)
+def test_misspelt_attribute_of_a_field(name: str, meant: str) -> None:
+    assert schema.misspelt_attribute(name, FIELD_ATTRIBUTES) == meant
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("opacitys", "opacities"),
+        ("opacity", "opacities"),
+        ("position", "positions"),
+        ("positionh", "positionsh"),
+        ("extents", "extent"),
+        ("shCoeffs", "radiance:sphericalHarmonicsCoefficients"),
+        ("radianceSphericalHarmonicsCoefficients", "radiance:sphericalHarmonicsCoefficients"),
+        ("radiance:sphericalHarmonicCoefficientsh", "radiance:sphericalHarmonicsCoefficientsh"),
+        ("sphericalHarmonicsDegree", "radiance:sphericalHarmonicsDegree"),
+        ("particleField:positionAttr", "positions"),
+    ],
+)
+def test_misspelt_attribute_of_a_splat(name: str, meant: str) -> None:
+    assert schema.misspelt_attribute(name, SPLAT_ATTRIBUTES) == meant
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "textureMemory",
+        "userProperties:filePath",
+        "arnold:filePath",
+        "karma:scales",
+        "primvars:displayColour",
+        "primvars:radiance:sphericalHarmonicsCoefficients",
+        "xformOp:scale",
+        "scales2",
+        "velocities",
+        "widths",
+        "visible",
+        "path",
+        "",
+    ],
+)
+def test_an_attribute_of_its_own_is_no_misspelling(name: str) -> None:
+    known = FIELD_ATTRIBUTES | SPLAT_ATTRIBUTES
+    assert schema.misspelt_attribute(name, known) is None
+
+
+def test_a_guess_counts_only_where_the_attribute_exists() -> None:
+    assert schema.misspelt_attribute("points", FIELD_ATTRIBUTES) is None
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "alike"),
+    [
+        ("string", "asset", True),
+        ("float", "int", True),
+        ("color3f[]", "float3[]", True),
+        ("float", "float[]", False),
+        ("string", "int", False),
+        ("token[]", "asset", False),
+    ],
+)
+def test_types_that_may_hold_the_same(one: str, other: str, alike: bool) -> None:
+    assert schema.is_alike(one, other) is alike
+
+
+@pytest.mark.parametrize(
+    ("name", "token", "meant"),
+    [
+        ("fieldClass", "GRID_FOG_VOLUME", "fogVolume"),
+        ("fieldClass", "level set", "levelSet"),
+        ("fieldClass", "GRID_UNKNOWN", "unknown"),
+        ("fieldClass", "density", None),
+        ("fieldDataType", "Float", "float"),
+        ("fieldDataType", "float32", "float"),
+        ("fieldDataType", "vec3f", "float3"),
+        ("fieldDataType", "Tree_vec3s_5_4_3", "float3"),
+        ("fieldDataType", "Tree_float_5_4_3", "float"),
+        ("fieldDataType", "doubl", "double"),
+        ("fieldDataType", "float4", None),
+        ("fieldDataType", "vector", None),
+        ("vectorDataRoleHint", "none", "None"),
+        ("vectorDataRoleHint", "velocity", None),
+    ],
+)
+def test_misspelt_token(name: str, token: str, meant: str | None) -> None:
+    assert schema.misspelt_token(name, token, FIELD_ATTRIBUTES[name].tokens) == meant
+
+
+def test_a_token_is_not_taken_for_one_that_is_not_allowed() -> None:
+    allowed = schema.ATTRIBUTES["Field3DAsset"]["fieldDataType"].tokens
+    assert schema.misspelt_token("fieldDataType", "int32", allowed) is None

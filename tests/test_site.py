@@ -239,7 +239,7 @@ def test_layers_in_a_package(locate: Locate) -> None:
     assert found.layer.endswith("base.usda]")
     assert (found.prim, found.line) == ("/density", 6)
     found = located("packed.usdz", "/").site
-    assert (found.layer, found.line) == ("packed.usdz", None)
+    assert (found.layer, found.line) == ("packed.usdz", 1)
 
 
 def test_a_layer_without_a_file(locate: Locate) -> None:

@@ -38,6 +38,10 @@ def _lint(arguments: list[str]) -> None:
     from usdvol_lint.child import start_child
 
     child = start_child()
+    import signal
+
+    # Whoever ends this process, such as a CI host, means the workers too.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         from usdvol_lint.cli import main as run_command
 

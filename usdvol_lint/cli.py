@@ -30,6 +30,17 @@ def _complete_code(context: click.Context, parameter: click.Parameter, typed: st
     return [code for code in load().rules if code.startswith(typed.upper())]
 
 
+def _complete_from(constant: str) -> Any:
+    """Completes with the values that a constant of `config` allows."""
+
+    def complete(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
+        from usdvol_lint import config
+
+        return [value for value in getattr(config, constant) if value.startswith(typed)]
+
+    return complete
+
+
 # fmt: off
 @click.command(
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
@@ -43,8 +54,10 @@ def _complete_code(context: click.Context, parameter: click.Parameter, typed: st
 @click.option("--severity", multiple=True, metavar="CODE=LEVEL",
               help="Report a rule as error, warning or info.")
 @click.option("--fail-on", metavar="LEVEL",
+              shell_complete=_complete_from("FAIL_ON"),
               help="Exit with 1 from this level on: error (default), warning, info, never.")
 @click.option("--output-format", multiple=True, metavar="FORMAT",
+              shell_complete=_complete_from("OUTPUT_FORMATS"),
               help="full (default), concise or json; may be repeated, each with its --output.")
 @click.option("--output", multiple=True, type=click.Path(), metavar="FILE",
               help="Write the report to a file instead of standard output.")
@@ -57,7 +70,20 @@ def _complete_code(context: click.Context, parameter: click.Parameter, typed: st
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")
 @click.option("--pack", multiple=True, type=click.Path(), metavar="FOLDER",
               help="Load the rules in a folder too; may be repeated.")
-@click.option("--load", metavar="all|none", help="Load payloads (default: all).")
+@click.option("--load", metavar="all|none",
+              shell_complete=_complete_from("LOADS"),
+              help="Load payloads (default: all).")
+@click.option("--content", metavar="all|first|off",
+              shell_complete=_complete_from("CONTENTS"),
+              help="Look into all files of a field (default), the first one, or none.")
+@click.option("--variants", metavar="selected|all",
+              shell_complete=_complete_from("VARIANTS"),
+              help="Check variants as selected (default), or all of them in turn.")
+@click.option("--times", metavar="all|first|ends|N",
+              shell_complete=_complete_from("TIMES"),
+              help="Look at all time samples of particles (default), or at some.")
+@click.option("--statistics", is_flag=True,
+              help="Add what particle fields hold to the JSON report.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), metavar="N",
               help="Worker processes (default: one for each processor).")
 @click.option("--timeout", type=float, metavar="SECONDS",
@@ -144,11 +170,9 @@ def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
 
 def _exit_code(report: Report, fail_on: str) -> int:
     from usdvol_lint.catalog import NOT_IGNORABLE
-    from usdvol_lint.model import Severity, Status
+    from usdvol_lint.model import Severity
 
     findings = [finding for stage in report.stages for finding in stage.findings]
-    if any(stage.status is not Status.CHECKED for stage in report.stages):
-        return FAILED
     if any(finding.code in NOT_IGNORABLE for finding in findings):
         return FAILED
     if fail_on == "never":
@@ -184,6 +208,14 @@ def _settle(given: dict[str, Any]) -> tuple[Config, Path | None]:
         changes["fail_on"] = config.one_of("--fail-on", given["fail_on"], config.FAIL_ON)
     if given["load"] is not None:
         changes["load"] = config.one_of("--load", given["load"], config.LOADS)
+    if given["content"] is not None:
+        changes["content"] = config.one_of("--content", given["content"], config.CONTENTS)
+    if given["variants"] is not None:
+        changes["variants"] = config.one_of("--variants", given["variants"], config.VARIANTS)
+    if given["times"] is not None:
+        changes["times"] = config.times("--times", given["times"])
+    if given["statistics"]:
+        changes["statistics"] = True
     for name in given["output_format"]:
         config.one_of("--output-format", name, config.OUTPUT_FORMATS)
     select = _codes(given["select"])
@@ -209,7 +241,7 @@ def _severities(pairs: tuple[str, ...]) -> dict[str, str]:
         code, equals, level = (part.strip() for part in pair.partition("="))
         if not equals:
             raise UsageError(f"--severity {pair}: write it as CODE=LEVEL, such as AST002=warning")
-        severities[code.upper()] = one_of(f"--severity {code}", level, LEVELS)
+        severities[code] = one_of(f"--severity {code}", level, LEVELS)
     return severities
 
 

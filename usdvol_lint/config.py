@@ -16,6 +16,16 @@ TABLE = "usdvol-lint"
 FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = ("full", "concise", "json")
 LOADS = ("all", "none")
+CONTENTS = ("all", "first", "off")
+VARIANTS = ("selected", "all")
+_CHOICES = {
+    "fail-on": FAIL_ON,
+    "output-format": OUTPUT_FORMATS,
+    "load": LOADS,
+    "content": CONTENTS,
+    "variants": VARIANTS,
+}
+TIMES = ("all", "first", "ends")
 LEVELS = tuple(severity.label for severity in reversed(Severity))
 LONGEST_TIMEOUT = 1_000_000
 _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
@@ -35,6 +45,11 @@ class Config:
     jobs: int = 0
     timeout: float = 300.0
     load: str = "all"
+    content: str = "all"
+    variants: str = "selected"
+    variant_limit: int = 100
+    times: str | int = "all"
+    statistics: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,17 +143,25 @@ def _checked(path: Path, key: str, value: Any) -> Any:
     where = f"{path}: {key}"
     if key in ("select", "ignore", "packs"):
         return tuple(_strings(where, value))
-    if key in ("fail-on", "output-format", "load"):
-        return one_of(where, value, {"fail-on": FAIL_ON, "load": LOADS}.get(key, OUTPUT_FORMATS))
+    if key in _CHOICES:
+        return one_of(where, value, _CHOICES[key])
     if key == "severity":
-        levels = _table(where, value).items()
-        return {k.strip().upper(): one_of(f"{where}.{k}", level, LEVELS) for k, level in levels}
+        return {
+            k: one_of(f"{where}.{k}", level, LEVELS) for k, level in _table(where, value).items()
+        }
     if key == "options":
         return {str(k): _table(f"{where}.{k}", v) for k, v in _table(where, value).items()}
     if key == "timeout":
         return timeout(where, value)
-    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-        raise UsageError(f"{where} must be a whole number from 0, not {value!r}")
+    if key == "times":
+        return times(where, value)
+    if key == "statistics":
+        if not isinstance(value, bool):
+            raise UsageError(f"{where} must be true or false, not {value!r}")
+        return value
+    least = 1 if key == "variant-limit" else 0
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
     return value
 
 
@@ -149,6 +172,17 @@ def timeout(where: str, value: Any) -> float:
         wanted = f"a number of seconds above 0, at most {LONGEST_TIMEOUT:,}"
         raise UsageError(f"{where} must be {wanted}, not {value!r}")
     return float(value)
+
+
+def times(where: str, value: Any) -> str | int:
+    """The value, if it says which time samples of particles are looked at."""
+    if isinstance(value, str) and value.isascii() and value.isdigit():
+        value = int(value)
+    is_number = isinstance(value, int) and not isinstance(value, bool) and value > 0
+    if value not in TIMES and not is_number:
+        wanted = f"{', '.join(TIMES)} or a whole number from 1"
+        raise UsageError(f"{where} must be {wanted}, not {value!r}")
+    return value  # type: ignore[no-any-return]
 
 
 def _strings(where: str, value: Any) -> list[str]:

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
-from pxr import Tf, Usd
+from pxr import Sdf, Tf, Usd
 
 from usdvol_lint import schema
-from usdvol_lint.catalog import NOT_CHECKED, RULE_FAILED, STAGE_UNREADABLE, help_for
+from usdvol_lint.catalog import (
+    NOT_CHECKED,
+    RULE_FAILED,
+    STAGE_UNREADABLE,
+    USD_TOO_OLD,
+    help_for,
+)
 from usdvol_lint.config import ActiveRules
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Kinds
@@ -20,6 +26,8 @@ from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
 from usdvol_lint.site import Sites
 from usdvol_lint.stage import in_usds_words, open_stage
 from usdvol_lint.trouble import Unreadable, report_trouble
+from usdvol_lint.variants import Identity, OtherSelections, identity
+from usdvol_lint.volumefile.cache import VolumeFiles
 from usdvol_lint.walk import Walk, assign, walk
 
 _LONGEST = 300
@@ -39,6 +47,9 @@ class Engine:
     """Lints stages, one after the other, with the same rules.
 
     `advance` is told how many samples of a long sequence were read since it was last told.
+    `selections` is how many variant selections besides the authored ones are composed at most.
+    `times` says which time samples of particles are looked at, `statistics` whether to tell what
+    particle fields hold.
     USD's own warnings go to standard error, which in a worker process is the parent's to read.
     """
 
@@ -47,19 +58,29 @@ class Engine:
         rules: Mapping[str, Rule],
         active: ActiveRules,
         load: str = "all",
+        content: str = "all",
         advance: Callable[[int], None] = _ignore_progress,
+        selections: int = 0,
+        times: str | int = "all",
+        statistics: bool = False,
     ) -> None:
         self._rules = [rules[code] for code in active.severities]
         self._options = active.options
         self._severities = active.severities
         self._load = load
         self._advance = advance
+        self._content = content
+        self._volume_files = VolumeFiles()
+        self._selections = selections
+        self._times = times
+        self._statistics = statistics
 
     def lint(self, path: str) -> StageReport:
         """Everything there is to say of one stage; never raises for what the stage holds."""
         clock = _Stopwatch()
         try:
-            stage = open_stage(path, self._load)
+            session = Sdf.Layer.CreateAnonymous() if self._selections else None
+            stage = open_stage(path, self._load, session)
         except Unreadable as trouble:
             clock.lap("open")
             return report_trouble(path, trouble, seconds=clock.seconds)
@@ -67,14 +88,66 @@ class Engine:
         kinds = Kinds()
         walked = walk(stage, self._rules, kinds)
         clock.lap("walk")
-        facts = Facts(stage, kinds, walked.kept, self._advance)
-        findings = with_fingerprints(self._findings(walked, facts))
-        clock.lap("check")
-        stats = _stats(walked, facts)
-        return StageReport(display(path), Status.CHECKED, stats, findings, clock.seconds)
-
-    def _findings(self, walked: Walk, facts: Facts) -> Iterator[Finding]:
+        facts = Facts(
+            stage,
+            kinds,
+            walked.kept,
+            self._advance,
+            self._content,
+            self._volume_files,
+            self._times,
+            self._statistics,
+        )
         sites = Sites()
+        found = [*self._check_usd(facts, sites), *self._check(walked, facts, sites)]
+        stats = _stats(walked, facts)
+        particle_fields = facts.particle_field_stats() if self._statistics else None
+        if self._selections:
+            clock.lap("check")
+            others = OtherSelections(stage, kinds, self._selections)
+            known = {each.identity for each in found}
+            found += self._check_others(others, known, facts, sites)
+            stats["variant_selections"] = others.composed
+            clock.lap("variants")
+        findings = with_fingerprints(each.finding for each in found)
+        clock.lap("check")
+        return StageReport(
+            display(path), Status.CHECKED, stats, findings, clock.seconds, particle_fields
+        )
+
+    def _check_usd(self, facts: Facts, sites: Sites) -> Iterator[_Found]:
+        """Whether the installed USD knows what the stage uses."""
+        if not facts.kinds.knows_particle_fields and facts.of(schema.PARTICLE_FIELD):
+            since = ".".join(map(str, schema.PARTICLE_FIELD_SINCE[1:]))
+            too_old = Problem(
+                f"USD {usd_version()} knows no particle fields, which came with {since}: they are "
+                "checked by the names of their types, APIs and attributes",
+                at=facts.stage.GetPseudoRoot(),
+                suggestion=f"install usd-core {since} or later",
+            )
+            yield from self._stamp(USD_TOO_OLD, too_old, sites)
+
+    def _check_others(
+        self, others: OtherSelections, known: set[Identity], facts: Facts, sites: Sites
+    ) -> Iterator[_Found]:
+        """What only other variant selections show, each with the first that does."""
+        failures = _Failures()
+        try:
+            for selection in others:
+                walked = walk(facts.stage, self._rules, facts.kinds)
+                facts = facts.composed_anew(walked.kept)
+                for found in self._check(walked, facts, sites):
+                    if found.identity not in known:
+                        known.add(found.identity)
+                        site = replace(found.finding.site, variant=selection)
+                        yield _Found(replace(found.finding, site=site), found.identity)
+        except Tf.ErrorException as error:
+            failures.add(NOT_CHECKED, facts.stage.GetPseudoRoot(), error)
+        yield from failures.found(sites)
+        for left_out in others.not_checked():
+            yield from self._stamp(NOT_CHECKED, left_out, sites)
+
+    def _check(self, walked: Walk, facts: Facts, sites: Sites) -> Iterator[_Found]:
         failures = _Failures()
         for rule, prim in self._work(walked, facts):
             options = self._options.get(rule.code, {})
@@ -83,7 +156,7 @@ class Engine:
                     yield from self._stamp(rule, problem, sites)
             except Exception as error:
                 failures.add(rule, prim, error)
-        yield from failures.findings(sites)
+        yield from failures.found(sites)
 
     def _work(self, walked: Walk, facts: Facts) -> Iterator[tuple[Rule, Any]]:
         """Each rule with each prim it asked for."""
@@ -92,7 +165,7 @@ class Engine:
                 yield rule, facts.stage.GetPseudoRoot()
         yield from assign(walked, self._rules, facts.kinds)
 
-    def _stamp(self, rule: Rule, problem: Problem | NotChecked, sites: Sites) -> Iterator[Finding]:
+    def _stamp(self, rule: Rule, problem: Problem | NotChecked, sites: Sites) -> Iterator[_Found]:
         """The problem with code, severity and site; nothing if LNT005 is switched off."""
         code = NOT_CHECKED if isinstance(problem, NotChecked) else rule
         severity = self._severities.get(code.code)
@@ -103,7 +176,7 @@ class Engine:
             severity = min(severity, lowered)
         site, instances = sites.locate(problem)
         shown = f" (shown by {instances} instances)" if instances > 1 else ""
-        yield Finding(
+        finding = Finding(
             code=code.code,
             name=code.name,
             severity=severity,
@@ -112,6 +185,14 @@ class Engine:
             suggestion=problem.suggestion,
             help=help_for(code),
         )
+        yield _Found(finding, identity(rule, problem) if self._selections else ())
+
+
+class _Found(NamedTuple):
+    """A finding, with what tells it from others under every variant selection."""
+
+    finding: Finding
+    identity: Identity
 
 
 @dataclass(slots=True)
@@ -123,7 +204,7 @@ class _Stopwatch:
 
     def lap(self, phase: str) -> None:
         now = time.perf_counter()
-        self.seconds[phase] = now - self._since
+        self.seconds[phase] = self.seconds.get(phase, 0.0) + now - self._since
         self._since = now
 
 
@@ -142,19 +223,19 @@ class _Failures:
     """
 
     def __init__(self) -> None:
-        self._failures: dict[tuple[object, ...], _Failure] = {}
+        self._failures: dict[Identity, _Failure] = {}
 
     def add(self, rule: Rule, prim: Any, error: Exception) -> None:
-        key: tuple[object, ...] = (rule.code, type(error), _line(error))
+        key: Identity = (rule.code, type(error).__name__, str(_line(error)))
         if isinstance(error, Tf.ErrorException):
-            key = (prim.GetPath(), *in_usds_words(error))
+            key = (str(prim.GetPath()), *in_usds_words(error))
         self._failures.setdefault(key, _Failure(rule, prim, error)).count += 1
 
-    def findings(self, sites: Sites) -> Iterator[Finding]:
-        for failure in self._failures.values():
+    def found(self, sites: Sites) -> Iterator[_Found]:
+        for key, failure in self._failures.items():
             by_usd = isinstance(failure.error, Tf.ErrorException)
             code = STAGE_UNREADABLE if by_usd else RULE_FAILED
-            yield Finding(
+            finding = Finding(
                 code=code.code,
                 name=code.name,
                 severity=Severity.ERROR,
@@ -166,6 +247,7 @@ class _Failures:
                 help=help_for(code),
                 detail=_traceback(failure.error),
             )
+            yield _Found(finding, key)
 
 
 def _usd_failed(error: Exception) -> str:

@@ -39,6 +39,8 @@ class Site:
     """Where a finding is: the layer that holds the opinion, the composed prim, the frames.
 
     `layer` is relative to the working directory, with `/`.
+    `variant` is where in its layer the opinion is, `look=thin`, or, for what the stage shows only
+    under another selection than the authored one, that selection: `/model{look=thin}`.
     `line` and `column` are 1-based and None in binary layers.
     `times` are time codes of the stage, ascending; `at_default` says that USD's default time
     is affected too.
@@ -79,11 +81,34 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True)
+class ParticleFieldStats:
+    """What one particle field holds, over all the time samples that were looked at.
+
+    `count` is the greatest number of particles at one time, `bytes` what its arrays take in all.
+    `precision` is `float`, `half` or `mixed`, `bounds` are the corners that enclose all positions.
+    `opacity` and `scale` are quantiles by name, from `min` to `max`, `transparent` is the share of
+    particles that are as good as invisible.
+    What there is no array for is None.
+    """
+
+    prim: str
+    count: int
+    sh_degree: int | None
+    bytes: int
+    precision: str | None
+    bounds: tuple[tuple[float, ...], tuple[float, ...]] | None
+    opacity: dict[str, float] | None
+    scale: dict[str, float] | None
+    transparent: float | None
+
+
+@dataclass(frozen=True, slots=True)
 class StageReport:
     """What one stage came to.
 
     `path` is the stage as the user gave it or as it was found in a folder.
     `stats` counts what was looked at, `seconds` are wall-clock by phase.
+    `particle_fields` is None unless statistics were asked for.
     """
 
     path: str
@@ -91,6 +116,7 @@ class StageReport:
     stats: dict[str, int] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
     seconds: dict[str, float] = field(default_factory=dict)
+    particle_fields: tuple[ParticleFieldStats, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ class Destination:
 
 
 def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Destination]:
-    """Formats and files in the order given; one format goes to standard output.
+    """Formats and files in the order given; one format, the last, goes to standard output.
 
     Beside files for machines the terminal still gets a text report.
     """
@@ -61,11 +61,10 @@ def check_writable(destinations: Sequence[Destination]) -> None:
 def write(report: Report, destinations: Sequence[Destination], options: Options) -> None:
     """Renders and writes every report; files appear whole or not at all.
 
-    Files come first, because standard output may end early.
     A file that can't be written is said when all others are out, its report on standard output.
     """
     failures = []
-    for destination in sorted(destinations, key=lambda each: each.file is None):
+    for destination in destinations:
         if destination.file is None:
             print_text(render(report, destination.format, options))
             continue

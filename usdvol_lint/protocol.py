@@ -14,6 +14,10 @@ class Setup:
     active: ActiveRules
     packs: tuple[str, ...]
     load: str
+    content: str
+    selections: int
+    times: str | int
+    statistics: bool
 
 
 @dataclass(frozen=True, slots=True)

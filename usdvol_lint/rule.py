@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.states import AssetState, Emptiness, FileFault, TargetState
-from usdvol_lint.model import Severity
+from usdvol_lint.model import Severity, format_time, frame_ranges
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "UNKNOWN_TYPE",
     "WARNING",
     "AssetState",
+    "Content",
     "Emptiness",
     "Facts",
     "FileFault",
@@ -28,6 +29,8 @@ __all__ = [
     "Problems",
     "Rule",
     "TargetState",
+    "format_time",
+    "frame_ranges",
     "rule",
 ]
 
@@ -35,6 +38,10 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 
 Prim: TypeAlias = Any
 """A `pxr.Usd.Prim`; spelt so that rules can be loaded where pxr is not imported."""
+
+Content: TypeAlias = Any
+"""A `usdvol_lint.facts.contents.Content`, spelt so for the same reason."""
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:

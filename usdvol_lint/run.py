@@ -20,6 +20,12 @@ if TYPE_CHECKING:
     from subprocess import Popen
 
 
+_SHAPING = (
+    *("options", "packs", "fail_on"),
+    *("load", "content", "variants", "variant_limit", "times", "timeout"),
+)
+
+
 class Progress(Protocol):
     """Whoever shows how far a run is."""
 
@@ -58,7 +64,16 @@ def lint(
         for future in futures:
             future.add_done_callback(lambda _: shown.stage_done())
         shown.begin(len(futures))
-        setup = Setup(active, settled.packs, settled.load)
+        selections = settled.variant_limit if settled.variants == "all" else 0
+        setup = Setup(
+            active,
+            settled.packs,
+            settled.load,
+            settled.content,
+            selections,
+            settled.times,
+            settled.statistics,
+        )
         pool.run(setup, settled.jobs or os.cpu_count() or 1, settled.timeout, shown.advance)
         stages = tuple(future.result() for future in futures)
         return Report(
@@ -77,5 +92,5 @@ def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
     chosen = asdict(config)
     return {
         "rules": {code: severity.label for code, severity in active.severities.items()},
-        **{key: chosen[key] for key in ("options", "packs", "fail_on", "load", "timeout")},
+        **{key: chosen[key] for key in _SHAPING},
     }

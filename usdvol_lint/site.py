@@ -82,7 +82,8 @@ def _blamed_prim_spec(prim: Any) -> Any | None:
     """The strongest spec that defines the prim with a type, or else its strongest one."""
     if prim.IsPseudoRoot():
         return prim.GetStage().GetRootLayer().pseudoRoot
-    stack = prim.GetPrimStack()
+    session = prim.GetStage().GetSessionLayer()
+    stack = [spec for spec in prim.GetPrimStack() if spec.layer != session]
     return next((spec for spec in stack if spec.typeName), stack[0] if stack else None)
 
 
@@ -104,6 +105,8 @@ def _read(layer: Any) -> bytes:
     path = layer.realPath
     if not path or layer.anonymous:
         return b""
+    if layer.GetFileFormat().IsPackage():
+        path = _root_layer_of_package(path)
     if Ar.IsPackageRelativePath(path):
         asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
         return bytes(asset.GetBuffer()) if asset else b""
@@ -113,3 +116,14 @@ def _read(layer: Any) -> bytes:
             return head + file.read() if head.startswith(_TEXT_SIGNATURES) else b""
     except OSError:
         return b""
+
+
+def _root_layer_of_package(path: str) -> str:
+    """The path of the first file in a package, which is what USD opens."""
+    from zipfile import BadZipFile, ZipFile  # costs start-up time, and few layers are packages
+
+    try:
+        with ZipFile(path) as archive:
+            return str(Ar.JoinPackageRelativePath(path, archive.namelist()[0]))
+    except (OSError, BadZipFile, IndexError):
+        return path

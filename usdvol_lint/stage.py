@@ -26,19 +26,20 @@ _HOLDS = (
 )
 """What a file can begin with, what it is then, and the names under which USD reads that."""
 _UNEXPECTED = re.compile(r"parse error matching .*? at '(?P<text>.*)'(?= in <)", re.DOTALL)
+_SESSION = re.compile(r", sessionLayer @anon:[^@]*@")
 _MENTION = re.compile(r"[@<]([^@<>]+)[@>]")
 _PLACE = re.compile(r"^(?P<path>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:\s*(?P<what>.*)", re.DOTALL)
 _LONGEST = 300
 _EXPORT_AGAIN = "copy or export it again"
 
 
-def open_stage(path: str, load: str) -> Any:
-    """Opens a stage, without a session layer; raises Unreadable with the reason if it can't."""
+def open_stage(path: str, load: str, session: Any | None = None) -> Any:
+    """Opens a stage, as a rule without a session layer; raises Unreadable with the reason."""
     head = _diagnose(path)
     policy = Usd.Stage.LoadNone if load == "none" else Usd.Stage.LoadAll
     try:
         layer = Sdf.Layer.FindOrOpen(os.path.abspath(path))
-        stage = Usd.Stage.Open(layer, None, policy) if layer else None
+        stage = Usd.Stage.Open(layer, session, policy) if layer else None
     except Tf.ErrorException as error:
         raise _explain(path, in_usds_words(error), head) from error
     if stage is None and head.startswith(_ZIP):
@@ -161,6 +162,7 @@ def _commentary(error: Any) -> str:
         text = str(error.commentary)
     except UnicodeDecodeError as undecodable:
         text = undecodable.object.decode("utf-8", "backslashreplace")
+    text = _SESSION.sub("", text)
     return _MENTION.sub(lambda m: display(m[1]) if os.path.isfile(m[1]) else m[0], text)
 
 

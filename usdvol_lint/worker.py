@@ -28,7 +28,14 @@ def main() -> None:
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
     engine = Engine(
-        rules, setup.active, setup.load, lambda samples: _send(replies, Advance(samples))
+        rules,
+        setup.active,
+        setup.load,
+        setup.content,
+        lambda samples: _send(replies, Advance(samples)),
+        setup.selections,
+        setup.times,
+        setup.statistics,
     )
     _send(replies, Ready(usd_version()))
     while path := _next(requests):

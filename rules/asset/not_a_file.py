@@ -6,6 +6,7 @@ _ADVICE = {
     FileFault.FOLDER: "name a file in it",
     FileFault.EMPTY: "write it again: this is what a simulation that died leaves behind",
     FileFault.UNREADABLE: "check its permissions",
+    FileFault.PACKED: "store it in the package as it is",
     FileFault.LFS_POINTER: "run `git lfs pull`",
 }
 

@@ -2,27 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.facts.instances import in_prototype, shown, shown_path
+from usdvol_lint.facts.states import TargetState
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.assets import AssetSamples, UnlistedClips
+    from usdvol_lint.facts.arrays import ParticleArrays
+    from usdvol_lint.facts.arrays.extent import Strays
+    from usdvol_lint.facts.assets import Affected, AssetSamples, UnlistedClips
+    from usdvol_lint.facts.attributes import (
+        Authored,
+        AuthoredAttributes,
+        Misspelt,
+        Mistyped,
+        Unlisted,
+    )
+    from usdvol_lint.facts.changes import GridChanges
     from usdvol_lint.facts.clips import Clips, ClipSet
+    from usdvol_lint.facts.colour_spaces import ColourSpace
     from usdvol_lint.facts.composition import Composition
+    from usdvol_lint.facts.contents import ContentReader, FieldContents
+    from usdvol_lint.facts.enclosure import Boxes, Shortfall
     from usdvol_lint.facts.encodings import Encoding
-    from usdvol_lint.facts.fields import Binding, FieldBindings, FieldNames
+    from usdvol_lint.facts.fields import Binding, FieldBindings, FieldNames, Target
     from usdvol_lint.facts.files import Files
     from usdvol_lint.facts.kinds import Key, Kinds
+    from usdvol_lint.facts.mixture import MixedFiles
+    from usdvol_lint.facts.nesting import Nested, Nesting
     from usdvol_lint.facts.particles import ParticleApis
+    from usdvol_lint.facts.places import Recased
+    from usdvol_lint.facts.sequences import SampleSequence
+    from usdvol_lint.facts.placement import Displacement
+    from usdvol_lint.facts.values import Values
+    from usdvol_lint.model import ParticleFieldStats
+    from usdvol_lint.volumefile.cache import VolumeFiles
 
 
 class Facts:
     """The facts of one stage: read-only for rules, each found when first asked for, and kept.
 
-    `stage` is the `Usd.Stage`; `advance` is told of progress in long sequences.
+    `stage` is the `Usd.Stage`; `advance` is told of progress in long sequences; `content` says how
+    many of a field's files are looked into, and `volume_files` has those of other stages; `times`
+    says which time samples of particles are looked at, `statistics` whether to count in passing
+    what `particle_field_stats` tells.
     Modules that need pxr are imported where they are used, so that the words rules are written in
     can be loaded where there is no pxr.
     """
@@ -33,15 +60,46 @@ class Facts:
         kinds: Kinds,
         kept: Mapping[Key, Sequence[Any]],
         advance: Callable[[int], None] = lambda count: None,
+        content: str = "all",
+        volume_files: VolumeFiles | None = None,
+        times: str | int = "all",
+        statistics: bool = False,
     ) -> None:
         self.stage = stage
         self.kinds = kinds
         self._kept = kept
         self._advance = advance
+        self._content = content
+        self._volume_files = volume_files
+        self._times = times
+        self._statistics = statistics
+        self._ever_used: set[Any] = set()
         self._assets: dict[tuple[Any, str], AssetSamples] = {}
+        self._sequences: dict[tuple[Any, str], SampleSequence | None] = {}
+        self._contents: dict[Any, FieldContents] = {}
         self._fields: dict[Any, FieldBindings] = {}
         self._apis: dict[Any, ParticleApis] = {}
         self._encodings: dict[Any, Encoding | None] = {}
+        self._arrays: dict[Any, ParticleArrays] = {}
+
+    def composed_anew(self, kept: Mapping[Key, Sequence[Any]]) -> Facts:
+        """The facts of the same stage under another variant selection.
+
+        Files stay known, and a field that was used before is not unused now.
+        """
+        other = Facts(
+            self.stage,
+            self.kinds,
+            kept,
+            self._advance,
+            self._content,
+            self._volume_files,
+            self._times,
+            self._statistics,
+        )
+        other.files = self.files
+        other._ever_used = self._ever_used
+        return other
 
     def of(self, schema_name: str) -> list[Any]:
         """The live prims that answer to the schema of that name: its type, a subtype, an API."""
@@ -58,25 +116,69 @@ class Facts:
 
     def assets(self, prim: Any, name: str) -> AssetSamples:
         """Every value of an asset attribute, resolved and classified."""
-        key = (prim.GetPath(), name)
-        if key not in self._assets:
+        key = (prim, name)
+        found = self._assets.get(key)
+        if found is None:
             from usdvol_lint.facts.assets import read_asset_samples
 
-            self._assets[key] = read_asset_samples(
+            found = self._assets[key] = read_asset_samples(
                 prim.GetAttribute(name), self.files, self._advance
             )
-        return self._assets[key]
+        return found
+
+    def contents(self, field: Any) -> FieldContents:
+        """What is inside the files that a field names."""
+        found = self._contents.get(field)
+        if found is None:
+            found = self._contents[field] = self._content_reader.read(
+                field,
+                self.assets(field, "filePath"),
+                self.kinds.names(self.kinds.key(field)),
+                self.authored(field).declared,
+            )
+        return found
+
+    def sequence(self, prim: Any, name: str) -> SampleSequence | None:
+        """The time samples of an asset attribute as a sequence, or None if there are not two."""
+        if len(self.assets(prim, name).samples) < 2:
+            return None
+        key = (prim.GetPath(), name)
+        if key not in self._sequences:
+            from usdvol_lint.facts.sequences import read_sequence
+
+            self._sequences[key] = read_sequence(self.assets(prim, name))
+        return self._sequences[key]
+
+    def recased(self, prim: Any, name: str) -> Recased | None:
+        """The samples of an asset attribute that differ by case from what the folders hold."""
+        from usdvol_lint.facts.places import recased
+
+        return recased(self.assets(prim, name), self.files)
+
+    def outside_package(self, prim: Any, name: str) -> Affected | None:
+        """The samples of an asset attribute in a package that name files outside it."""
+        if not self._has_packages:
+            return None
+        from usdvol_lint.facts.places import outside_package
+
+        return outside_package(self.assets(prim, name))
+
+    def below_layer(self, affected: Affected) -> str | None:
+        """The first path in relation to its layer, if the file lies below the layer's folder."""
+        from usdvol_lint.facts.places import below_layer
+
+        return below_layer(affected)
 
     def fields(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
-        path = volume.GetPath()
-        if path not in self._fields:
+        found = self._fields.get(volume)
+        if found is None:
             from usdvol_lint.facts.fields import read_field_bindings
 
-            self._fields[path] = read_field_bindings(
+            found = self._fields[volume] = read_field_bindings(
                 volume, self.kinds, lambda prim: self.composition.may_lack(prim)
             )
-        return self._fields[path]
+        return found
 
     def apis(self, prim: Any) -> ParticleApis:
         """The applied APIs of a prim, those that nobody registers among them."""
@@ -96,6 +198,90 @@ class Facts:
             self._encodings[path] = recognise(prim)
         return self._encodings[path]
 
+    def arrays(self, prim: Any) -> ParticleArrays:
+        """The arrays of a particle field: empty where SCH011 says that it is no UsdVol."""
+        path = prim.GetPath()
+        if path not in self._arrays:
+            from usdvol_lint.facts.arrays import read_particle_arrays
+
+            is_ours = not self.encoding(prim)
+            self._arrays[path] = read_particle_arrays(
+                prim,
+                self.kinds.names(self.kinds.key(prim)) if is_ours else (),
+                self.authored(prim).declared if is_ours else (),
+                {each.attribute.GetName() for each in self.mistyped(prim) if not each.only_role},
+                self._times,
+                self._statistics,
+                self._advance,
+            )
+        return self._arrays[path]
+
+    def particle_field_stats(self) -> tuple[ParticleFieldStats, ...]:
+        """What each particle field holds, in the order of their paths."""
+        from usdvol_lint.facts.arrays.statistics import stats_of
+
+        stats = (
+            stats_of(self.shown_path(prim), self.arrays(prim))
+            for prim in self.of(schema.PARTICLE_FIELD)
+        )
+        return tuple(sorted(stats, key=lambda each: each.prim))
+
+    def stray_positions(self, prim: Any, slack: float, clamp: float) -> Strays | None:
+        """The positions that lie outside the extent at the same time."""
+        from usdvol_lint.facts.arrays.extent import stray_positions
+
+        extent = prim.GetAttribute("extent")
+        positions = next(self.arrays(prim).used("positions"), None)
+        if not positions or not extent.HasAuthoredValue():
+            return None
+        return stray_positions(positions, extent, slack, clamp)
+
+    def colour_space(self, prim: Any) -> ColourSpace | None:
+        """The colour space that a prim names, or the nearest prim above it that names one."""
+        from usdvol_lint.facts.colour_spaces import colour_space
+
+        return colour_space(prim)
+
+    def authored(self, prim: Any) -> Authored:
+        """The authored attributes of a prim, by what the schemas declare of them."""
+        return self._authored.on(prim)
+
+    def mistyped(self, prim: Any) -> Iterator[Mistyped]:
+        """The specs of a prim's attributes that have another type than the schema declares."""
+        return self._authored.mistyped(prim)
+
+    def misspelt(self, prim: Any) -> Iterator[Misspelt]:
+        """The attributes of a prim that no schema declares for a slip in their names."""
+        return self._authored.misspelt(prim)
+
+    def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
+        """The values of a prim's attributes that are not among the tokens that the schema allows."""
+        return self._authored.unlisted_tokens(prim)
+
+    def values(self, prim: Any, name: str) -> Values:
+        """Every value of an attribute, the default first."""
+        from usdvol_lint.facts.values import values_of
+
+        return values_of(prim.GetAttribute(name))
+
+    def extents(self, prim: Any) -> Values:
+        """Every `extent` of a prim, the default first; empty where none is authored."""
+        from usdvol_lint.facts.extents import read_extents
+
+        return read_extents(prim.GetAttribute("extent"))
+
+    def gprim_above(self, prim: Any) -> Any | None:
+        """The nearest Gprim among the ancestors of a prim."""
+        return self._nesting.above(prim)
+
+    def gprims_below(self, prim: Any) -> Iterator[Nested]:
+        """The Gprims below a prim, but none that is a Volume or particle field or below one."""
+        return self._nesting.below(prim)
+
+    def shown_path(self, prim: Any) -> str:
+        """The path of a prim as the stage shows it, also in a prototype."""
+        return shown(prim).path
+
     def clip_sets(self, prim: Any) -> tuple[ClipSet, ...]:
         """The value clips that reach a prim, nearest first."""
         return self._clips.reaching(prim)
@@ -108,15 +294,12 @@ class Facts:
 
     def meant_field(self, binding: Binding) -> str | None:
         """The field that a relationship which binds none was probably meant to target."""
-        from usdvol_lint.facts.instances import shown_path
-
         path = self._meant_path(binding)
         return shown_path(self.stage, path) if path else None
 
     def unbound_fields(self, volume: Any) -> list[Any]:
         """The field prims below a Volume that no Volume targets."""
         from usdvol_lint.facts.fields import fields_below
-        from usdvol_lint.facts.instances import in_prototype
 
         below = fields_below(volume, self.kinds)
         used = self.used_field_paths
@@ -134,15 +317,51 @@ class Facts:
 
         return unlisted_clips(prim.GetAttribute(name), self.clip_sets(prim))
 
-    @cached_property
-    def used_field_paths(self) -> frozenset[Any]:
-        """The paths of the prims that some Volume targets."""
-        from usdvol_lint.facts.fields import field_paths
+    def is_shared(self, volume: Any, field: Any) -> bool:
+        """Whether other Volumes target a field of this one too, or instances of this one do."""
+        if self._field_users[in_prototype(field).GetPath()] > 1:
+            return True
+        instanced = volume.IsInPrototype() and not field.IsInPrototype()
+        return instanced and shown(volume).instances > 1
 
-        volumes = self.of(schema.VOLUME)
-        return frozenset().union(
-            *(field_paths(volume, self.fields(volume)) for volume in volumes)
-        )
+    def displacement(self, volume: Any, field: Any) -> Displacement | None:
+        """How a field is moved in relation to a Volume that binds it, if it is."""
+        from usdvol_lint.facts.placement import read_placement
+
+        return read_placement(volume, field).displacement()
+
+    def extent_shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
+        """What the grids of a Volume have outside its extent, if one is authored."""
+        from usdvol_lint.facts.enclosure import Limits, PlacedField, find_shortfall, grids_over_time
+        from usdvol_lint.facts.placement import read_placement
+
+        limits = Limits(volume.GetAttribute("extent"))
+        fields = []
+        bound = self._bound_assets(volume) if limits.are_authored else ()
+        for target in {target.path: target for _, target in bound}.values():
+            field = in_prototype(target.prim)
+            grids = grids_over_time(self.assets(field, "filePath"), self.contents(field))
+            if any(grid for _, grid in grids):
+                placement = read_placement(volume, target.prim)
+                fields.append(PlacedField(target.shown, grids, placement))
+        return find_shortfall(limits, fields, relative_slack, self._boxes) if fields else None
+
+    def mixed_files(self, volume: Any) -> MixedFiles | None:
+        """The different files that the fields of a Volume name at one time, if they do."""
+        if len(self.fields(volume).bindings) < 2:
+            return None
+        from usdvol_lint.facts.mixture import find_mixed_files
+
+        named = [
+            (binding.name, self.assets(in_prototype(target.prim), "filePath"))
+            for binding, target in self._bound_assets(volume)
+        ]
+        return find_mixed_files(named) if len(named) > 1 else None
+
+    @property
+    def used_field_paths(self) -> Set[Any]:
+        """The paths of the prims that some Volume targets."""
+        return self._field_users.keys()
 
     @cached_property
     def unused_field_paths(self) -> frozenset[Any]:
@@ -152,10 +371,10 @@ class Facts:
         a broken relationship was probably meant to target them.
         """
         from usdvol_lint.facts.fields import fields_below
-        from usdvol_lint.facts.instances import in_prototype
 
         volumes = self.of(schema.VOLUME)
-        unused = {field.GetPath() for field in self.of(schema.FIELD)} - self.used_field_paths
+        self._ever_used |= self.used_field_paths
+        unused = {field.GetPath() for field in self.of(schema.FIELD)} - self._ever_used
         if not volumes or not unused or not self.composition.is_whole:
             return frozenset()
         for volume in volumes:
@@ -164,6 +383,29 @@ class Facts:
                 unused.difference_update(in_prototype(field).GetPath() for field in below)
                 unused.difference_update(map(self._meant_path, self.fields(volume).bindings))
         return frozenset(unused)
+
+    @cached_property
+    def without_extent(self) -> list[Any]:
+        """The Volumes and particle fields that have no bounds to USD, by their paths."""
+        from usdvol_lint.facts.extents import has_bounds
+
+        return sorted(
+            (
+                prim
+                for name in (schema.VOLUME, schema.PARTICLE_FIELD)
+                for prim in self.of(name)
+                if not has_bounds(prim) and not self.composition.may_lack_values(prim)
+            ),
+            key=self.shown_path,
+        )
+
+    @cached_property
+    def time_range(self) -> tuple[float, float] | None:
+        """The stage's startTimeCode and endTimeCode, where both are authored and in this order."""
+        if not self.stage.HasAuthoredTimeCodeRange():
+            return None
+        start, end = self.stage.GetStartTimeCode(), self.stage.GetEndTimeCode()
+        return (start, end) if start <= end else None
 
     @cached_property
     def composition(self) -> Composition:
@@ -175,12 +417,40 @@ class Facts:
         clip_sets = dict.fromkeys(found for prim in subjects for found in self.clip_sets(prim))
         return read_composition(self.stage, clip_sets)
 
+    def grid_changes(self, field: Any) -> GridChanges | None:
+        """Where the grids along a field's sequence are others than in most of its frames.
+
+        Of the fields that share a sequence, the first one is told.
+        """
+        contents = self.contents(field)
+        if not contents.differ:
+            return None
+        from usdvol_lint.facts.changes import find_grid_changes
+
+        others = map(self.contents, self.of(schema.FIELD_ASSET))
+        sharing = [other for other in others if other.files == contents.files]
+        return find_grid_changes(sharing) if sharing[0] is contents else None
+
+    @cached_property
+    def _content_reader(self) -> ContentReader:
+        from usdvol_lint.facts.contents import ContentReader
+        from usdvol_lint.volumefile.cache import VolumeFiles
+
+        return ContentReader(self._volume_files or VolumeFiles(), self._content, self._advance)
+
     @cached_property
     def files(self) -> Files:
         """The state of files, each looked at once."""
         from usdvol_lint.facts.files import Files
 
         return Files()
+
+    @cached_property
+    def _has_packages(self) -> bool:
+        """Whether any layer lies in a package."""
+        from usdvol_lint.facts.places import package_of
+
+        return any(map(package_of, self.stage.GetUsedLayers()))
 
     def _meant_path(self, binding: Binding) -> Any | None:
         from usdvol_lint.facts.fields import meant_path
@@ -189,10 +459,42 @@ class Facts:
         return self._field_names.nearest(path) if path else None
 
     @cached_property
+    def _boxes(self) -> Boxes:
+        from usdvol_lint.facts.enclosure import Boxes
+
+        return Boxes()
+
+    def _bound_assets(self, volume: Any) -> Iterator[tuple[Binding, Target]]:
+        """The fields with a file that a Volume really gets, with what binds them."""
+        for binding, target in self.fields(volume).with_target(TargetState.FIELD):
+            if self.is_a(target.prim, schema.FIELD_ASSET):
+                yield binding, target
+
+    @cached_property
+    def _field_users(self) -> Counter[Any]:
+        """How many Volumes target each field, by its path."""
+        from usdvol_lint.facts.fields import field_paths
+
+        volumes = self.of(schema.VOLUME)
+        return Counter(path for volume in volumes for path in field_paths(self.fields(volume)))
+
+    @cached_property
     def _field_names(self) -> FieldNames:
         from usdvol_lint.facts.fields import FieldNames
 
         return FieldNames(self.of(schema.FIELD))
+
+    @cached_property
+    def _authored(self) -> AuthoredAttributes:
+        from usdvol_lint.facts.attributes import AuthoredAttributes
+
+        return AuthoredAttributes(self.kinds, self._kept, self._clips)
+
+    @cached_property
+    def _nesting(self) -> Nesting:
+        from usdvol_lint.facts.nesting import Nesting
+
+        return Nesting(self.kinds)
 
     @cached_property
     def _clips(self) -> Clips:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 from pxr import Ar, Sdf, Usd
@@ -14,15 +15,17 @@ from pxr import Ar, Sdf, Usd
 from usdvol_lint.facts.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.instances import shown
-from usdvol_lint.facts.opinions import opinion
+from usdvol_lint.facts.opinions import is_from_clips, opinion
 from usdvol_lint.facts.patterns import find_pattern
 from usdvol_lint.facts.states import AssetState, FileFault
+from usdvol_lint.facts.values import read_values
 from usdvol_lint.model import frame_ranges
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
 _LIVE_SCHEMES = frozenset({"op", "opdef", "oplib"})
 _FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
 _LAYERS_NAMED = 3
+_PATH_OF = attrgetter("path")
 
 
 class Sample(NamedTuple):
@@ -56,9 +59,27 @@ class AssetSamples:
         """The samples in one of these states, or None if there are none."""
         if self.states.isdisjoint(states):
             return None
-        found = tuple(sample for sample in self.samples if sample.state in states)
-        timed = sum(sample.time is not None for sample in self.samples)
-        return Affected(self.attribute, found, timed)
+        return self.affected(sample for sample in self.samples if sample.state in states)
+
+    def matching(self, pattern: re.Pattern[str], *states: AssetState) -> Affected | None:
+        """The samples in one of these states whose paths match from their start."""
+        if not any(map(pattern.match, map(_PATH_OF, self.samples))):  # no loop of ours: most do not
+            return None
+        return self.affected(
+            sample
+            for sample in self.samples
+            if sample.state in states and pattern.match(sample.path)
+        )
+
+    def affected(self, samples: Iterable[Sample]) -> Affected | None:
+        """Some of the samples, or None if there are none."""
+        found = tuple(samples)
+        timed = sum(sample.time is not None for sample in self.samples) if found else 0
+        return Affected(self.attribute, found, timed) if found else None
+
+    def anchored(self, sample: Sample) -> str:
+        """The absolute path that a sample would have, did it exist."""
+        return _anchored(self.attribute, sample.time, sample.path)
 
     def by_detail(self, *states: AssetState) -> Iterator[Affected]:
         """The samples in one of these states, apart for each detail."""
@@ -138,8 +159,7 @@ class Affected:
 
     def _layers(self) -> list[str]:
         """The names of the layers that hold the samples; only clips spread them over several."""
-        info = self.attribute.GetResolveInfo(self.times[0])
-        from_clips = info.GetSource() == Usd.ResolveInfoSourceValueClips
+        from_clips = is_from_clips(self.attribute, self.times[0])
         asked = self.samples if from_clips else (self.samples[0], self.samples[-1])
         held = (opinion(self.attribute, sample.time) for sample in asked)
         return list(dict.fromkeys(found.spec.layer.GetDisplayName() for found in held if found))
@@ -157,7 +177,9 @@ def read_asset_samples(
     `advance` is told how many samples were read since its last call.
     """
     samples = []
-    for number, (time, value) in enumerate(_values(attribute), start=1):
+    authored = attribute.IsAuthored() or attribute.HasAuthoredValue()
+    values = read_values(attribute) if authored else ()
+    for number, (time, value) in enumerate(values, start=1):
         samples.append(_classify(attribute, time, value, files))
         if number % 1024 == 0:
             advance(1024)
@@ -167,10 +189,13 @@ def read_asset_samples(
 
 def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:
     """The weaker time samples or clip set, in words, that a stronger default hides."""
+    specs = attribute.GetPropertyStack()
+    if len(specs) < 2 and not clips:
+        return None  # so it is nearly always, and all that follows takes time
     held = opinion(attribute, None)
     if held is None or attribute.Get() is None or attribute.GetNumTimeSamples():
         return None
-    for spec in attribute.GetPropertyStack():
+    for spec in specs:
         if count := spec.layer.GetNumTimeSamplesForPath(spec.path):
             samples = "time sample" if count == 1 else f"{count} time samples"
             return f"the {samples} in {spec.layer.GetDisplayName()!r}"
@@ -195,8 +220,10 @@ class UnlistedClips:
 
 def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips | None:
     """The clips that would give the attribute its values if the manifest declared it."""
+    if not clips or attribute.GetNumTimeSamples():
+        return None
     held = opinion(attribute, None)
-    for clip_set in () if attribute.GetNumTimeSamples() else clips:
+    for clip_set in clips:
         if held and clip_set.is_outranked_by(held.spec):
             return None
         manifest = clip_set.manifest
@@ -212,21 +239,6 @@ def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips 
                 clip_set.spec_with("manifestAssetPath"),
             )
     return None
-
-
-def _values(attribute: Any) -> Iterator[tuple[float | None, Any]]:
-    if not attribute.IsAuthored() and not attribute.HasAuthoredValue():
-        return
-    default = attribute.Get()
-    times = attribute.GetTimeSamples()
-    if default is not None or not times:
-        yield None, default
-    get = Usd.AttributeQuery(attribute).Get  # resolves the attribute once, not at every time
-    for index, time in enumerate(times):
-        # Where a clip begins, USD adds a sample a hair before it that repeats the last value.
-        if index + 1 < len(times) and times[index + 1] - time < 1e-6 * max(1.0, abs(time)):
-            continue
-        yield time, get(time)
 
 
 def _classify(attribute: Any, time: float | None, value: Any, files: Files) -> Sample:

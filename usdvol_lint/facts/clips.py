@@ -112,9 +112,8 @@ class Clips:
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets on the prim and its ancestors, nearest first."""
-        if prim.IsPseudoRoot():
-            return ()
-        path = prim.GetPath()
-        if path not in self._reaching:
-            self._reaching[path] = clip_sets_on(prim) + self.reaching(prim.GetParent())
-        return self._reaching[path]
+        found = self._reaching.get(prim)
+        if found is None:
+            above = () if prim.IsPseudoRoot() else self.reaching(prim.GetParent())
+            found = self._reaching[prim] = clip_sets_on(prim) + above
+        return found

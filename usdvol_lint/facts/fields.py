@@ -90,6 +90,12 @@ class FieldBindings:
             if binding.target and binding.target.state in states:
                 yield binding, binding.target
 
+    def outside(self, volume: Any) -> Iterator[tuple[Binding, Target]]:
+        """The bindings of fields that do not lie below the Volume, with those fields."""
+        for binding, target in self.with_target(TargetState.FIELD):
+            if not target.path.HasPrefix(volume.GetPath()):
+                yield binding, target
+
     @property
     def is_sound(self) -> bool:
         """Whether there are fields and each is bound."""
@@ -113,12 +119,12 @@ def read_field_bindings(
     return FieldBindings(tuple(bindings), tuple(_strays(others, bindings, kinds)))
 
 
-def field_paths(volume: Any, bindings: FieldBindings) -> set[Any]:
+def field_paths(bindings: FieldBindings) -> set[Any]:
     """The paths of every prim that a relationship of the Volume targets, as the walk met them."""
-    relationships = [*(binding.property for binding in bindings.relationships), *bindings.strays]
-    targets = {path for each in relationships for path in each.GetForwardedTargets()}
-    stage = volume.GetStage()
-    prims = (stage.GetPrimAtPath(target.GetPrimPath()) for target in targets)
+    prims = [target.prim for binding in bindings.bindings for target in binding.targets]
+    for stray in bindings.strays:
+        stage = stray.GetStage()
+        prims += [stage.GetPrimAtPath(path.GetPrimPath()) for path in stray.GetForwardedTargets()]
     return {in_prototype(prim).GetPath() for prim in prims if prim}
 
 
@@ -230,8 +236,9 @@ def _why_empty(relationship: Any) -> tuple[Emptiness, tuple[Any, ...]]:
 
 
 def _read_target(stage: Any, path: Any, kinds: Kinds, may_lack: Callable[[Any], bool]) -> Target:
-    where = shown_path(stage, path)
     prim = stage.GetPrimAtPath(path.GetPrimPath())
+    # Most targets are prims outside prototypes, and the general way takes longer.
+    where = shown_path(stage, path) if not prim or prim.IsInPrototype() else str(path)
     if prim and path.IsPropertyPath():
         return Target(path, where, TargetState.PROPERTY, prim)
     nearest = prim or _nearest_prim(stage, path)
@@ -241,7 +248,8 @@ def _read_target(stage: Any, path: Any, kinds: Kinds, may_lack: Callable[[Any], 
     )
     if vague and may_lack(nearest):
         state = TargetState.UNCOMPOSED
-    return Target(path, where, state, prim or None, shown(culprit).path)
+    to_blame = where if culprit is prim else shown(culprit).path
+    return Target(path, where, state, prim or None, to_blame)
 
 
 def _nearest_prim(stage: Any, path: Any) -> Any:

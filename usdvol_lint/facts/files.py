@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any, NamedTuple, TypeAlias
 
-from pxr import Ar, Sdf
+from pxr import Ar, Sdf, Tf
 
 from usdvol_lint.facts.patterns import matching_frames
 from usdvol_lint.facts.states import FileFault
@@ -36,6 +36,9 @@ class Files:
         self._faults: dict[str, str | None] = {}
         self._listings: dict[str, tuple[str, ...]] = {}
         self._by_numbers: dict[str, dict[Numbers, list[str]]] = {}
+        self._by_case: dict[str, dict[str, str]] = {}
+        self._in_case: dict[tuple[str, int], str | None] = {}
+        self._ignores_case: dict[str, bool] = {}
 
     @property
     def checked(self) -> int:
@@ -65,23 +68,79 @@ class Files:
     def absence(self, path: str, authored: str) -> Absence:
         """What is known of an absolute path where nothing is; `authored` is how it was written."""
         authored, _ = Sdf.Layer.SplitIdentifier(authored)
+        corrected = self.recased(path, authored)
         if Ar.IsPackageRelativePath(path):
             package, inner = Ar.SplitPackageRelativePathOuter(path)
-            similar = self._nearest(package, inner)
-            corrected = _with_end(authored, inner, similar) if similar else None
+            similar = None if corrected else self._nearest(package, inner)
+            corrected = _with_end(authored, inner, similar) if similar else corrected
             return Absence(f" in {os.path.basename(package)!r}", corrected)
         missing = _first_missing(path)
         folder, name = os.path.split(missing)
         rest = path[len(missing) :]
         shown = _with_end(authored, rest, "") if rest else authored
-        similar = self._nearest(folder, name)
-        corrected = None
+        similar = None if corrected else self._nearest(folder, name)
         if similar:
             whole = os.path.exists(os.path.join(folder, similar) + rest)
             corrected = _with_end(authored, name + rest, similar + rest if whole else similar)
         if os.path.islink(missing):
             return Absence(f": {_broken_link(missing)}", corrected)
         return Absence(f": no folder {shown!r}" if rest else "", corrected)
+
+    def recased(self, path: str, authored: str) -> str | None:
+        """What `authored` should be for the folders to have its names, where only the case differs.
+
+        `path` is its absolute form; None where nothing is there in any case, or where it is right.
+        """
+        authored, _ = Sdf.Layer.SplitIdentifier(authored)
+        if Ar.IsPackageRelativePath(path):
+            package, inner = Ar.SplitPackageRelativePathOuter(path)
+            there = self.names(package).get(inner.lower(), inner)
+            return _with_end(authored, inner, there) if there != inner else None
+        found = self.in_case(path, authored)
+        if found is None or found == path:
+            return None
+        count = _count_names(authored)
+        return _with_end(authored, _last_names(path, count), _last_names(found, count))
+
+    def in_case(self, path: str, authored: str) -> str | None:
+        """An absolute path with the names that `authored` says of it as their folders have them.
+
+        None where nothing is there in any case.
+        """
+        return self._with_names_in_case(path, _count_names(authored))
+
+    def _with_names_in_case(self, path: str, count: int) -> str | None:
+        folder, name = os.path.split(path)
+        if count == 0 or not name:
+            return path
+        key = (folder, count - 1)
+        if key not in self._in_case:
+            self._in_case[key] = self._with_names_in_case(*key)
+        folder_there = self._in_case[key]
+        if folder_there is None:
+            return None
+        names = self.names(folder_there)
+        name_there = names.get(name) or names.get(name.lower())
+        return f"{folder_there.rstrip('/')}/{name_there}" if name_there else None
+
+    def names(self, folder: str) -> dict[str, str]:
+        """The names in a folder, or in a package, by themselves and by their lower case."""
+        if folder not in self._by_case:
+            listing = self.listing(folder)
+            lower = {name.lower(): name for name in listing}
+            self._by_case[folder] = lower | {name: name for name in listing}
+        return self._by_case[folder]
+
+    def ignores_case(self, path: str) -> bool:
+        """Whether the folder of a file that is there finds it under another case of its name."""
+        folder, _, name = path.rpartition("/")
+        if folder not in self._ignores_case:
+            try:
+                same = os.path.samefile(path, f"{folder}/{name.swapcase()}")
+            except OSError:
+                same = False
+            self._ignores_case[folder] = same
+        return self._ignores_case[folder]
 
     def frames(self, path: str, authored: str) -> list[tuple[int, str]]:
         """The files that a path with a placeholder for the frame stands for, by frame number.
@@ -104,9 +163,14 @@ class Files:
         return folded[matches[0]] if matches else None
 
 
+def is_packaged(path: str) -> bool:
+    """Whether a path names a file in a package, `package.usdz[inner]`."""
+    return path.endswith("]") and bool(Ar.IsPackageRelativePath(path))
+
+
 def file_fault(path: str) -> str | None:
     """Why an absolute path, or one in a package, is no readable file with content, or None."""
-    if Ar.IsPackageRelativePath(path):
+    if is_packaged(path):
         return _package_fault(path)
     if not os.path.isabs(path):
         return None
@@ -136,7 +200,10 @@ def _starts_like_lfs(path: str) -> bool:
 
 
 def _package_fault(path: str) -> str | None:
-    asset: Any = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
+    try:
+        asset: Any = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
+    except Tf.ErrorException:
+        return FileFault.PACKED
     if asset is None:
         return FileFault.UNREADABLE
     return FileFault.EMPTY if asset.GetSize() == 0 else None
@@ -172,6 +239,16 @@ def _broken_link(path: str) -> str:
 def _with_end(path: str, end: str, replacement: str) -> str:
     """The path with another end; the replacement alone where the path does not end so."""
     return path.removesuffix(end) + replacement if path.endswith(end) else replacement
+
+
+def _count_names(path: str) -> int:
+    """How many names a path has that folders list: those after `.` and `..`."""
+    names = os.path.normpath(path).replace(os.sep, "/").split("/")
+    return sum(name not in ("", ".", "..") for name in names)
+
+
+def _last_names(path: str, count: int) -> str:
+    return "/".join(path.split("/")[-count:])
 
 
 def _group_by_numbers(names: Iterable[str]) -> dict[Numbers, list[str]]:

@@ -16,14 +16,17 @@ def shown(prim: Any) -> Shown:
     """A prim outside prototypes shows at its own path, once."""
     if not prim.IsInPrototype():
         return Shown(str(prim.GetPath()), 1)
-    prototype = prim
-    while not prototype.IsPrototype():
-        prototype = prototype.GetParent()
-    below = str(prim.GetPath())[len(str(prototype.GetPath())) :]
-    places = [shown(instance) for instance in prototype.GetInstances()]
+    below = path_in_prototype(prim)
+    places = [shown(instance) for instance in _prototype(prim).GetInstances()]
     return Shown(
         min(place.path for place in places) + below, sum(place.instances for place in places)
     )
+
+
+def path_in_prototype(prim: Any) -> str:
+    """The path below the prototype, which is the same for each instance; else the prim's own."""
+    path = str(prim.GetPath())
+    return path[len(str(_prototype(prim).GetPath())) :] if prim.IsInPrototype() else path
 
 
 def shown_path(stage: Any, path: Any) -> str:
@@ -33,6 +36,13 @@ def shown_path(stage: Any, path: Any) -> str:
     if not prim or not prim.IsInPrototype():
         return str(path)
     return shown(prim).path + str(path)[len(str(root)) :]
+
+
+def _prototype(prim: Any) -> Any:
+    """The root of the prototype that a prim is in."""
+    while not prim.IsPrototype():
+        prim = prim.GetParent()
+    return prim
 
 
 def in_prototype(prim: Any) -> Any:

@@ -25,3 +25,11 @@ def opinion(attribute: Any, time: float | None) -> Opinion | None:
         if any(spec.HasInfo(kind) for kind in kinds):
             return Opinion(spec, offset)
     return None
+
+
+def is_from_clips(attribute: Any, time: float | None) -> bool:
+    """Whether a value clip gives the value: then each time may have a layer of its own."""
+    if time is None:
+        return False
+    source = attribute.GetResolveInfo(time).GetSource()
+    return bool(source == Usd.ResolveInfoSourceValueClips)

@@ -39,6 +39,7 @@ class FileFault(StrEnum):
     EMPTY = "a file of 0 bytes"
     UNREADABLE = "not readable"
     BROKEN_LINK = "a symbolic link that leads nowhere"
+    PACKED = "compressed or encrypted in its package, where USD can't read it"
     LFS_POINTER = "a Git-LFS pointer, not the file itself"
 
 

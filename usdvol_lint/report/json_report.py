@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
+from dataclasses import asdict
 from enum import Enum
 from pathlib import PurePath
 
@@ -50,10 +51,12 @@ def _report(report: Report) -> dict[str, object]:
 
 
 def _stage(stage: StageReport) -> dict[str, object]:
+    fields = stage.particle_fields
     return {
         "path": stage.path,
         "status": stage.status.value,
         "stats": stage.stats,
+        **({} if fields is None else {"particle_fields": [asdict(each) for each in fields]}),
         "seconds": round(sum(stage.seconds.values(), 0.0), 6),
         "findings": [_finding(finding) for finding in stage.findings],
     }

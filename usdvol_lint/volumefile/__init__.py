@@ -37,6 +37,7 @@ __all__ = [
     "WarningCode",
     "file_key",
     "read_volume_file",
+    "read_window",
 ]
 
 FileKey: TypeAlias = tuple[int, int, int, int]
@@ -55,10 +56,11 @@ def read_volume_file(path: str, offset: int = 0, size: int | None = None) -> Vol
     if offset < 0 or (size is not None and size < 0):
         raise ValueError("offset and size can't be negative")
     with open_window(path, offset, size) as window:
-        return _read(window)
+        return read_window(window)
 
 
-def _read(window: Window) -> VolumeFile:
+def read_window(window: Window) -> VolumeFile:
+    """What the volume file in a window says, from its start."""
     # Each reader is imported where its signature is met: most stages have files of one kind.
     head = window.peek(_LONGEST_SIGNATURE)
     if not head:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from usdvol_lint.volumefile.transform import Bounds, Transform
+from usdvol_lint.volumefile.transform import Bounds, Matrix, Transform, finite
 
 Format: TypeAlias = Literal["openvdb", "nanovdb", "field3d"]
 ErrorCode: TypeAlias = Literal[
@@ -92,20 +91,20 @@ class Grid:
         """The name as OpenVDB's tools print it, `density[1]` where others share it."""
         return self.unique_name if self.suffix is None else f"{self.unique_name}[{self.suffix}]"
 
-    def world_bounds(self, padding: float = 0.0) -> Bounds | None:
+    def world_bounds(self, padding: float = 0.0, then: Matrix | None = None) -> Bounds | None:
         """The box of the active voxels' centres, widened by `padding` voxels, in world space.
 
+        `then` is a matrix from there to the space in which the box is wanted.
         None where the grid is empty, the file tells no bounds or no transform, or numbers overflow.
         """
         if self.index_bounds is None or self.transform is None:
             return None
         (x, y, z), (u, v, w) = self.index_bounds
-        bounds = self.transform.bounds(
+        transform = self.transform if then is None else self.transform.then(then)
+        bounds = transform.bounds(
             (x - padding, y - padding, z - padding), (u + padding, v + padding, w + padding)
         )
-        return (
-            bounds if all(math.isfinite(number) for corner in bounds for number in corner) else None
-        )
+        return bounds if finite((*bounds[0], *bounds[1])) else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TypeAlias
 
@@ -87,6 +87,10 @@ class Transform:
     def linear(self) -> bool:
         return self.frustum is None
 
+    def then(self, matrix: Matrix) -> Transform:
+        """This transform with a matrix after it."""
+        return replace(self, matrix=multiply(self.matrix, matrix))
+
     def apply(self, point: Point) -> Point:
         """A point of index space in world space."""
         x, y, z = self.frustum.apply(point) if self.frustum else point
@@ -99,7 +103,27 @@ class Transform:
         It is the box of the eight corners; that is exact for a frustum too, whose scale is linear
         along z.
         """
+        if self.frustum is None:
+            return _around(self.matrix, minimum, maximum)
         (a, b, c), (d, e, f) = minimum, maximum
         corners = [self.apply(corner) for corner in product((a, d), (b, e), (c, f))]
         (x, u), (y, v), (z, w) = ((min(axis), max(axis)) for axis in zip(*corners, strict=True))
         return (x, y, z), (u, v, w)
+
+
+def _around(matrix: Matrix, minimum: Point, maximum: Point) -> Bounds:
+    """The box of a transformed box's corners, at a third of what it costs to transform eight."""
+    (a, b, c), (d, e, f) = minimum, maximum
+    lows, highs = [], []
+    for x, y, z, start in zip(*matrix, strict=True):
+        low = high = start
+        for factor, least, most in ((x, a, d), (y, b, e), (z, c, f)):
+            if factor > 0:
+                low += factor * least
+                high += factor * most
+            else:
+                low += factor * most
+                high += factor * least
+        lows.append(low)
+        highs.append(high)
+    return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])

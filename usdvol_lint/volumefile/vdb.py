@@ -61,6 +61,8 @@ VECTOR_TYPES = frozenset(
     )
 )
 
+_BOUNDS = ("file_bbox_min", "file_bbox_max")
+
 _U32 = Struct("<I")
 _VERSION = Struct("<I")
 _HEADER = Struct("<IIB36s")
@@ -179,6 +181,7 @@ class _Reader:
             message = f"file version {self.version} is newer than {NEWEST_VERSION}"
             self.warnings.append(FileWarning("version-newer", message))
         major, minor, has_offsets, uuid = window.unpack(_HEADER)
+        window.note("uuid", len(uuid))
         self.library = f"{major}.{minor}"
         self.streamed = not has_offsets
         # OpenVDB leaves a NUL where it found no randomness.
@@ -200,6 +203,10 @@ class _Reader:
             kind = window.string(_LONGEST_TYPE)
             (size,) = window.unpack(_U32)
             value = self.read_value(kind, size)
+            if kind in _VALUES and kind != "bool":
+                window.note(name if kind == "vec3i" and name in _BOUNDS else "number", size)
+            elif kind not in ("bool", "string"):
+                window.note("skipped", size)
             if not kind.startswith("__"):
                 found[name] = Metadatum(kind, value, size)
         return found
@@ -229,6 +236,7 @@ class _Reader:
         window.skip(_U32.size)  # compression flags
         metadata = self.read_metadata()
         transform = self.read_transform()
+        window.note("head", 0)
 
         tree_type = stored_type.removesuffix(_HALF_MARK)
         bounds = _index_bounds(metadata)
@@ -270,6 +278,7 @@ class _Reader:
         window = self.window
         at = window.position
         grid_start, blocks, end = window.unpack(_OFFSETS)
+        window.note("offsets", _OFFSETS.size)
         if self.streamed:
             return 0
         section_end = end if is_instance else blocks
@@ -361,7 +370,7 @@ def _known(text: str, words: frozenset[str], otherwise: str) -> str:
 
 
 def _index_bounds(metadata: dict[str, Metadatum]) -> IndexBounds | None:
-    low, high = metadata.get("file_bbox_min"), metadata.get("file_bbox_max")
+    low, high = map(metadata.get, _BOUNDS)
     if low is None or high is None or not low.type == high.type == "vec3i":
         return None
     return low.value, high.value  # type: ignore[return-value]

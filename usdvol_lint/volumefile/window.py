@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Iterator
-from contextlib import contextmanager
 from struct import Struct
-from typing import Any
+from typing import Any, NamedTuple
 
 from usdvol_lint.volumefile.model import VolumeFileError
 
@@ -19,16 +17,31 @@ _CHUNK = 8192
 _LENGTH = Struct("<I")
 
 
+class Note(NamedTuple):
+    """Something that a reader remarked on the way: what, and where in the file."""
+
+    name: str
+    position: int
+    size: int
+
+
 class Window:
     """Bytes `[0, size)` of a volume file, wherever in a real file they lie.
 
     Reading starts at `position` and may not pass `limit`, which is `size` unless the caller
     narrows it to a section; what lies beyond `size` is truncated, beyond `limit` invalid.
+    `status` is the state of the real file; `notes` are the reader's.
     """
 
-    __slots__ = ("_base", "_buffer", "_descriptor", "_end", "_start", "limit", "position", "size")
+    __slots__ = (
+        *("_base", "_buffer", "_descriptor", "_end", "_start"),
+        *("limit", "notes", "position", "size", "status"),
+    )
 
-    def __init__(self, descriptor: int, start: int, size: int) -> None:
+    def __init__(self, descriptor: int, status: os.stat_result, start: int, size: int) -> None:
+        """Takes over an open file: leaving the window as a context closes it."""
+        self.status = status
+        self.notes: list[Note] = []
         self._descriptor = descriptor
         self._start = start
         self._buffer = b""
@@ -36,6 +49,12 @@ class Window:
         self.size = size
         self.limit = size
         self.position = 0
+
+    def __enter__(self) -> Window:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        os.close(self._descriptor)
 
     def _take(self, count: int) -> int:
         """Passes over the next `count` bytes, and says where in the buffer they are."""
@@ -86,6 +105,10 @@ class Window:
         if self.position + count > self.limit:
             raise self._beyond(self.position + count)
 
+    def note(self, name: str, size: int) -> None:
+        """Remarks on the `size` bytes that were read last."""
+        self.notes.append(Note(name, self.position - size, size))
+
     def _beyond(self, end: int) -> VolumeFileError:
         if end > self.size:
             return VolumeFileError(
@@ -101,13 +124,12 @@ class Window:
         wanted = min(max(count, _CHUNK), self.size - self.position)
         try:
             os.lseek(self._descriptor, self._start + self.position, os.SEEK_SET)
-            pieces = []
-            while wanted > 0 and (piece := os.read(self._descriptor, wanted)):
-                pieces.append(piece)
-                wanted -= len(piece)
+            found = os.read(self._descriptor, wanted)
+            while len(found) < wanted and (more := os.read(self._descriptor, wanted - len(found))):
+                found += more
         except OSError as error:
             raise VolumeFileError("not-a-file", _words(error), self.position) from None
-        self._buffer = b"".join(pieces)
+        self._buffer = found
         self._base = self.position
         self._end = self._base + len(self._buffer)
         if self._end < self._base + count:
@@ -115,8 +137,7 @@ class Window:
             raise self._beyond(self._base + count)
 
 
-@contextmanager
-def open_window(path: str, offset: int, size: int | None) -> Iterator[Window]:
+def open_window(path: str, offset: int, size: int | None) -> Window:
     """The `size` bytes of a file from `offset` on, or fewer if the file ends before."""
     try:
         descriptor = os.open(path, _FLAGS)
@@ -131,10 +152,11 @@ def open_window(path: str, offset: int, size: int | None) -> Iterator[Window]:
         if offset > status.st_size:
             message = f"the file ends at byte {status.st_size}, before byte {offset}"
             raise VolumeFileError("truncated", message)
-        there = status.st_size - offset
-        yield Window(descriptor, offset, there if size is None else min(size, there))
-    finally:
+    except BaseException:
         os.close(descriptor)
+        raise
+    there = status.st_size - offset
+    return Window(descriptor, status, offset, there if size is None else min(size, there))
 
 
 def _words(error: OSError | ValueError) -> str:

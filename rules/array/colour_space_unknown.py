@@ -1,0 +1,16 @@
+"""ARR016: a colour space that USD does not know by name is none to USD."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("ARR016", on="ParticleField", severity=WARNING, since="0.1")
+def colour_space_unknown(particles: Prim, facts: Facts) -> Problems:
+    space = facts.colour_space(particles)
+    if space and not space.is_known:
+        yield Problem(
+            f"USD knows no colour space {space.name!r}",
+            at=space.attribute,
+            suggestion=f"did you mean {space.similar!r}?"
+            if space.similar
+            else "name one of GfColorSpaceNames, or define it with ColorSpaceDefinitionAPI",
+        )

@@ -1,0 +1,19 @@
+"""ARR015: an `elementSize` that is not what the degree says misleads who believes it."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("ARR015", on="ParticleField", severity=INFO, since="0.1")
+def element_size_differs(particles: Prim, facts: Facts) -> Problems:
+    arrays = facts.arrays(particles)
+    degree, each = arrays.degree, arrays.degree.coefficients
+    if each is None or arrays.fitting_degree not in (None, degree.value):
+        return  # ARR004 names the degree that fits
+    for array in arrays.authored("coefficients"):
+        size = array.attribute.GetMetadata("elementSize")
+        if array.attribute.HasAuthoredMetadata("elementSize") and size != each:
+            yield Problem(
+                f"elementSize {size}, and degree {degree.value} takes {each:,} coefficients",
+                at=array.attribute,
+                suggestion=f"author elementSize = {each}, or leave it out",
+            )

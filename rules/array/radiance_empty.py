@@ -1,0 +1,23 @@
+"""ARR017: particles without coefficients are all of the same grey."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("ARR017", on="ParticleField", severity=WARNING, since="0.1")
+def radiance_empty(particles: Prim, facts: Facts) -> Problems:
+    arrays = facts.arrays(particles)
+    if not arrays.lack_coefficients or not arrays.most:
+        return
+    if facts.material_is_bound(particles) or facts.composition.may_lack_values(particles):
+        return
+    if any("Coefficients" in slip.meant for slip in facts.misspelt(particles)):
+        return  # SCH004 says it
+    has_colour = particles.GetAttribute("primvars:displayColor").HasAuthoredValue()
+    yield Problem(
+        "no spherical harmonics coefficients at any time, so every particle is mid-grey"
+        + (": 'primvars:displayColor' is not read" if has_colour else ""),
+        at=arrays.coefficients.attribute if arrays.coefficients else particles,
+        suggestion="author degree 0 and for each colour c the coefficient (c - 0.5) / 0.28209479"
+        if has_colour
+        else "author radiance:sphericalHarmonicsCoefficients and the degree that fits",
+    )

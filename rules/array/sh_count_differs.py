@@ -1,0 +1,26 @@
+"""ARR004: each particle has as many spherical harmonics coefficients as the degree says."""
+
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("ARR004", on="ParticleField", severity=ERROR, since="0.1")
+def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
+    arrays = facts.arrays(particles)
+    degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
+    authored = "" if degree.is_authored else ", what USD falls back to,"
+    for array in arrays.used("coefficients") if each else ():
+        for misfits, severity in (
+            (arrays.short(array, each), None),
+            (arrays.long(array, each), WARNING),
+        ):
+            if misfits:
+                yield Problem(
+                    f"{misfits.words}, and degree {degree.value}{authored} takes {each:,} for each",
+                    at=misfits.attribute,
+                    times=misfits.times,
+                    at_default=misfits.at_default,
+                    severity=severity,
+                    suggestion=f"author {each:,} coefficients for each position"
+                    if fitting is None
+                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits",
+                )

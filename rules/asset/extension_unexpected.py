@@ -1,0 +1,40 @@
+"""AST006: a field's file must have the extension that its readers are chosen by."""
+
+import re
+
+from usdvol_lint.rule import WARNING, AssetState, Facts, Prim, Problem, Problems, rule
+
+_TYPES = {".vdb": "OpenVDBAsset", ".f3d": "Field3DAsset"}
+_WITHOUT = {
+    extension: re.compile(rf"(?is)(?!.*\{extension}(?:\]*\Z|:SDF_FORMAT_ARGS:))")
+    for extension in _TYPES
+}
+
+
+@rule("AST006", on=tuple(_TYPES.values()), severity=WARNING, since="0.1")
+def extension_unexpected(field: Prim, facts: Facts) -> Problems:
+    wanted = ".vdb" if facts.is_a(field, "OpenVDBAsset") else ".f3d"
+    other = facts.assets(field, "filePath").matching(_WITHOUT[wanted], AssetState.FILE)
+    if other:
+        extension = _extension(other.first.path)
+        if (extension, wanted) == (".nvdb", ".vdb"):
+            what = "is a NanoVDB file, which some renderers read and Storm does not"
+            advice = "write it as '.vdb' for renderers that read OpenVDB alone"
+        else:
+            what = f"does not end in '{wanted}', as the files of an {_TYPES[wanted]} do"
+            advice = f"name a '{wanted}' file"
+        if extension in _TYPES:
+            advice += f", or make the prim an {_TYPES[extension]}"
+        yield Problem(
+            f"{other.shown} {what}{other.count}",
+            at=other.attribute,
+            times=other.times,
+            at_default=other.at_default,
+            asset=other.first.authored,
+            suggestion=advice,
+        )
+
+
+def _extension(path: str) -> str:
+    name = path.partition(":SDF_FORMAT_ARGS:")[0].rstrip("]").rpartition("/")[2]
+    return "".join(name.rpartition(".")[1:]).lower()

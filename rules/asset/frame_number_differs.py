@@ -1,0 +1,19 @@
+"""AST013: a file's frame number should follow the time as those of all other samples do."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("AST013", on="FieldAsset", severity=WARNING, since="0.1")
+def frame_number_differs(field: Prim, facts: Facts) -> Problems:
+    sequence = facts.sequence(field, "filePath")
+    strays = sequence.strays() if sequence else None
+    if strays:
+        affected = strays.affected
+        yield Problem(
+            f"{affected.shown} is out of the order that the other file numbers keep"
+            f"{affected.count}",
+            at=affected.attribute,
+            times=affected.times,
+            asset=affected.first.authored,
+            suggestion=f"did you mean {strays.meant!r}?" if strays.meant else None,
+        )

@@ -1,0 +1,17 @@
+"""AST015: a package must hold the files that it names."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("AST015", on="FieldAsset", severity=WARNING, since="0.1")
+def outside_package(field: Prim, facts: Facts) -> Problems:
+    outside = facts.outside_package(field, "filePath")
+    if outside:
+        yield Problem(
+            f"{outside.shown} lies outside the package that names it{outside.count}",
+            at=outside.attribute,
+            times=outside.times,
+            at_default=outside.at_default,
+            asset=outside.first.authored,
+            suggestion="add the file to the package, and name it in relation to the layer",
+        )

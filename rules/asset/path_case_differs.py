@@ -1,0 +1,18 @@
+"""AST009: a path must have the case of the names that it leads to."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("AST009", on="FieldAsset", severity=WARNING, since="0.1")
+def path_case_differs(field: Prim, facts: Facts) -> Problems:
+    recased = facts.recased(field, "filePath")
+    if recased:
+        affected = recased.affected
+        yield Problem(
+            f"{affected.shown} is {recased.path!r} on disk, in another case{affected.count}",
+            at=affected.attribute,
+            times=affected.times,
+            at_default=affected.at_default,
+            asset=affected.first.authored,
+            suggestion=f"write it as {recased.path!r}",
+        )

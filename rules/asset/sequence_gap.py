@@ -1,0 +1,19 @@
+"""AST011: a run of samples should have no holes."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, frame_ranges, rule
+
+
+@rule("AST011", on="FieldAsset", severity=WARNING, since="0.1")
+def sequence_gap(field: Prim, facts: Facts) -> Problems:
+    sequence = facts.sequence(field, "filePath")
+    missing = sequence.missing() if sequence else None
+    if sequence and missing:
+        samples = "no sample" if len(missing.times) == 1 else "no samples"
+        yield Problem(
+            f"{samples} at {frame_ranges(missing.times)}, in a run that is regular otherwise "
+            f"({len(missing.times)} missing, {len(sequence.samples)} there)",
+            at=field.GetAttribute("filePath"),
+            times=missing.times,
+            asset=missing.before.authored,
+            suggestion=missing.advice,
+        )

@@ -1,0 +1,39 @@
+"""AST012: the samples should cover the time range of the stage."""
+
+from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, format_time, rule
+
+
+@rule("AST012", on="FieldAsset", severity=WARNING, since="0.1")
+def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
+    sequence = facts.sequence(field, "filePath")
+    if sequence is None or facts.time_range is None or not sequence.is_animated:
+        return
+    start, end = facts.time_range
+    first, last = sequence.times[0], sequence.times[-1]
+    ranges = (
+        f"the samples are at {format_time(first)}-{format_time(last)}, "
+        f"the stage's range is {format_time(start)}-{format_time(end)}"
+    )
+    attribute = field.GetAttribute("filePath")
+    if last < start or first > end:
+        shift = format_time(start - first)
+        yield Problem(
+            f"{ranges}: one file is held throughout",
+            at=attribute,
+            suggestion=f"if they are to begin with the stage, move them by {shift} with the layer "
+            "offset of the sublayer, reference or payload",
+        )
+        return
+    # A sample holds until the next would come, so every second frame covers the one after it.
+    held = []
+    if first - start > sequence.step - 1e-6:
+        held.append(f"the first file is held until {format_time(first)}")
+    if end - last > sequence.step - 1e-6:
+        held.append(f"the last file is held from {format_time(last)} on")
+    if held:
+        yield Problem(
+            f"{ranges}: {' and '.join(held)}",
+            at=attribute,
+            suggestion="write the frames that are missing, or correct the range of the stage",
+            severity=INFO,
+        )

@@ -1,0 +1,12 @@
+"""FLD007: Field3D files have a schema in USD, but no reader."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("FLD007", on="Field3DAsset", severity=INFO, since="0.1")
+def field3d_unsupported(field: Prim, facts: Facts) -> Problems:
+    yield Problem(
+        "no reader of Field3D files ships with OpenUSD",
+        at=field,
+        suggestion="convert the file to OpenVDB, and name it with an OpenVDBAsset",
+    )

@@ -1,0 +1,19 @@
+"""FLD002: a field should say what type of data it holds."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("FLD002", on="FieldAsset", severity=INFO, since="0.1")
+def field_data_type_missing(field: Prim, facts: Facts) -> Problems:
+    data_type = field.GetAttribute("fieldDataType")
+    if data_type.Get():
+        return
+    values = list(facts.values(field, "fieldDataType"))
+    if any(values) or ("" not in values and data_type.HasAuthoredValue()):
+        return
+    if not facts.composition.may_lack_values(field):
+        yield Problem(
+            "fieldDataType is empty" if "" in values else "no fieldDataType",
+            at=data_type if data_type.IsAuthored() else field,
+            suggestion="author the type of the grid, such as 'float' or 'float3'",
+        )

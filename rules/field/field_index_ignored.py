@@ -1,0 +1,20 @@
+"""FLD005: few renderers look at the index of a field."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("FLD005", on="FieldAsset", severity=INFO, since="0.1")
+def field_index_ignored(field: Prim, facts: Facts) -> Problems:
+    if "fieldIndex" not in facts.authored(field).declared:
+        return
+    values = facts.values(field, "fieldIndex")
+    for index, held in values.apart(
+        lambda value: value if type(value) is int and value > 0 else None
+    ):
+        yield Problem(
+            f"fieldIndex {index} is ignored by Storm and others, which read the first grid of that name{held.count}",
+            at=held.attribute,
+            times=held.times,
+            at_default=held.at_default,
+            suggestion="give the grids names of their own where renderers must agree",
+        )

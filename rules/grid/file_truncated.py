@@ -1,0 +1,21 @@
+"""GRD002: a file must be as long as it says."""
+
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, rule
+
+
+@rule("GRD002", on="FieldAsset", severity=ERROR, since="0.1")
+def file_truncated(field: Prim, facts: Facts) -> Problems:
+    contents = facts.contents(field)
+    for content, found in contents.grouped(lambda content: _is_cut(content) or None):
+        yield Problem(
+            f"{found.shown} is cut off: {content.fault.message}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion="write it again, or copy it again; look for a full disk",
+        )
+
+
+def _is_cut(content: Content) -> bool:
+    return content.fault is not None and content.fault.code == "truncated"

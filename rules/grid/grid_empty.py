@@ -1,0 +1,20 @@
+"""GRD008: a grid without active voxels shows nothing."""
+
+from usdvol_lint.rule import INFO, Content, Facts, Prim, Problem, Problems, rule
+
+
+@rule("GRD008", on="FieldAsset", severity=INFO, since="0.1")
+def grid_empty(field: Prim, facts: Facts) -> Problems:
+    for content, found in facts.contents(field).grouped(_empty):
+        yield Problem(
+            f"grid {content.grid.label!r} in {found.shown} has no active voxels{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+        )
+
+
+def _empty(content: Content) -> object:
+    grid = content.grid
+    return grid.label if grid is not None and grid.is_empty else None

@@ -1,0 +1,38 @@
+"""GRD003: the grid that a field names must be in its file."""
+
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.schema import nearest
+
+_PARTS = [tuple(f"{mark}{part}" for part in "xyz") for mark in (".", "_", ":", "")]
+
+
+@rule("GRD003", on="FieldAsset", severity=ERROR, since="0.1")
+def grid_missing(field: Prim, facts: Facts) -> Problems:
+    for content, found in facts.contents(field).grouped(_missing):
+        name, purpose = content.claim.name, content.claim.purpose
+        where = f" of {purpose!r}" if purpose else ""
+        yield Problem(
+            f"no grid {name!r}{where} in {found.shown}, which holds {content.holds}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion=_suggestion(name, {grid.unique_name for grid in content.file.grids}),
+        )
+
+
+def _missing(content: Content) -> object:
+    """What is missing, where nothing of that name may lie in what was not read."""
+    file, claim = content.file, content.claim
+    if file is None or not file.complete or not claim.name or content.grids:
+        return None
+    return claim.name, claim.purpose, bool(file.grids)
+
+
+def _suggestion(name: str, names: set[str]) -> str | None:
+    for parts in _PARTS:
+        split = [name + part for part in parts]
+        if names.issuperset(split):
+            return f"{name!r} is split into {', '.join(map(repr, split))}: write it as one vector"
+    meant = nearest(name, frozenset(names - {""}))
+    return f"did you mean {meant!r}?" if meant else None

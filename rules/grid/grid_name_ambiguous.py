@@ -1,0 +1,40 @@
+"""GRD009: one grid of the file, and no other, should answer to the field's name."""
+
+from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, rule
+
+
+@rule("GRD009", on="FieldAsset", severity=WARNING, since="0.1")
+def grid_name_ambiguous(field: Prim, facts: Facts) -> Problems:
+    for content, found in facts.contents(field).grouped(_ambiguity):
+        reason, suggestion = _ambiguity(content)
+        yield Problem(
+            f"{found.shown} holds {reason}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion=suggestion,
+        )
+
+
+def _ambiguity(content: Content) -> tuple[str, str] | None:
+    grids, grid, claim = content.grids, content.grid, content.claim
+    if grid is None:
+        return None
+    if len(grids) > 1 and claim.index is None:
+        name, purposes = grid.unique_name, sorted({other.purpose or "" for other in grids})
+        if len(purposes) > 1 and not claim.purpose:
+            listed = ", ".join(map(repr, purposes))
+            return f"grids named {name!r} in {listed}", "author the fieldPurpose that is meant"
+        return (
+            f"{len(grids)} grids named {name!r}, and the field has no fieldIndex",
+            "author the fieldIndex that is meant, from 0 in the order of the file",
+        )
+    if not (grid.name or grid.unique_name):
+        return "a grid without a name, which no fieldName can select", "name it in the file"
+    if grid.name != grid.unique_name:
+        return (
+            f"a grid listed as {grid.unique_name!r} whose own metadata name it {grid.name!r}",
+            "write the file again: readers go by the one or the other",
+        )
+    return None

@@ -1,0 +1,18 @@
+"""GRD013: the files of a sequence should hold the same grids."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("GRD013", on="FieldAsset", severity=WARNING, since="0.1")
+def grids_change(field: Prim, facts: Facts) -> Problems:
+    changes = facts.grid_changes(field)
+    if changes:
+        found = changes.found
+        yield Problem(
+            f"{found.shown} {changes.difference}, unlike most of the sequence{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion="look whether the frames come from one simulation",
+        )

@@ -1,0 +1,17 @@
+"""SCH003: a value of another type than the schema declares is none to those who ask for it."""
+
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("SCH003", on=("Volume", "VolumeFieldBase", "ParticleField"), severity=ERROR, since="0.1")
+def attribute_type_mismatch(prim: Prim, facts: Facts) -> Problems:
+    for attribute, spec, found, wanted, only_role in facts.mistyped(prim):
+        name = attribute.GetName()
+        yield Problem(
+            f"{f'{found} {name}'!r} where the schema declares {f'{wanted} {name}'!r}"
+            + (": the same values in another role" if only_role else ""),
+            at=attribute,
+            spec=spec,
+            severity=WARNING if only_role else None,
+            suggestion=f"author it as {wanted!r}",
+        )

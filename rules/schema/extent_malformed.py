@@ -1,0 +1,38 @@
+"""SCH008: an extent is two corners of finite numbers, the lower one first."""
+
+from math import isfinite
+from operator import le
+from typing import Any
+
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
+
+_LARGEST = 3.4028234663852886e38
+_NOTHING = (2, (_LARGEST,) * 3, (-_LARGEST,) * 3)
+"""USD's empty range: what it computes as the extent of no points."""
+
+
+@rule("SCH008", on=("Volume", "ParticleField"), severity=ERROR, since="0.1")
+def extent_malformed(prim: Prim, facts: Facts) -> Problems:
+    if "extent" not in facts.authored(prim).declared:
+        return
+    for fault, held in facts.extents(prim).apart(_fault):
+        first = next(iter(held))
+        corners = f": {first.low}, {first.high}" if first.size == 2 else ""
+        yield Problem(
+            f"extent {fault}{corners}{held.count}",
+            at=held.attribute,
+            times=held.times,
+            at_default=held.at_default,
+            suggestion="author the lower corner, then the upper one: [(0, 0, 0), (1, 1, 1)]",
+        )
+
+
+def _fault(extent: Any) -> str | None:
+    size, low, high = extent
+    if size != 2:
+        return f"has {size} {'element' if size == 1 else 'elements'}, not two"
+    if not all(map(isfinite, low + high)):
+        return "is not finite"
+    if all(map(le, low, high)) or extent == _NOTHING:
+        return None
+    return "has a minimum above its maximum"

@@ -1,0 +1,19 @@
+"""SCH007: without an extent, USD takes a Volume or particle field for empty."""
+
+from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rule
+
+_NAMED = 20
+
+
+@rule("SCH007", on=STAGE, severity=WARNING, since="0.1")
+def extent_missing(stage: Prim, facts: Facts) -> Problems:
+    prims = facts.without_extent
+    if not prims:
+        return
+    names = [f"{prim.GetTypeName()} <{facts.shown_path(prim)}>" for prim in prims[:_NAMED]]
+    more = f" and {len(prims) - _NAMED} more" if len(prims) > _NAMED else ""
+    yield Problem(
+        f"no extent, so USD takes the bounds for empty: {', '.join(names)}{more}",
+        at=prims[0],
+        suggestion="author extent, at every time at which the shape changes",
+    )

@@ -1,0 +1,27 @@
+"""SCH009: Volumes and particle fields are Gprims, and Gprims do not nest."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("SCH009", on=("Volume", "ParticleField"), severity=WARNING, since="0.1")
+def nested_gprim(prim: Prim, facts: Facts) -> Problems:
+    above = facts.gprim_above(prim)
+    if above:
+        yield Problem(
+            f"{prim.GetTypeName()} below {_named(above, facts)}, which is a Gprim too",
+            at=prim,
+            suggestion="move it beside that prim, below a common Xform",
+        )
+    for gprim, place in facts.gprims_below(prim):
+        held = "" if gprim == place else f", which holds {_named(gprim, facts)},"
+        what = gprim.GetTypeName() if gprim == place else "an instance"
+        yield Problem(
+            f"{what}{held} below {_named(prim, facts)}, which is a Gprim too",
+            at=place,
+            spec=None if gprim == place else place.GetPrimStack()[0],
+            suggestion=f"move it beside the {prim.GetTypeName()}, below a common Xform",
+        )
+
+
+def _named(prim: Prim, facts: Facts) -> str:
+    return f"{prim.GetTypeName()} <{facts.shown_path(prim)}>"

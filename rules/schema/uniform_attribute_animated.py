@@ -1,0 +1,17 @@
+"""SCH006: a uniform attribute has one value, and time samples are no such thing."""
+
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+
+
+@rule("SCH006", on=("Volume", "VolumeFieldBase", "ParticleField"), severity=WARNING, since="0.1")
+def uniform_attribute_animated(prim: Prim, facts: Facts) -> Problems:
+    for name in facts.authored(prim).uniform:
+        values = facts.values(prim, name)
+        if values.total:
+            samples = "a time sample" if values.total == 1 else f"{values.total} time samples"
+            yield Problem(
+                f"{name!r} is uniform, but has {samples}",
+                at=values.attribute,
+                times=values.times,
+                suggestion="author one value, as the default",
+            )

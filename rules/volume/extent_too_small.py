@@ -1,0 +1,20 @@
+"""VOL013: the extent of a Volume must enclose the grids that its fields name."""
+
+from usdvol_lint.rule import ERROR, INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("VOL013", on="Volume", severity=ERROR, since="0.1")
+def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5) -> Problems:
+    found = facts.extent_shortfall(volume, relative_slack)
+    if found:
+        grid = found.worst.shown
+        reach = f"{grid} reaches out of the extent"
+        cut = f"the extent encloses the voxel centres of {grid} and cuts voxels off"
+        yield Problem(
+            f"{cut if found.only_half_voxels else reach} by {found.worst.amounts}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            suggestion=f"write '{found.fitting}'",
+            severity=INFO if found.only_half_voxels else None,
+        )

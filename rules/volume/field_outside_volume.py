@@ -1,0 +1,15 @@
+"""VOL011: a field that one Volume alone uses should lie below it."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("VOL011", on="Volume", severity=INFO, since="0.1", default=False)
+def field_outside_volume(volume: Prim, facts: Facts) -> Problems:
+    for binding, target in facts.fields(volume).outside(volume):
+        if not facts.is_shared(volume, target.prim):
+            yield Problem(
+                f"'field:{binding.name}' binds the field <{target.shown}>, which no other Volume "
+                "uses and which does not lie below this one",
+                at=binding.property,
+                suggestion=f"move the field below <{facts.shown_path(volume)}>",
+            )

@@ -1,0 +1,17 @@
+"""VOL015: a field outside its Volume should have the Volume's transform."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("VOL015", on="Volume", severity=INFO, since="0.1")
+def field_transform_differs(volume: Prim, facts: Facts) -> Problems:
+    for binding, target in facts.fields(volume).outside(volume):
+        displacement = facts.displacement(volume, target.prim)
+        if displacement:
+            yield Problem(
+                f"'field:{binding.name}' binds the field <{target.shown}>, which does not move "
+                f"with the Volume: its space is {displacement.words} in relation to the Volume's",
+                at=binding.property,
+                times=displacement.times,
+                suggestion="move the field below the Volume, or give both the same transform",
+            )

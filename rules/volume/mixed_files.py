@@ -1,0 +1,17 @@
+"""VOL014: the fields of one Volume should name one file."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+
+
+@rule("VOL014", on="Volume", severity=INFO, since="0.1")
+def mixed_files(volume: Prim, facts: Facts) -> Problems:
+    mixed = facts.mixed_files(volume)
+    if mixed:
+        yield Problem(
+            f"the fields name {len(mixed.fields)} files at one time, {mixed.shown}, of which some "
+            "renderers read the first only",
+            at=volume,
+            times=mixed.times,
+            at_default=mixed.at_default,
+            suggestion="write the grids into one file, or give each file a Volume of its own",
+        )

@@ -1,0 +1,162 @@
+"""The authored attributes of prims, held against what the schemas declare."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from pxr import Sdf, Usd
+
+from usdvol_lint import schema
+from usdvol_lint.facts.clips import Clips
+from usdvol_lint.facts.kinds import Key, Kinds
+from usdvol_lint.facts.values import Values, values_of
+
+# To look a method up on an object of USD's takes as long as what most methods do.
+_attribute = Usd.Prim.GetAttribute
+_get = Usd.Attribute.Get
+_count_samples = Usd.Attribute.GetNumTimeSamples
+_specs = Usd.Property.GetPropertyStack
+_OURS = frozenset({schema.VOLUME, schema.FIELD, schema.PARTICLE_FIELD})
+
+
+@dataclass(frozen=True, slots=True)
+class Authored:
+    """What prims of one kind share on which the same properties are authored.
+
+    `declared` are those that UsdVol's schemas, or the ones they derive from, declare, with those
+    that have values in clips alone; `types` are theirs, `tokens` and `uniform` are some of them.
+    `strange` are names that no schema declares, `meant` is what some of these may be slips of.
+    """
+
+    declared: Mapping[str, schema.Attribute]
+    types: tuple[tuple[str, Any], ...]
+    tokens: tuple[tuple[str, tuple[str, ...]], ...]
+    uniform: tuple[str, ...]
+    strange: frozenset[str]
+    meant: tuple[tuple[str, str, str], ...]
+
+
+class Mistyped(NamedTuple):
+    """A spec of another type than the schema declares.
+
+    `only_role` says that the values are the same and only what they stand for differs.
+    """
+
+    attribute: Any
+    spec: Any
+    found: str
+    wanted: str
+    only_role: bool
+
+
+class Misspelt(NamedTuple):
+    """An attribute that no schema declares, and the name that was probably meant."""
+
+    attribute: Any
+    meant: str
+
+
+class Unlisted(NamedTuple):
+    """A token that is not one of those that the schema allows, and where it is a value."""
+
+    name: str
+    token: str
+    allowed: tuple[str, ...]
+    values: Values
+
+
+class AuthoredAttributes:
+    """Which attributes are authored on each prim of ours, looked at once.
+
+    A stage holds few combinations of kind and names, and many prims of each.
+    """
+
+    def __init__(self, kinds: Kinds, kept: Mapping[Key, Sequence[Any]], clips: Clips) -> None:
+        self._kinds = kinds
+        self._clips = clips
+        self._shared: dict[tuple[Key, tuple[str, ...]], Authored] = {}
+        self._prims: dict[Any, Authored] = {}
+        for key, prims in kept.items():
+            if not _OURS.isdisjoint(kinds.names(key)):
+                for prim in prims:
+                    self._prims[prim] = self._find(key, prim)
+
+    def on(self, prim: Any) -> Authored:
+        """What is authored on a prim."""
+        return self._prims.get(prim) or self._find(self._kinds.key(prim), prim)
+
+    def mistyped(self, prim: Any) -> Iterator[Mistyped]:
+        """The specs, in every layer, whose type is not the one that the schema declares."""
+        for name, wanted in self.on(prim).types:
+            attribute = _attribute(prim, name)
+            for spec in _specs(attribute):
+                found = getattr(spec, "typeName", None)
+                if found == wanted:
+                    continue
+                same_values = found is not None and found.type == wanted.type
+                yield Mistyped(attribute, spec, str(found or "rel"), str(wanted), same_values)
+
+    def misspelt(self, prim: Any) -> Iterator[Misspelt]:
+        """The attributes with values that nobody reads for a slip in their names.
+
+        Where the right one has a value, or could not hold this one, it is none.
+        """
+        for name, meant, wanted in self.on(prim).meant:
+            attribute = prim.GetAttribute(name)
+            if not attribute or not attribute.HasAuthoredValue():
+                continue
+            names_another = name.startswith("particleField:")
+            could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
+            if could_hold and not prim.GetAttribute(meant).HasAuthoredValue():
+                yield Misspelt(attribute, meant)
+
+    def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
+        """The tokens that the schema does not allow; an empty one is as good as none."""
+        for name, allowed in self.on(prim).tokens:
+            attribute = _attribute(prim, name)
+            if _get(attribute) in allowed and not _count_samples(attribute):
+                continue
+            for token, values in values_of(attribute).apart(_token):
+                if token not in allowed:
+                    yield Unlisted(name, token, allowed, values)
+
+    def _find(self, key: Key, prim: Any) -> Authored:
+        names = tuple(Usd.Prim.GetAuthoredPropertyNames(prim))
+        if self._clips.reaching(prim):
+            known = schema.attributes_of(self._kinds.names(key))
+            names += tuple(name for name in known if prim.GetAttribute(name).HasAuthoredValue())
+        found = self._shared.get((key, names))
+        if found is None:
+            found = self._shared[key, names] = _compare(prim, names, self._kinds.names(key))
+        return found
+
+
+def _compare(prim: Any, names: Iterable[str], schemas: frozenset[str]) -> Authored:
+    known = schema.attributes_of(schemas)
+    candidates = dict(known)
+    if schema.PARTICLE_FIELD in schemas:
+        candidates.update(schema.attributes_of(schema.API_ATTRIBUTES))  # whether applied or not
+    registered = prim.GetPrimDefinition().GetPropertyNames()
+    declared = {name: known[name] for name in names if name in known}
+    strange = frozenset(names).difference(candidates, registered)
+    return Authored(
+        declared=declared,
+        types=tuple(
+            (name, Sdf.ValueTypeNames.Find(attribute.type_name))
+            for name, attribute in declared.items()
+        ),
+        tokens=tuple((name, known.tokens) for name, known in declared.items() if known.tokens),
+        uniform=tuple(name for name, known in declared.items() if known.uniform),
+        strange=strange,
+        meant=tuple(
+            (name, meant, candidates[meant].type_name)
+            for name in sorted(strange)
+            if (meant := schema.misspelt_attribute(name, candidates))
+        ),
+    )
+
+
+def _token(value: Any) -> str | None:
+    return value if isinstance(value, str) and value else None

@@ -1,0 +1,57 @@
+"""Colour spaces by name: those that USD knows, and those that a stage defines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from pxr import Gf
+
+from usdvol_lint.schema import COLOUR_SPACES, nearest
+
+_NAME = "colorSpace:name"
+_DEFINITIONS = "colorSpaceDefinition"
+
+
+@dataclass(frozen=True, slots=True)
+class ColourSpace:
+    """The name of a colour space where it is authored; `similar` is one that USD knows."""
+
+    attribute: Any
+    name: str
+    is_known: bool
+    similar: str | None
+
+
+def colour_space(prim: Any) -> ColourSpace | None:
+    """The opinion of the prim or the nearest one above it, as USD looks for it."""
+    for place in _upward(prim):
+        attribute = place.GetAttribute(_NAME)
+        name = attribute.Get() if attribute and attribute.HasAuthoredValue() else None
+        if isinstance(name, str) and name:
+            is_known = _is_built_in(name) or any(
+                name in _defined(above) for above in _upward(place)
+            )
+            similar = None if is_known else nearest(name, COLOUR_SPACES, cutoff=0.6)
+            return ColourSpace(attribute, name, is_known, similar)
+    return None
+
+
+def _upward(prim: Any) -> Iterator[Any]:
+    while not prim.IsPseudoRoot():
+        yield prim
+        prim = prim.GetParent()
+
+
+def _is_built_in(name: str) -> bool:
+    """By USD's own answer too, which may know names that are newer than ours."""
+    is_valid = getattr(Gf.ColorSpace, "IsValid", COLOUR_SPACES.__contains__)
+    return name in COLOUR_SPACES or is_valid(name)
+
+
+def _defined(prim: Any) -> Iterator[str]:
+    """The names of the colour spaces that a prim defines."""
+    for attribute in prim.GetAuthoredPropertiesInNamespace(_DEFINITIONS):
+        if attribute.GetName().endswith(":name"):
+            yield attribute.Get()

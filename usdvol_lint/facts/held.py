@@ -1,0 +1,36 @@
+"""Values that hold from one sample to the next, as USD has it for all that it can't interpolate."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable
+from typing import Generic, TypeAlias, TypeVar
+
+_T = TypeVar("_T")
+
+Time: TypeAlias = float | None
+"""A time code of the stage, or None for the default time."""
+
+
+class Held(Generic[_T]):
+    """The values of an attribute, or what they stand for, at any time.
+
+    The samples ascend in time, the default first.
+    """
+
+    def __init__(self, samples: Iterable[tuple[Time, _T]]) -> None:
+        self.default: _T | None = None
+        self.times: list[float] = []
+        self._values: list[_T] = []
+        for time, value in samples:
+            if time is None:
+                self.default = value
+            else:
+                self.times.append(time)
+                self._values.append(value)
+
+    def at(self, time: Time) -> _T | None:
+        """The value at a time: the first sample holds backwards too, and samples hide a default."""
+        if time is None or not self.times:
+            return self.default
+        return self._values[max(bisect_right(self.times, time) - 1, 0)]

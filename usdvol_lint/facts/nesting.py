@@ -1,0 +1,72 @@
+"""Gprims above and below a prim: USD has each of them be a leaf among its kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from pxr import Usd
+
+from usdvol_lint import schema
+from usdvol_lint.facts.kinds import Kinds
+
+_WITH_INSTANCES = Usd.TraverseInstanceProxies()
+
+
+class Nested(NamedTuple):
+    """A Gprim below another; `place` is to blame: itself, or the instance that holds it."""
+
+    gprim: Any
+    place: Any
+
+
+class Nesting:
+    """Finds Gprims above and below prims, each ancestor looked at once."""
+
+    def __init__(self, kinds: Kinds) -> None:
+        self._kinds = kinds
+        self._at_or_above: dict[Any, Any | None] = {}
+
+    def above(self, prim: Any) -> Any | None:
+        """The nearest Gprim among the ancestors, those of the instances of a prototype too."""
+        parent = prim.GetParent()
+        if parent not in self._at_or_above:
+            self._at_or_above[parent] = self._find_at_or_above(parent)
+        return self._at_or_above[parent]
+
+    def below(self, prim: Any) -> Iterator[Nested]:
+        """The topmost Gprims below, one for each instance; Volumes and particle fields speak for
+        themselves and what is below them.
+        """
+        places = set()
+        for descendant in self._topmost_gprims(prim):
+            place = _instance_above(descendant)
+            speaks = self._kinds.is_a(descendant, schema.VOLUME)
+            speaks = speaks or self._kinds.is_a(descendant, schema.PARTICLE_FIELD)
+            if not speaks and place not in places:
+                places.add(place)
+                yield Nested(descendant, place)
+
+    def _topmost_gprims(self, prim: Any) -> Iterator[Any]:
+        # The end of a PrimRange takes longer than to look at a Volume with its fields.
+        for child in prim.GetFilteredChildren(_WITH_INSTANCES):
+            if self._kinds.is_a(child, schema.GPRIM):
+                yield child
+            else:
+                yield from self._topmost_gprims(child)
+
+    def _find_at_or_above(self, prim: Any) -> Any | None:
+        if prim.IsPseudoRoot() or self._kinds.is_a(prim, schema.GPRIM):
+            return None if prim.IsPseudoRoot() else prim
+        if prim.IsPrototype():
+            found = map(self._find_at_or_above, prim.GetInstances())
+            return next((gprim for gprim in found if gprim), None)
+        return self.above(prim)
+
+
+def _instance_above(prim: Any) -> Any:
+    """The prim itself, or the outermost instance that shows it."""
+    place = prim
+    while prim.IsInstanceProxy():
+        place = prim = prim.GetParent()
+    return place

@@ -1,0 +1,118 @@
+"""Every volume file is read once, however often it is named."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Hashable
+from dataclasses import replace
+from typing import NamedTuple
+
+from usdvol_lint.volumefile import read_window
+from usdvol_lint.volumefile.model import VolumeFile, VolumeFileError
+from usdvol_lint.volumefile.recall import Recall
+from usdvol_lint.volumefile.window import Window, open_window
+
+_NUMBER = re.compile(r"\d+")
+
+
+class Fault(NamedTuple):
+    """What is wrong with a file, or why it was not read; see `VolumeFileError`."""
+
+    code: str
+    message: str
+    offset: int | None = None
+
+    def __str__(self) -> str:
+        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
+
+
+class Reading(NamedTuple):
+    """What came of reading a file: its content, or as much of it as was understood, without any
+    metadata, and what is wrong with it.
+
+    Files of equal `kind` differ in nothing but bounds, transforms and numbers in messages.
+    """
+
+    file: VolumeFile | None
+    fault: Fault | None
+    kind: Hashable
+
+
+class VolumeFiles:
+    """Reads files, and remembers what it read by what tells one state of a file from another."""
+
+    def __init__(self) -> None:
+        self._readings: dict[tuple[int | None, ...], Reading] = {}
+        self._kinds: dict[Hashable, int] = {}
+        self._recall = Recall()
+        self._last: tuple[VolumeFile | None, int] = (None, 0)
+
+    def read(self, path: str, offset: int = 0, size: int | None = None) -> Reading:
+        """What `read_volume_file` would return or raise."""
+        try:
+            with open_window(path, offset, size) as window:
+                state = window.status
+                key = (state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, offset, size)
+                reading = self._readings.get(key)
+                if reading is None:
+                    reading = self._readings[key] = self._read(window)
+                return reading
+        except VolumeFileError as error:
+            return self._failed(error)
+
+    def _read(self, window: Window) -> Reading:
+        file = self._recall.find(window)
+        if file is None:
+            try:
+                file = _without_metadata(read_window(window))
+            except VolumeFileError as error:
+                return self._failed(error)
+            self._recall.learn(window, file)
+        return self._keep(file, None)
+
+    def _failed(self, error: VolumeFileError) -> Reading:
+        # The error itself would hold on to all that was at hand when it was raised.
+        partial = error.partial and _without_metadata(error.partial)
+        return self._keep(partial, Fault(error.code, error.message, error.offset))
+
+    def _keep(self, file: VolumeFile | None, fault: Fault | None) -> Reading:
+        # Frames that differ in nothing are recalled as one and the same.
+        known, kind = self._last
+        if file is None or file is not known or fault:
+            kind = self._kinds.setdefault(_kind(file, fault), len(self._kinds))
+            self._last = (None if fault else file, kind)
+        return Reading(file, fault, kind)
+
+
+def _without_metadata(file: VolumeFile) -> VolumeFile:
+    grids = tuple(replace(grid, metadata={}) if grid.metadata else grid for grid in file.grids)
+    return replace(file, uuid=None, metadata={}, grids=grids)
+
+
+def _kind(file: VolumeFile | None, fault: Fault | None) -> Hashable:
+    said = fault and (fault.code, _NUMBER.sub("", fault.message))
+    if file is None:
+        return said
+    return (
+        said,
+        file.format,
+        file.version_number,
+        file.complete,
+        file.grid_count,
+        *(
+            (
+                grid.name,
+                grid.unique_name,
+                grid.suffix,
+                grid.purpose,
+                grid.tree_type,
+                grid.value_type,
+                grid.half,
+                grid.grid_class,
+                grid.vector_type,
+                grid.is_empty,
+                grid.transform is None or grid.transform.frustum is None,
+            )
+            for grid in file.grids
+        ),
+    )

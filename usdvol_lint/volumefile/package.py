@@ -1,0 +1,45 @@
+"""Where in a package, which is a zip archive, the bytes of a file lie."""
+
+from __future__ import annotations
+
+from struct import Struct
+from zipfile import ZIP_STORED, BadZipFile, ZipFile, ZipInfo
+
+_LOCAL_HEADER = Struct("<4s22xHH")
+_SIGNATURE = b"PK\3\4"
+_ENCRYPTED = 1
+
+
+class NotInPlaceError(Exception):
+    """Why a file in a package can't be read where it lies, in words that follow `it`."""
+
+
+class Package:
+    """A package, whose directory is read once."""
+
+    def __init__(self, path: str) -> None:
+        self._path = path
+        self._members: dict[str, ZipInfo] = {}
+        try:
+            with ZipFile(path) as archive:
+                self._members = {member.filename: member for member in archive.infolist()}
+        except (BadZipFile, NotImplementedError, OSError, ValueError):
+            pass  # then it has no members
+
+    def locate(self, inner: str) -> tuple[int, int]:
+        """Offset and size of a member; raises NotInPlaceError where there are no such bytes."""
+        if inner.endswith("]"):
+            raise NotInPlaceError("lies in a package inside of its package")
+        member = self._members.get(inner)
+        if member is None:
+            raise NotInPlaceError("is not listed in the directory of its package")
+        if member.compress_type != ZIP_STORED or member.flag_bits & _ENCRYPTED:
+            raise NotInPlaceError("is compressed or encrypted in its package")
+        with open(self._path, "rb") as file:
+            file.seek(member.header_offset)
+            header = file.read(_LOCAL_HEADER.size)
+        if len(header) < _LOCAL_HEADER.size or not header.startswith(_SIGNATURE):
+            raise NotInPlaceError("is not where the directory of its package says")
+        # The local header's extra field, which aligns the data, differs from the directory's.
+        _, name, extra = _LOCAL_HEADER.unpack(header)
+        return member.header_offset + _LOCAL_HEADER.size + name + extra, member.file_size
