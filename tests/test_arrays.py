@@ -23,6 +23,7 @@ from usdvol_lint.catalog import Catalog
 from usdvol_lint.config import Config, activate
 from usdvol_lint.engine import Engine
 from usdvol_lint.facts.arrays import chosen, memory
+from usdvol_lint.facts.kinds import Kinds
 from usdvol_lint.model import Finding, StageReport
 
 SH = "radiance:sphericalHarmonicsCoefficients"
@@ -635,3 +636,28 @@ def test_statistics_of_next_to_nothing(catalog: Catalog, tmp_path: Path) -> None
     a, b = engine.lint(str(tmp_path / "stage.usda")).particle_fields or ()
     assert (a.prim, a.count, a.precision, a.bounds, a.opacity) == ("/a", 1, "mixed", None, None)
     assert (b.prim, b.count, b.precision, b.bounds, b.opacity) == ("/b", 0, None, None, None)
+
+
+# --- a USD that knows no particle fields ----------------------------------------------------------
+
+
+def test_an_old_usd_is_said_once_a_stage(lint_text: Callable[[str], StageReport]) -> None:
+    report = lint_text(bare("").replace('"Splats"', '"One"') + bare("").partition("\n")[2])
+    said = [finding for finding in report.findings if finding.code == "LNT004"]
+    assert codes(report.findings) == codes(tuple(said))
+    assert len(said) == (0 if Kinds().knows_particle_fields else 1)
+    for finding in said:
+        assert (finding.severity.label, finding.site.prim) == ("warning", None)
+
+
+def test_an_old_usd_does_not_matter_without_particles(
+    lint_text: Callable[[str], StageReport],
+) -> None:
+    report = lint_text('#usda 1.0\ndef Xform "x"\n{\n}\n')
+    assert report.findings == ()
+
+
+def test_an_old_usd_can_be_ignored(catalog: Catalog, tmp_path: Path) -> None:
+    engine = Engine(catalog.rules, activate(Config(ignore=("LNT004",)), catalog))
+    (tmp_path / "stage.usda").write_text(bare(""))
+    assert engine.lint(str(tmp_path / "stage.usda")).findings == ()

@@ -344,6 +344,8 @@ def test_words_of_half_a_voxel(lint: Lint) -> None:
             {1: LARGE},
             "8",
         ),
+        # The first file holds backwards.
+        (animated({0: POINT, 4: UNIT, 6: UNIT}), {5: LARGE, 6: "./box_growing.0001.vdb"}, "0"),
         # What can not be read is not held to be what came before it.
         (
             animated({1: UNIT, 2: POINT, 3: POINT}),
@@ -429,6 +431,15 @@ def test_suggestions_fit_at_every_scale(
     assert lint(volume(written.removeprefix("write '").removesuffix("'"), files)) == []
 
 
+def test_numbers_at_the_ends_of_their_range(lint: Lint) -> None:
+    for size in (5e-324, 1e-310, 1e300):
+        said = {"name": vdbwriter.string("density"), **vdbwriter.bounds((0, 0, 0), (9, 9, 9))}
+        grid = vdbwriter.Grid(metadata=said, transform=vdbwriter.scale(size, size, size))
+        Path("scaled.vdb").write_bytes(vdbwriter.vdb(grid))
+        found = lint(volume(f"float3[] extent = {POINT}", "asset filePath = @./scaled.vdb@"))
+        assert only(found).code == "VOL013"
+
+
 def test_the_turned_box_of_the_voxels_not_the_box_of_the_turned_box(lint: Lint) -> None:
     """A grid that is turned back by its field stands straight again."""
     root = math.sqrt(0.5)
@@ -441,6 +452,11 @@ def test_the_turned_box_of_the_voxels_not_the_box_of_the_turned_box(lint: Lint) 
     files = "asset filePath = @./turned.vdb@"
     assert lint(volume(extent, files, back)) == []
     assert only(lint(volume(extent, files))).severity.label == "error"
+
+
+def test_a_field_that_moves_out_of_a_static_extent(lint: Lint) -> None:
+    text = volume("float3[] extent = [(0, 0, 0), (3, 1, 1)]", more=OPS["wander"])
+    assert only(lint(text)).site.frames == "3"
 
 
 def test_a_scaled_field_is_named_with_its_transform(lint: Lint) -> None:

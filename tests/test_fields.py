@@ -12,7 +12,11 @@ from usdvol_lint.config import Config, activate
 from usdvol_lint.engine import Engine
 from usdvol_lint.model import StageReport
 
-FIELD = 'def OpenVDBAsset "{name}" {{\n asset filePath = @./cloud.vdb@\n token fieldName = "density"\n}}\n'
+FIELD = """def OpenVDBAsset "{name}" {{
+    asset filePath = @./cloud.vdb@
+    token fieldName = "density"
+}}
+"""
 Lint = Callable[..., list[tuple[str, str, str | None]]]
 
 
@@ -47,7 +51,8 @@ def test_target_in_a_payload_that_was_not_loaded(lint: Lint) -> None:
     assert lint(PAYLOAD, load="none", lib=FIELDS)[-1:] == [
         (
             "LNT005",
-            "'field:density' targets </fields/density>, which lies in a payload that was not loaded",
+            "'field:density' targets </fields/density>, "
+            "which lies in a payload that was not loaded",
             None,
         )
     ]

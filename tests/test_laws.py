@@ -25,7 +25,8 @@ ENGINE = ROOT / "usdvol_lint"
 RULES = ROOT / "rules"
 
 LAYERS = (
-    {"model", "schema"},
+    {"model", "nearest"},
+    {"schema"},
     {"paths", "volumefile"},
     {"facts"},
     {"rule"},
@@ -44,7 +45,7 @@ LAYERS = (
 """Who may import whom: a module of ours only what stands above it, or beside it in its package."""
 LEVELS = {name: level for level, names in enumerate(LAYERS) for name in names}
 WITHOUT_USD = {
-    *("model", "schema", "paths", "volumefile", "rule", "catalog", "config", "trouble"),
+    *("model", "nearest", "schema", "paths", "volumefile", "rule", "catalog", "config", "trouble"),
     *("protocol", "child", "pool", "run", "report", "progress", "output", "about", "cli"),
     *("__main__", "__init__"),
 }

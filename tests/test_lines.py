@@ -396,7 +396,8 @@ def check_law(text: str) -> None:
             assert places.setdefault(position, path) == path
         for parent in path.GetPrefixes()[:-1]:
             outer = text_layer.find(str(parent))
-            assert outer is not None and outer <= position
+            assert outer is not None
+            assert outer <= position
         if path.IsPropertyPath():
             for key in layer.ListTimeSamplesForPath(path):
                 found = text_layer.find(str(path), time=key)
@@ -582,7 +583,8 @@ def test_law_holds_for_what_usd_writes(drawn: dict[str, Any]) -> None:
         line, column = text_layer.find(str(path)) or Position(0, 0)
         rest = "\n".join([lines[line - 1][column - 1 :], *lines[line:]])
         documented = re.search("doc = (?:\"\"\"|'''|\"|')(.*?)\\|", rest)
-        assert documented and documented[1] == str(path)
+        assert documented
+        assert documented[1] == str(path)
         for asset in assets_of(layer, spec):
             line, column = text_layer.find(str(path), asset=asset) or Position(0, 0)
             literal = (
@@ -600,8 +602,11 @@ def assets_of(layer: Sdf.Layer, spec: Sdf.Spec) -> list[str]:
 
 
 FRAGMENTS = st.sampled_from(
-    ['def "a"', "{", "}", "(", ")", "[", "]", '"', '"""', "'", "@", "@@@", "<", "/*", "*/", "//"]
-    + ["#", "\n", ";", "=", "= {", 'variantSet "v" = {', '"x"', "int p", ".timeSamples", "1:", "\\"]
+    [
+        *('def "a"', "{", "}", "(", ")", "[", "]", '"', '"""', "'", "@", "@@@", "<", "/*", "*/"),
+        *("//", "#", "\n", ";", "=", "= {", 'variantSet "v" = {', '"x"', "int p"),
+        *(".timeSamples", "1:", "\\"),
+    ]
 )
 
 
@@ -630,8 +635,11 @@ def test_nonsense_never_raises(data: bytes) -> None:
 
 @pytest.mark.parametrize(
     "unit",
-    ['"', '"""\\', "@@@", "@@@\\", "/*", "<", "{", "}", "(", "[", "= /**/", "def ", "def /*", "1"]
-    + ["variantSet ", 'variantSet "v" = {', 'def "a" {', "1.", "1:", "1: [", "int p(", "1e", "\\"],
+    [
+        *('"', '"""\\', "@@@", "@@@\\", "/*", "<", "{", "}", "(", "[", "= /**/", "def ", "def /*"),
+        *("1", "variantSet ", 'variantSet "v" = {', 'def "a" {', "1.", "1:", "1: [", "int p("),
+        *("1e", "\\"),
+    ],
 )
 def test_time_is_linear_in_malformed_text(unit: str) -> None:
     layer = TextLayer(

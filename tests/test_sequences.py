@@ -99,6 +99,16 @@ def test_missing_samples_with_some_of_their_files(lint_text: Lint, tmp_path: Pat
     )
 
 
+def test_missing_samples_in_the_time_of_their_layer(lint_text: Lint, tmp_path: Path) -> None:
+    write(tmp_path, *(f"s.{frame:04}.vdb" for frame in range(1, 7)))
+    there = [1, 2, 3, 5, 6]
+    (tmp_path / "fx.usda").write_text(numbered(there, there))
+    report = lint_text("#usda 1.0\n(\n    subLayers = [@./fx.usda@ (offset = 100; scale = 2)]\n)\n")
+    [finding] = [finding for finding in report.findings if finding.code == "AST011"]
+    assert (finding.site.layer, finding.site.line, finding.site.frames) == ("fx.usda", 9, "108")
+    assert finding.suggestion == "add 4: @./s.0004.vdb@ (1 of 1 files are there)"
+
+
 def test_missing_samples_that_no_layer_could_take(lint_text: Lint) -> None:
     """Nobody here knows which files a server has."""
     there = [1, 2, 3, 5, 6]
@@ -115,6 +125,7 @@ def test_missing_samples_that_no_layer_could_take(lint_text: Lint) -> None:
         pytest.param([1, 2, 3, 4, 6], None, "5", id="before the last"),
         pytest.param([1, 3, 4, 5, 6], None, None, id="after a rest frame"),
         pytest.param([1, 2, 3, 5, 7, 9, 10], None, None, id="a run of its own"),
+        pytest.param([*range(1, 10), 11, 13, 15, *range(16, 22)], None, None, id="a retime inside"),
         pytest.param([1, 2, 3, 5, 6], [6, 5, 4, 2, 1], "4", id="backwards"),
         pytest.param([1, 2, 3, 5, 6], [1, 2, 3, 4, 5], None, id="held"),
         pytest.param([1, 2, 3, 5, 6], [1, 1, 1, 1, 2], None, id="mostly held"),

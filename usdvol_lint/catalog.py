@@ -7,7 +7,7 @@ import importlib.util
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import redirect_stdout, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +15,7 @@ from types import ModuleType
 from zlib import crc32
 
 from usdvol_lint.model import Severity, UsageError
+from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.rule import Problems, Rule
 
 ENTRY_POINT_GROUP = "usdvol_lint.packs"
@@ -183,15 +184,6 @@ def read_page(path: Path) -> Page:
     if title is None:
         raise PackError(f"{path}: the page must begin with '# name (CODE)' and one sentence")
     return Page(title["code"], title["name"], title["summary"], text, path)
-
-
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """`; did you mean 'x'?` for the nearest known word, or nothing if none is near."""
-    from difflib import get_close_matches  # costs start-up time, and few runs ask
-
-    folded = {other.lower(): other for other in known}
-    matches = get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
-    return f"; did you mean {folded[matches[0]]!r}?" if matches else ""
 
 
 def _built_in_folder() -> Path:

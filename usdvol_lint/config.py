@@ -8,8 +8,9 @@ from os.path import isfile
 from pathlib import Path
 from typing import Any
 
-from usdvol_lint.catalog import NOT_IGNORABLE, Catalog, did_you_mean, length
+from usdvol_lint.catalog import NOT_IGNORABLE, Catalog, length
 from usdvol_lint.model import Severity, UsageError
+from usdvol_lint.nearest import did_you_mean
 
 FILE_NAME = "usdvol-lint.toml"
 TABLE = "usdvol-lint"

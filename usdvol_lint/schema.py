@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from usdvol_lint.nearest import CLOSE, nearest_word
+
 VOLUME = "Volume"
 FIELD = "VolumeFieldBase"
 FIELD_ASSET = "FieldAsset"
@@ -336,22 +338,15 @@ def misspelt_token(attribute: str, token: str, allowed: tuple[str, ...]) -> str 
 
 
 def nearest(
-    name: str, candidates: tuple[str, ...] | frozenset[str], cutoff: float = 0.84
+    name: str, candidates: tuple[str, ...] | frozenset[str], cutoff: float = CLOSE
 ) -> str | None:
     """The candidate that `name` is most likely a misspelling of, if one is close enough.
 
     Another number is another thing, however close: a 2D splat is no misspelt 3D splat.
     """
-    from difflib import get_close_matches  # costs start-up time, and few names are misspelt
-
     digits = _digits(name)
-    folded = {
-        _fold(candidate): candidate
-        for candidate in sorted(candidates)
-        if digits in ("", _digits(candidate))
-    }
-    matches = get_close_matches(_fold(name), folded, n=1, cutoff=cutoff)
-    return folded[matches[0]] if matches else None
+    alike = (other for other in sorted(candidates) if digits in ("", _digits(other)))
+    return nearest_word(name, alike, cutoff, _fold)
 
 
 def _nature(type_name: str) -> tuple[bool, bool]:

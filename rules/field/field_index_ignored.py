@@ -12,7 +12,8 @@ def field_index_ignored(field: Prim, facts: Facts) -> Problems:
         lambda value: value if type(value) is int and value > 0 else None
     ):
         yield Problem(
-            f"fieldIndex {index} is ignored by Storm and others, which read the first grid of that name{held.count}",
+            f"fieldIndex {index} is ignored by Storm and others, "
+            f"which read the first grid of that name{held.count}",
             at=held.attribute,
             times=held.times,
             at_default=held.at_default,

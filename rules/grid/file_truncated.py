@@ -5,8 +5,7 @@ from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, rul
 
 @rule("GRD002", on="FieldAsset", severity=ERROR, since="0.1")
 def file_truncated(field: Prim, facts: Facts) -> Problems:
-    contents = facts.contents(field)
-    for content, found in contents.grouped(lambda content: _is_cut(content) or None):
+    for content, found in facts.contents(field).grouped(_cut):
         yield Problem(
             f"{found.shown} is cut off: {content.fault.message}{found.count}",
             at=found.attribute,
@@ -17,5 +16,6 @@ def file_truncated(field: Prim, facts: Facts) -> Problems:
         )
 
 
-def _is_cut(content: Content) -> bool:
-    return content.fault is not None and content.fault.code == "truncated"
+def _cut(content: Content) -> object:
+    code = content.fault and content.fault.code
+    return code if code == "truncated" else None

@@ -9,7 +9,7 @@ _FORMATS = {"openvdb": "an OpenVDB", "nanovdb": "a NanoVDB", "field3d": "a Field
 @rule("GRD001", on="FieldAsset", severity=ERROR, since="0.1")
 def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
     contents = facts.contents(field)
-    for content, found in contents.grouped(lambda content: content.unread):
+    for content, found in contents.grouped(_unread):
         yield NotChecked(
             f"{found.shown} was not looked into: {content.unread}{found.count}",
             at=found.attribute,
@@ -28,7 +28,7 @@ def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
             asset=found.first.authored,
             suggestion="write it again, or copy it again" if is_broken else None,
         )
-    for content, found in contents.grouped(lambda content: content.stranger):
+    for content, found in contents.grouped(_stranger):
         yield Problem(
             f"{found.shown} is {_FORMATS[content.stranger]} file, and {field.GetTypeName()} wants "
             f"{_FORMATS[content.wanted]} file{found.count}",
@@ -38,6 +38,14 @@ def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
             asset=found.first.authored,
             suggestion="convert it" if content.stranger != "field3d" else "use a Field3DAsset",
         )
+
+
+def _unread(content: Content) -> object:
+    return content.unread
+
+
+def _stranger(content: Content) -> object:
+    return content.stranger
 
 
 def _fault(content: Content) -> object:

@@ -5,10 +5,13 @@ from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, r
 
 @rule("GRD010", on="FieldAsset", severity=WARNING, since="0.1")
 def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
-    contents = facts.contents(field)
-    for content, found in contents.grouped(lambda content: _version(content, newest)):
+    for content, found in facts.contents(field).grouped(_version):
+        version, said = _version(content)
+        if version is not None and version <= newest:
+            continue
         yield Problem(
-            f"{found.shown}: {_version(content, newest)}{found.count}",
+            f"{found.shown}: {said or f'file version {version} is newer than {newest}'}"
+            f"{found.count}",
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,
@@ -17,14 +20,15 @@ def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Prob
         )
 
 
-def _version(content: Content, newest: int) -> str | None:
+def _version(content: Content) -> tuple[int | None, str] | None:
+    """The file's version, or what the reader says of it."""
     if content.fault is not None:
-        return content.fault.message if content.fault.code == "version-unsupported" else None
+        code, message, _ = content.fault
+        return (None, message) if code == "version-unsupported" else None
     file = content.file
     if file is None:
         return None
     if file.format == "openvdb":
-        newer = f"file version {file.version} is newer than {newest}"
-        return newer if file.version_number > newest else None
+        return file.version_number, ""
     warnings = (warning.message for warning in file.warnings if warning.code == "version-newer")
-    return next(warnings, None)
+    return next(((None, message) for message in warnings), None)

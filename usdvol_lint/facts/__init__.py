@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.mixture import MixedFiles
     from usdvol_lint.facts.nesting import Nested, Nesting
     from usdvol_lint.facts.particles import ParticleApis
+    from usdvol_lint.facts.placement import Displacement
     from usdvol_lint.facts.places import Recased
     from usdvol_lint.facts.sequences import SampleSequence
-    from usdvol_lint.facts.placement import Displacement
     from usdvol_lint.facts.values import Values
     from usdvol_lint.model import ParticleFieldStats
     from usdvol_lint.volumefile.cache import VolumeFiles
@@ -255,7 +255,7 @@ class Facts:
         return self._authored.misspelt(prim)
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
-        """The values of a prim's attributes that are not among the tokens that the schema allows."""
+        """The tokens in attributes of a prim that the schema does not allow there."""
         return self._authored.unlisted_tokens(prim)
 
     def values(self, prim: Any, name: str) -> Values:
@@ -338,7 +338,7 @@ class Facts:
         limits = Limits(volume.GetAttribute("extent"))
         fields = []
         bound = self._bound_assets(volume) if limits.are_authored else ()
-        for target in {target.path: target for _, target in bound}.values():
+        for _, target in bound:
             field = in_prototype(target.prim)
             grids = grids_over_time(self.assets(field, "filePath"), self.contents(field))
             if any(grid for _, grid in grids):
@@ -423,7 +423,7 @@ class Facts:
         Of the fields that share a sequence, the first one is told.
         """
         contents = self.contents(field)
-        if not contents.differ:
+        if len(contents.kinds) < 2:
             return None
         from usdvol_lint.facts.changes import find_grid_changes
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections import defaultdict
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Ar
 
@@ -26,9 +24,12 @@ _NAMES = 8
 _UNREAD = ("needs-h5py", "not-in-place")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Claim:
-    """What a field says at one time of what it wants from its file; empty where it says nothing."""
+    """What a field says at one time of what it wants from its file; empty where it says nothing.
+
+    Fields of a stage that say the same share one.
+    """
 
     name: str = ""
     purpose: str = ""
@@ -46,6 +47,7 @@ _ATTRIBUTES = {
     "fieldClass": "field_class",
     "vectorDataRoleHint": "role_hint",
 }
+_TYPES = {name: int if name == "index" else str for name in _ATTRIBUTES.values()}
 
 
 class Content(NamedTuple):
@@ -145,70 +147,84 @@ class Content(NamedTuple):
         return hints.fitting if hints.strength == "strong" else ()
 
 
-@dataclass(frozen=True)
+Key: TypeAlias = Callable[[Content], Hashable | None]
+"""What a rule asks of a content; a function of a module, so that it is known again."""
+
+
+class Kind:
+    """What contents have in common that a rule says the same of; `content` is the first of them.
+
+    It is shared by all fields of a stage, so a rule makes up its mind once.
+    """
+
+    __slots__ = ("_answers", "content")
+
+    def __init__(self, content: Content) -> None:
+        self.content = content
+        self._answers: dict[Key, Hashable | None] = {}
+
+    def answer(self, key: Key) -> Hashable | None:
+        answers = self._answers
+        if key not in answers:
+            answers[key] = key(self.content)
+        return answers[key]
+
+
+@dataclass(frozen=True, slots=True)
 class FieldContents:
-    """The contents of all files that a field names, in ascending time, the default first.
+    """The contents of all files that a field names, by kind, in ascending time, the default first.
 
     `total` is at how many times it was looked for them.
     """
 
     attribute: Any
-    contents: tuple[Content, ...]
+    kinds: tuple[tuple[Kind, list[Content]], ...]
     total: int
 
-    def grouped(
-        self, key: Callable[[Content], Hashable | None]
-    ) -> Iterator[tuple[Content, Affected]]:
+    def grouped(self, key: Key) -> Iterable[tuple[Content, Affected]]:
         """The first content and all samples of each key that the contents have, None aside.
 
         The key is asked for once among contents of one kind: it can't depend on bounds,
         transforms and the numbers in messages, nor on the sample.
         """
-        found: dict[Hashable, list[list[Content]]] = defaultdict(list)
-        for contents in self._kinds:
-            value = key(contents[0])
+        found: dict[Hashable, list[list[Content]]] = {}
+        for kind, contents in self.kinds:
+            value = kind.answer(key)
             if value is not None:
-                found[value].append(contents)
-        for groups in found.values():
-            together = [content for contents in groups for content in contents]
-            if len(groups) > 1:
-                together.sort(key=_order)
-            samples = tuple(content.sample for content in together)
-            yield together[0], Affected(self.attribute, samples, self.total)
+                found.setdefault(value, []).append(contents)
+        return [self._affected(groups) for groups in found.values()] if found else ()
 
-    def grids(self) -> Iterator[tuple[float | None, Grid | None]]:
+    def _affected(self, groups: list[list[Content]]) -> tuple[Content, Affected]:
+        together = [content for contents in groups for content in contents]
+        if len(groups) > 1:
+            together.sort(key=_order)
+        samples = tuple(content.sample for content in together)
+        return together[0], Affected(self.attribute, samples, self.total)
+
+    @property
+    def contents(self) -> list[Content]:
+        return sorted((content for _, contents in self.kinds for content in contents), key=_order)
+
+    def grids(self) -> Iterator[tuple[Time, Grid | None]]:
         """The grid that name and index select, at each time."""
-        for contents in self._kinds:
-            first = contents[0]
-            chosen = first.grid
-            place = first.file.grids.index(chosen) if first.file and chosen else 0
+        for kind, contents in self.kinds:
+            chosen, file = kind.content.grid, kind.content.file
+            place = file.grids.index(chosen) if file and chosen else 0
             for sample, _, reading, _ in contents:
                 yield sample.time, reading.file.grids[place] if chosen and reading.file else None
 
     @property
     def single_grid(self) -> bool:
         """Whether files were looked into, and each holds exactly one grid."""
-        files = [contents[0].file for contents in self._kinds]
+        files = [kind.content.file for kind, _ in self.kinds]
         return bool(files) and all(
             file is not None and file.complete and len(file.grids) == 1 for file in files
         )
 
     @property
-    def differ(self) -> bool:
-        """Whether the contents are of several kinds."""
-        return len(self._kinds) > 1
-
-    @cached_property
-    def files(self) -> tuple[tuple[float | None, str], ...]:
+    def files(self) -> list[tuple[Time, str]]:
         """The files and when they are named, which fields may share."""
-        return tuple((sample.time, sample.resolved) for sample, *_ in self.contents)
-
-    @cached_property
-    def _kinds(self) -> list[list[Content]]:
-        kinds: dict[Hashable, list[Content]] = defaultdict(list)
-        for content in self.contents:
-            kinds[content.claim, content.reading.kind, content.stranger].append(content)
-        return list(kinds.values())
+        return [(sample.time, sample.resolved) for sample, *_ in self.contents]
 
 
 class ContentReader:
@@ -221,6 +237,8 @@ class ContentReader:
         self._advance = advance
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
+        self._claims: dict[tuple[Any, ...], Claim] = {}
+        self._kinds: dict[Hashable, Kind] = {}
 
     def read(
         self, field: Any, samples: AssetSamples, schemas: Iterable[str], authored: Container[str]
@@ -232,18 +250,54 @@ class ContentReader:
         wanted = next((FORMATS[name] for name in schemas if name in FORMATS), None)
         if not wanted or self._extent == "off" or AssetState.FILE not in samples.states:
             return FieldContents(samples.attribute, (), 0)
-        contents: list[Content] = []
-        total = 0
-        for sample, claim in _moments(samples, _claims(field, authored)):
+        kinds: dict[Kind, list[Content]] = {}
+        total = read = 0
+        for sample, claim in self._moments(samples, field, authored):
             total += sample.time is not None
             if sample.state is AssetState.FILE:
-                contents.append(Content(sample, claim, self._reading(sample.resolved), wanted))
+                content = Content(sample, claim, self._reading(sample.resolved), wanted)
+                kinds.setdefault(self._kind(content), []).append(content)
+                read += 1
                 if self._extent == "first":
-                    total = 1 if sample.time is not None else 0
+                    total = int(sample.time is not None)
                     break
-                if len(contents) % _READ_TOGETHER == 0:
+                if read % _READ_TOGETHER == 0:
                     self._advance(_READ_TOGETHER)
-        return FieldContents(samples.attribute, tuple(contents), total)
+        return FieldContents(samples.attribute, tuple(kinds.items()), total)
+
+    def _kind(self, content: Content) -> Kind:
+        _, claim, reading, wanted = content
+        key = (claim, reading.kind, wanted, content.stranger)
+        kind = self._kinds.get(key)
+        if kind is None:
+            kind = self._kinds[key] = Kind(content)
+        return kind
+
+    def _moments(
+        self, samples: AssetSamples, field: Any, authored: Container[str]
+    ) -> Iterator[tuple[Sample, Claim]]:
+        """The samples of a file path, and those at times when what the field says changes."""
+        constant, animated = _said(field, authored)
+        if not animated:
+            claim = self._claim(constant)
+            for sample in samples.samples:
+                yield sample, claim
+            return
+        files = Held((sample.time, sample) for sample in samples.samples)
+        times = {time for held in (files, *animated.values()) for time in held.times}
+        moments: list[Time] = [*([None] if files.default else []), *sorted(times)]
+        for time in moments:
+            if held_file := files.at(time):
+                said = {name: held.at(time) for name, held in animated.items()}
+                yield held_file._replace(time=time), self._claim(constant | said)
+
+    def _claim(self, said: dict[str, Any]) -> Claim:
+        key = tuple(said.items())
+        claim = self._claims.get(key)
+        if claim is None:
+            given = {name: value for name, value in key if isinstance(value, _TYPES[name])}
+            claim = self._claims[key] = Claim(**given)
+        return claim
 
     def _reading(self, resolved: str) -> Reading:
         reading = self._readings.get(resolved)
@@ -258,10 +312,7 @@ class ContentReader:
         return reading
 
     def _read_packaged(self, package: str, inner: str) -> Reading:
-        from usdvol_lint.volumefile.package import (
-            NotInPlaceError,
-            Package,
-        )  # few stages are packages
+        from usdvol_lint.volumefile.package import NotInPlaceError, Package
 
         if package not in self._packages:
             self._packages[package] = Package(package)
@@ -283,35 +334,18 @@ def _unread(reason: str) -> Reading:
     return Reading(None, fault, fault)
 
 
-def _claims(field: Any, authored: Container[str]) -> dict[str, Held[Any]]:
-    """What the field says of its content, by the names in `Claim`."""
-    found = {}
-    for name, short in _ATTRIBUTES.items():
-        if name in authored:
-            kind = int if short == "index" else str
-            values = read_values(field.GetAttribute(name))
-            found[short] = Held((time, value) for time, value in values if isinstance(value, kind))
-    return found
-
-
-def _moments(samples: AssetSamples, claims: dict[str, Held[Any]]) -> Iterator[tuple[Sample, Claim]]:
-    """The samples of a file path, and those at times when what the field says of it changes."""
-    if not any(held.times for held in claims.values()):
-        claim = _claim({name: held.default for name, held in claims.items()})
-        for sample in samples.samples:
-            yield sample, claim
-        return
-    files = Held((sample.time, sample) for sample in samples.samples)
-    times = {time for held in (files, *claims.values()) for time in held.times}
-    moments: list[Time] = [*([None] if files.default else []), *sorted(times)]
-    for time in moments:
-        if held_file := files.at(time):
-            said = {name: held.at(time) for name, held in claims.items()}
-            yield held_file._replace(time=time), _claim(said)
-
-
-def _claim(said: dict[str, Any]) -> Claim:
-    return Claim(**{name: value for name, value in said.items() if value is not None})
+def _said(field: Any, authored: Container[str]) -> tuple[dict[str, Any], dict[str, Held[Any]]]:
+    """What the field says of its content, once and over time, by the names in `Claim`."""
+    constant: dict[str, Any] = {}
+    animated: dict[str, Held[Any]] = {}
+    for attribute_name, name in _ATTRIBUTES.items():
+        if attribute_name in authored:
+            attribute = field.GetAttribute(attribute_name)
+            if attribute.GetNumTimeSamples():
+                animated[name] = Held(read_values(attribute))
+            else:
+                constant[name] = attribute.Get()
+    return constant, animated
 
 
 def _order(content: Content) -> tuple[bool, float]:

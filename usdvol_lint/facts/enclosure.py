@@ -20,6 +20,7 @@ from usdvol_lint.volumefile import Bounds, Grid, Matrix
 _AXES = "xyz"
 _HALF_VOXEL = 0.5
 _DIGITS = 6
+_MOST_DECIMALS = 300
 
 
 class Moment(NamedTuple):
@@ -160,9 +161,7 @@ class Limits:
         return self._values[time] if time in self._values else _bounds(self._get(time))
 
 
-def grids_over_time(
-    paths: AssetSamples, contents: FieldContents
-) -> list[tuple[Time, Grid | None]]:
+def grids_over_time(paths: AssetSamples, contents: FieldContents) -> list[tuple[Time, Grid | None]]:
     """The grid that a field names at each sample; None where it names none or no file was read."""
     grids: dict[Time, Grid | None] = {sample.time: None for sample in paths.samples}
     grids.update(contents.grids())
@@ -278,7 +277,7 @@ def _as_text(boxes: Iterable[Bounds]) -> str:
     low = [min(axis) for axis in zip(*lows, strict=True)]
     high = [max(axis) for axis in zip(*highs, strict=True)]
     magnitude = max(map(abs, (*low, *high))) or 1.0
-    decimals = _DIGITS - 1 - math.floor(math.log10(magnitude))
+    decimals = min(_DIGITS - 1 - math.floor(math.log10(magnitude)), _MOST_DECIMALS)
     ends = (
         [_rounded(number, decimals, math.floor) for number in low],
         [_rounded(number, decimals, math.ceil) for number in high],

@@ -7,7 +7,6 @@ from bisect import bisect
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 from pxr import Usd
@@ -16,6 +15,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.instances import in_prototype, shown, shown_path
 from usdvol_lint.facts.kinds import Kinds
 from usdvol_lint.facts.states import Emptiness, TargetState
+from usdvol_lint.nearest import nearest_word
 
 NAMESPACE = "field"
 
@@ -150,8 +150,9 @@ class FieldNames:
         None where two are equally close: a guess would send people the wrong way.
         """
         siblings = self._by_parent.get(path.GetParentPath(), {})
-        for name in get_close_matches(path.name, siblings, n=1, cutoff=0.7):
-            return siblings[name]
+        sibling = nearest_word(path.name, siblings, cutoff=0.7, fold=str)
+        if sibling:
+            return siblings[sibling]
         namesakes = self._by_name.get(path.name, [])
         place = bisect(namesakes, path)  # in sorted order, the closest are next to it
         shared = defaultdict(list)

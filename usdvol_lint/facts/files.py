@@ -14,6 +14,7 @@ from pxr import Ar, Sdf, Tf
 
 from usdvol_lint.facts.patterns import matching_frames
 from usdvol_lint.facts.states import FileFault
+from usdvol_lint.nearest import nearest_word
 
 LFS_SIGNATURE = b"version https://git-lfs"
 _LFS_POINTER_LIMIT = 1024
@@ -153,14 +154,10 @@ class Files:
 
     def _nearest(self, folder: str, name: str) -> str | None:
         """The name in a folder that comes closest: another number is no misspelling."""
-        from difflib import get_close_matches  # costs start-up time, and few stages ask
-
         if folder not in self._by_numbers:
             self._by_numbers[folder] = _group_by_numbers(self.listing(folder))
         others = self._by_numbers[folder].get(_numbers(name), ())
-        folded = {other.lower(): other for other in others if other != name}
-        matches = get_close_matches(name.lower(), folded, n=1, cutoff=0.84)
-        return folded[matches[0]] if matches else None
+        return nearest_word(name, (other for other in others if other != name))
 
 
 def is_packaged(path: str) -> bool:

@@ -42,8 +42,7 @@ def find_mixed_files(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles |
     if all(timeline == timelines[0] for timeline in timelines):
         return None
     held = [Held((sample.time, sample) for sample in each.samples) for _, each in fields]
-    times: list[Time] = [None] if sum(each.default is not None for each in held) > 1 else []
-    times += sorted({time for each in held for time in each.times})
+    times: list[Time] = [None, *sorted({time for each in held for time in each.times})]
     mixed = [time for time in times if len({_file(each.at(time)) for each in held} - {""}) > 1]
     if not mixed:
         return None

@@ -40,7 +40,8 @@ class Nesting:
         """
         places = set()
         for descendant in self._topmost_gprims(prim):
-            place = _instance_above(descendant)
+            instance = _instance_above(descendant)
+            place = descendant if instance == prim else instance
             speaks = self._kinds.is_a(descendant, schema.VOLUME)
             speaks = speaks or self._kinds.is_a(descendant, schema.PARTICLE_FIELD)
             if not speaks and place not in places:

@@ -23,7 +23,7 @@ _DIGITS = re.compile(r"([0-9]+)")
 _NUMBERS = (re.compile(r"-?[0-9]+"), re.compile(r"-?[0-9]+\.[0-9]+"))  # the latter: sub-frames
 _NO_NUMBER = math.nan
 _FEWEST = 5
-"""Shorter runs have no rule that a sample could break."""
+"""Fewer samples make no rule that another could break."""
 _ON_DISK = frozenset({AssetState.FILE, AssetState.NOT_A_FILE, AssetState.MISSING})
 _NO_PATH = frozenset({AssetState.BROKEN_EXPRESSION, AssetState.UNSET_VARIABLE})
 _SHOWN = 4
@@ -116,9 +116,9 @@ class SampleSequence:
         nothing was missing, a file is held on purpose.  So is the first sample if it stands
         alone, such as a rest frame.
         """
-        count = len(self.samples)
-        if count < _FEWEST or len(set(self._steps)) == 1:
+        if len(set(self._steps)) == 1:
             return ()
+        count = len(self.samples)
         irregular = [index for index, step in enumerate(self._steps) if step != self.step]
         if len(irregular) * 5 > count or not self.numbering:
             return ()
