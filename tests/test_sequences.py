@@ -106,7 +106,7 @@ def test_missing_samples_in_the_time_of_their_layer(lint_text: Lint, tmp_path: P
     report = lint_text("#usda 1.0\n(\n    subLayers = [@./fx.usda@ (offset = 100; scale = 2)]\n)\n")
     [finding] = [finding for finding in report.findings if finding.code == "AST011"]
     assert (finding.site.layer, finding.site.line, finding.site.frames) == ("fx.usda", 9, "108")
-    assert finding.suggestion == "add 4: @./s.0004.vdb@ (1 of 1 files are there)"
+    assert finding.suggestion == "add 4: @./s.0004.vdb@ (the file is there)"
 
 
 def test_missing_samples_that_no_layer_could_take(lint_text: Lint) -> None:
@@ -174,6 +174,18 @@ def test_strays_of_a_long_sequence(lint_text: Lint, tmp_path: Path) -> None:
 def test_strays(numbers: list[int], expected: list[str], lint_text: Lint, tmp_path: Path) -> None:
     write(tmp_path, *(f"s.{frame:04}.vdb" for frame in range(1, 11)))
     assert frames(lint_text(numbered(numbers, range(1, len(numbers) + 1))), "AST013") == expected
+
+
+def test_strays_at_another_pace(lint_text: Lint, tmp_path: Path) -> None:
+    """Thirds of a frame do not add up, and are no strays."""
+    write(tmp_path, *(f"s.{frame:04}.vdb" for frame in range(1, 41)))
+    numbers = list(range(1, 41))
+    times = [100_000 + number * 3 for number in numbers]
+    assert frames(lint_text(numbered(numbers, times)), "AST013") == []
+    numbers[19] = 3
+    assert frames(lint_text(numbered(numbers, times)), "AST013") == ["100060"]
+    times = [round(frame / 3, 9) for frame in range(1, 41)]
+    assert frames(lint_text(numbered(numbers, times)), "AST013") == ["6.666667"]
 
 
 def test_a_stray_that_may_be_anywhere(lint_text: Lint) -> None:

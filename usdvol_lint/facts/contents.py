@@ -295,7 +295,7 @@ class ContentReader:
         key = tuple(said.items())
         claim = self._claims.get(key)
         if claim is None:
-            given = {name: value for name, value in key if isinstance(value, _TYPES[name])}
+            given: Any = {name: value for name, value in key if isinstance(value, _TYPES[name])}
             claim = self._claims[key] = Claim(**given)
         return claim
 

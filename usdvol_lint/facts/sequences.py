@@ -26,6 +26,7 @@ _FEWEST = 5
 """Fewer samples make no rule that another could break."""
 _ON_DISK = frozenset({AssetState.FILE, AssetState.NOT_A_FILE, AssetState.MISSING})
 _NO_PATH = frozenset({AssetState.BROKEN_EXPRESSION, AssetState.UNSET_VARIABLE})
+_SLACK = 0.01
 _SHOWN = 4
 
 
@@ -67,7 +68,7 @@ class Missing(NamedTuple):
         samples = ", ".join(f"{format_time(time)}: @{path}@" for time, path in self.found[:_SHOWN])
         more = ", …" if len(self.found) > _SHOWN else ""
         there = f"{len(self.found)} of {len(self.times)} files are there"
-        return f"add {samples}{more} ({there})"
+        return f"add {samples}{more} ({'the file is there' if len(self.times) == 1 else there})"
 
 
 class Strays(NamedTuple):
@@ -90,6 +91,7 @@ class SampleSequence:
         self._paths = paths
         self.samples = samples
         self.times: list[float] = list(map(attrgetter("time"), samples))
+        self._folders: dict[tuple[float | None, str], str] = {}
 
     @property
     def is_animated(self) -> bool:
@@ -100,7 +102,7 @@ class SampleSequence:
     @cached_property
     def step(self) -> float:
         """The most frequent distance of two samples."""
-        return _most_frequent(self._steps)
+        return self._steps[0] if self._is_even else _most_frequent(self._steps)
 
     @cached_property
     def numbering(self) -> Numbering | None:
@@ -116,7 +118,7 @@ class SampleSequence:
         nothing was missing, a file is held on purpose.  So is the first sample if it stands
         alone, such as a rest frame.
         """
-        if len(set(self._steps)) == 1:
+        if self._is_even:
             return ()
         count = len(self.samples)
         irregular = [index for index, step in enumerate(self._steps) if step != self.step]
@@ -125,7 +127,7 @@ class SampleSequence:
         numbers = self.numbering.numbers
         jumps = list(map(sub, numbers[1:], numbers))
         regular = (jump for jump, step in zip(jumps, self._steps, strict=True) if step == self.step)
-        pace = _most_frequent([round(jump, 6) for jump in regular if not math.isnan(jump)] or [0.0])
+        pace = _most_frequent(jump for jump in regular if not math.isnan(jump))
         found = []
         for index in self._lone(irregular):
             steps = round(self._steps[index] / self.step)
@@ -173,20 +175,17 @@ class SampleSequence:
         if len({numbers[index] - self.times[index] for index in known}) == 1:
             return None
         pace = _most_frequent(
-            [
-                round((numbers[b] - numbers[a]) / (self.times[b] - self.times[a]), 6)
-                for a, b in pairwise(known)
-            ]
+            (numbers[b] - numbers[a]) / (self.times[b] - self.times[a]) for a, b in pairwise(known)
         )
-        offsets = [round(numbers[index] - pace * self.times[index], 3) for index in known]
-        offset = _most_frequent(offsets)
-        in_line = offsets.count(offset)
-        outside = len(offsets) - in_line
-        if not pace or in_line < _FEWEST or not 0 < outside <= max(2, len(offsets) // 10):
-            return None
+        offset = _most_frequent(numbers[index] - pace * self.times[index] for index in known)
         expected = {index: offset + pace * self.times[index] for index in known}
+        outside = [abs(numbers[index] - expected[index]) > _SLACK for index in known]
+        count = sum(outside)
+        fits = len(known) - count >= _FEWEST and 0 < count <= max(2, len(known) // 10)
+        if not pace or not fits:
+            return None
         strays: list[int] = []
-        for is_outside, members in groupby(range(len(known)), lambda n: offsets[n] != offset):
+        for is_outside, members in groupby(range(len(known)), outside.__getitem__):
             run = list(members)
             if is_outside and self._is_disordered(run, known, expected, pace):
                 strays += [known[place] for place in run]
@@ -202,6 +201,10 @@ class SampleSequence:
         steps = list(map(sub, self.times[1:], self.times))
         return steps if len(set(steps)) == 1 else [round(step, 6) for step in steps]
 
+    @cached_property
+    def _is_even(self) -> bool:
+        return len(set(self._steps)) == 1
+
     def _lone(self, irregular: Iterable[int]) -> Iterator[int]:
         """The steps with regular ones around them, or one more like them: a retime has many."""
         for _, members in groupby(enumerate(irregular), lambda item: item[1] - item[0]):
@@ -212,10 +215,11 @@ class SampleSequence:
     def _gap(self, index: int, steps: int, pace: float) -> Gap:
         assert self.numbering
         start, first = self.times[index], self.numbering.numbers[index]
+        step = (self.times[index + 1] - start) / steps
         return Gap(
             self.samples[index],
-            tuple(start + step * self.step for step in range(1, steps)),
-            tuple(first + step * pace for step in range(1, steps)),
+            tuple(start + number * step for number in range(1, steps)),
+            tuple(first + number * pace for number in range(1, steps)),
         )
 
     def _layer_times(self, gap: Gap) -> list[float] | None:
@@ -229,15 +233,20 @@ class SampleSequence:
 
     def _exists(self, sample: Sample, path: str) -> bool:
         """Whether a file is where `path` would lead in place of the sample's own."""
-        anchored = self._paths.anchored(sample._replace(path=path))
-        if Ar.IsPackageRelativePath(anchored):
-            return bool(Ar.GetResolver().Resolve(anchored))
-        return os.path.isfile(anchored)
+        head, _, name = path.partition(":SDF_FORMAT_ARGS:")[0].rpartition("/")
+        key = (sample.time, head)
+        if key not in self._folders:
+            anchored = self._paths.anchored(sample._replace(path=path))
+            if Ar.IsPackageRelativePath(anchored):
+                return bool(Ar.GetResolver().Resolve(anchored))
+            self._folders[key] = os.path.dirname(anchored)
+        return os.path.isfile(f"{self._folders[key]}/{name}")
 
     def _renumbered(self, path: str, number: float) -> str | None:
         """A path of the sequence with another number in it, as wide as its own."""
         assert self.numbering
-        if number < 0 or not float(number).is_integer():
+        number = round(number, 3)
+        if number < 0 or not number.is_integer():
             return None
         parts = _DIGITS.split(path)
         for group in self.numbering.groups:
@@ -324,7 +333,11 @@ def _number_of_most(paths: Sequence[str]) -> Numbering | None:
 
 
 def _most_frequent(values: Iterable[float]) -> float:
-    return Counter(values).most_common(1)[0][0]
+    """The first of those that occur most often, but for rounding; 0 if there are none."""
+    found = list(values)
+    rounded = [round(value, 6) for value in found]
+    most = Counter(rounded).most_common(1)
+    return found[rounded.index(most[0][0])] if most else 0.0
 
 
 def _near(one: float, other: float) -> bool:

@@ -19,6 +19,7 @@ _NO_NORM = 1e-12
 """A square: a quaternion that is shorter can not be made a unit one."""
 
 
+_NOUNS = {"radiance:sphericalHarmonicsCoefficients": "coefficients"}
 _MEASURES = {"orientations": memory.norm_range, "coefficients": memory.finiteness}
 _COUNTED = frozenset({"scales", "opacities"})
 
@@ -77,6 +78,8 @@ class Found:
 class ParticleArray:
     """An array attribute with the samples that are looked at, the default first.
 
+    `float_name` is the name of the float array of its pair, `noun` what its elements are called;
+    it `is_populated` if there is an element at some time.
     `total` is how many time samples it has; values are read again for each question that takes
     all of them, so that no more than one is in memory; `with_counts` has the numbers counted by
     size where a distribution means something.
@@ -91,34 +94,16 @@ class ParticleArray:
         advance: Callable[[int], None] = lambda count: None,
     ) -> None:
         self.attribute = attribute
+        self.name = str(attribute.GetName())
+        self.float_name = self.name.removesuffix("h")
+        self.is_half = self.name != self.float_name
+        self.noun = _NOUNS.get(self.float_name, self.float_name)
         self.samples = samples
+        self.is_populated = any(sample.size for sample in samples)
         self.total = total
         self.sizes = Held(samples)
         self._with_counts = with_counts
         self._advance = advance
-
-    @property
-    def name(self) -> str:
-        return str(self.attribute.GetName())
-
-    @property
-    def float_name(self) -> str:
-        return self.name.removesuffix("h")
-
-    @property
-    def is_half(self) -> bool:
-        return self.name != self.float_name
-
-    @property
-    def noun(self) -> str:
-        """What its elements are called, in float and half alike."""
-        name = self.float_name
-        return "coefficients" if name.endswith("Coefficients") else name
-
-    @property
-    def is_populated(self) -> bool:
-        """Whether there is an element at some time."""
-        return any(sample.size for sample in self.samples)
 
     @property
     def begins_populated(self) -> bool:
