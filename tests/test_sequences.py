@@ -130,7 +130,7 @@ def test_missing_samples_that_no_layer_could_take(lint_text: Lint) -> None:
         pytest.param([1, 2, 3, 5, 6], [1, 2, 3, 4, 5], None, id="held"),
         pytest.param([1, 2, 3, 5, 6], [1, 1, 1, 1, 2], None, id="mostly held"),
         pytest.param([1, 2, 3, 4.5, 5.5], None, None, id="shifted"),
-        pytest.param([1, 2, 3, 1e9, 1e9 + 1, 1e9 + 2], None, None, id="two ranges"),
+        pytest.param([1, 2, 3, 1001, 1002, 1003], None, None, id="two ranges"),
         pytest.param([1, 1.25, 1.5, 2, 2.25], None, "1.75", id="sub-frames"),
         pytest.param([0.1, 0.2, 0.3, 0.5, 0.6], [1, 2, 3, 5, 6], "0.4", id="tenths"),
         pytest.param([2, 4, 8, 10, 12], [1, 2, 4, 5, 6], "6", id="stretched"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 from typing import Any, BinaryIO
@@ -38,8 +39,12 @@ def main() -> None:
         setup.statistics,
     )
     _send(replies, Ready(usd_version()))
+    # Facts are many and live as long as their stage: looking for garbage among them, again and
+    # again, takes a third of the time on a stage of 100,000 prims.
+    gc.disable()
     while path := _next(requests):
         _send(replies, engine.lint(path))
+        gc.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
 

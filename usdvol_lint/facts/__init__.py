@@ -74,13 +74,9 @@ class Facts:
         self._times = times
         self._statistics = statistics
         self._ever_used: set[Any] = set()
-        self._assets: dict[tuple[Any, str], AssetSamples] = {}
-        self._sequences: dict[tuple[Any, str], SampleSequence | None] = {}
-        self._contents: dict[Any, FieldContents] = {}
-        self._fields: dict[Any, FieldBindings] = {}
-        self._apis: dict[Any, ParticleApis] = {}
-        self._encodings: dict[Any, Encoding | None] = {}
-        self._arrays: dict[Any, ParticleArrays] = {}
+        self._known: dict[Any, dict[str, Any]] = {}
+        self._prim: Any = None
+        self._of_prim: dict[str, Any] = {}
 
     def composed_anew(self, kept: Mapping[Key, Sequence[Any]]) -> Facts:
         """The facts of the same stage under another variant selection.
@@ -116,38 +112,39 @@ class Facts:
 
     def assets(self, prim: Any, name: str) -> AssetSamples:
         """Every value of an asset attribute, resolved and classified."""
-        key = (prim, name)
-        found = self._assets.get(key)
-        if found is None:
+        known = self._known_of(prim)
+        if name not in known:
             from usdvol_lint.facts.assets import read_asset_samples
 
-            found = self._assets[key] = read_asset_samples(
-                prim.GetAttribute(name), self.files, self._advance
-            )
-        return found
+            known[name] = read_asset_samples(prim.GetAttribute(name), self.files, self._advance)
+        samples: AssetSamples = known[name]
+        return samples
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""
-        found = self._contents.get(field)
-        if found is None:
-            found = self._contents[field] = self._content_reader.read(
+        known = self._known_of(field)
+        if ":contents" not in known:
+            known[":contents"] = self._content_reader.read(
                 field,
                 self.assets(field, "filePath"),
                 self.kinds.names(self.kinds.key(field)),
                 self.authored(field).declared,
             )
-        return found
+        contents: FieldContents = known[":contents"]
+        return contents
 
     def sequence(self, prim: Any, name: str) -> SampleSequence | None:
         """The time samples of an asset attribute as a sequence, or None if there are not two."""
         if len(self.assets(prim, name).samples) < 2:
             return None
-        key = (prim.GetPath(), name)
-        if key not in self._sequences:
+        known = self._known_of(prim)
+        key = f":sequence of {name}"
+        if key not in known:
             from usdvol_lint.facts.sequences import read_sequence
 
-            self._sequences[key] = read_sequence(self.assets(prim, name))
-        return self._sequences[key]
+            known[key] = read_sequence(self.assets(prim, name))
+        sequence: SampleSequence | None = known[key]
+        return sequence
 
     def recased(self, prim: Any, name: str) -> Recased | None:
         """The samples of an asset attribute that differ by case from what the folders hold."""
@@ -171,41 +168,44 @@ class Facts:
 
     def fields(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
-        found = self._fields.get(volume)
-        if found is None:
+        known = self._known_of(volume)
+        if ":fields" not in known:
             from usdvol_lint.facts.fields import read_field_bindings
 
-            found = self._fields[volume] = read_field_bindings(
+            known[":fields"] = read_field_bindings(
                 volume, self.kinds, lambda prim: self.composition.may_lack(prim)
             )
-        return found
+        bindings: FieldBindings = known[":fields"]
+        return bindings
 
     def apis(self, prim: Any) -> ParticleApis:
         """The applied APIs of a prim, those that nobody registers among them."""
-        path = prim.GetPath()
-        if path not in self._apis:
+        known = self._known_of(prim)
+        if ":apis" not in known:
             from usdvol_lint.facts.particles import read_particle_apis
 
-            self._apis[path] = read_particle_apis(prim, self.kinds)
-        return self._apis[path]
+            known[":apis"] = read_particle_apis(prim, self.kinds)
+        apis: ParticleApis = known[":apis"]
+        return apis
 
     def encoding(self, prim: Any) -> Encoding | None:
         """The encoding from before the schema that a prim is in, if it is in one."""
-        path = prim.GetPath()
-        if path not in self._encodings:
+        known = self._known_of(prim)
+        if ":encoding" not in known:
             from usdvol_lint.facts.encodings import recognise
 
-            self._encodings[path] = recognise(prim)
-        return self._encodings[path]
+            known[":encoding"] = recognise(prim)
+        encoding: Encoding | None = known[":encoding"]
+        return encoding
 
     def arrays(self, prim: Any) -> ParticleArrays:
         """The arrays of a particle field: empty where SCH011 says that it is no UsdVol."""
-        path = prim.GetPath()
-        if path not in self._arrays:
+        known = self._known_of(prim)
+        if ":arrays" not in known:
             from usdvol_lint.facts.arrays import read_particle_arrays
 
             is_ours = not self.encoding(prim)
-            self._arrays[path] = read_particle_arrays(
+            known[":arrays"] = read_particle_arrays(
                 prim,
                 self.kinds.names(self.kinds.key(prim)) if is_ours else (),
                 self.authored(prim).declared if is_ours else (),
@@ -214,7 +214,8 @@ class Facts:
                 self._statistics,
                 self._advance,
             )
-        return self._arrays[path]
+        arrays: ParticleArrays = known[":arrays"]
+        return arrays
 
     def particle_field_stats(self) -> tuple[ParticleFieldStats, ...]:
         """What each particle field holds, in the order of their paths."""
@@ -244,7 +245,11 @@ class Facts:
 
     def authored(self, prim: Any) -> Authored:
         """The authored attributes of a prim, by what the schemas declare of them."""
-        return self._authored.on(prim)
+        known = self._known_of(prim)
+        if ":authored" not in known:
+            known[":authored"] = self._authored.on(prim)
+        authored: Authored = known[":authored"]
+        return authored
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
@@ -451,6 +456,12 @@ class Facts:
         from usdvol_lint.facts.places import package_of
 
         return any(map(package_of, self.stage.GetUsedLayers()))
+
+    def _known_of(self, prim: Any) -> dict[str, Any]:
+        """What was found of one prim, by name; hashing a prim is dear, and rules ask in a row."""
+        if prim is not self._prim:
+            self._prim, self._of_prim = prim, self._known.setdefault(prim, {})
+        return self._of_prim
 
     def _meant_path(self, binding: Binding) -> Any | None:
         from usdvol_lint.facts.fields import meant_path

@@ -97,7 +97,7 @@ class _Head:
         self._parts.append((Struct(form), False))
         self._constants = _picker(names, "")
         self._offsets = _picker(names, "offsets")
-        self._corners = [_picker(names, name) for name in _BOUNDS]
+        self._low, self._high = (_picker(names, name) for name in _BOUNDS)
         self._has_bounds = all(name in names for name in _BOUNDS)
         window.position = start
         fields = self._fields(window)
@@ -117,10 +117,7 @@ class _Head:
         return fields
 
     def bounds(self, fields: Fields) -> IndexBounds | None:
-        if not self._has_bounds:
-            return None
-        low, high = (corner(fields) for corner in self._corners)
-        return low, high
+        return (self._low(fields), self._high(fields)) if self._has_bounds else None
 
     def _fields(self, window: Window) -> Fields | None:
         fields: Fields = ()
