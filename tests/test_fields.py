@@ -67,9 +67,7 @@ def test_target_in_a_payload_that_was_not_loaded(lint: Lint) -> None:
 
 @pytest.mark.parametrize("arc", ["references", "payload"])
 @pytest.mark.parametrize("instanceable", ["", "instanceable = true"])
-def test_target_below_a_layer_that_does_not_open(
-    lint: Lint, arc: str, instanceable: str
-) -> None:
+def test_target_below_a_layer_that_does_not_open(lint: Lint, arc: str, instanceable: str) -> None:
     text = f"""
 def Volume "cloud" {{
     rel field:density = </cloud/density>

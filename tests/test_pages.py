@@ -19,7 +19,9 @@ ASSETS = ROOT / "rules" / "assets"
 MARK = re.compile(r"#((?:\s+[A-Z]{3}\d{3}(?:=(?:error|warning|info))?)+)\s*$")
 STAGE = "example.usda"
 
-PAGES = [read_page(path) for path in sorted((ROOT / "rules").glob("*/*.md")) if path.name != "README.md"]
+PAGES = [
+    read_page(path) for path in sorted((ROOT / "rules").glob("*/*.md")) if path.name != "README.md"
+]
 EXAMPLES = [
     pytest.param(page, example, id=f"{page.code}-{example.heading}-{example.line}")
     for page in PAGES

@@ -70,4 +70,3 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
 def _send(replies: BinaryIO, message: Ready | Refusal | Advance | StageReport) -> None:
     pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
     replies.flush()
-

@@ -15,7 +15,5 @@ def radiance_missing(particles: Prim, facts: Facts) -> Problems:
         f"no applied API provides radiance{material}{apis.doubt}",
         at=particles,
         severity=WARNING if bound or apis.third_party else None,
-        suggestion=apis.remedy(
-            RADIANCE_BASE, "apply ParticleFieldSphericalHarmonicsAttributeAPI"
-        ),
+        suggestion=apis.remedy(RADIANCE_BASE, "apply ParticleFieldSphericalHarmonicsAttributeAPI"),
     )

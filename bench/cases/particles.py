@@ -1,0 +1,125 @@
+"""Gaussian splats: float, half, animated, broken, few and many."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from bench.case import Case, Make
+from bench.measure import gauged, linter, python
+
+_SPLATS = 5_000_000
+_FRAMES = 20
+_DEGREE = 3
+_CHUNK = 1 << 20
+
+_OPEN = """
+import sys
+from time import perf_counter
+import numpy
+from pxr import Usd, UsdVol
+stage = Usd.Stage.Open(sys.argv[1])
+"""
+_SUM = """
+for prim in stage.Traverse():
+    for attribute in prim.GetAuthoredAttributes():
+        if attribute.GetTypeName().isArray: numpy.asarray(attribute.Get()).sum()
+"""
+_SUM_EACH = python(f"{_OPEN}{_SUM}")
+_TIME_SUMS = python(
+    f"{_OPEN}began = perf_counter(){_SUM}print(perf_counter() - began)", prints=True
+)
+
+
+def splats(folder: Path, scale: float) -> Path:
+    """5 million splats of degree 3: 1.2 GB."""
+    return _write(folder, _SPLATS * scale)
+
+
+def tenth(folder: Path, scale: float) -> Path:
+    """A tenth of the splats."""
+    return _write(folder, _SPLATS * scale / 10)
+
+
+def half_splats(folder: Path, scale: float) -> Path:
+    """The splats in half precision."""
+    return _write(folder, _SPLATS * scale, kind="f2")
+
+
+def broken_splats(folder: Path, scale: float) -> Path:
+    """The splats with one NaN, the last of all coefficients."""
+    return _write(folder, _SPLATS * scale, broken=True)
+
+
+def animated_splats(folder: Path, scale: float) -> Path:
+    """20 frames of a tenth of the splats."""
+    return _write(folder, _SPLATS * scale / 10, times=range(_FRAMES))
+
+
+def _write(
+    folder: Path,
+    count: float,
+    kind: str = "f4",
+    times: Sequence[float | None] = (None,),
+    broken: bool = False,
+) -> Path:
+    """Saves after each array, so that no more than one is in memory."""
+    import numpy as np
+    from pxr import Gf, Usd, UsdVol, Vt
+
+    size = max(1, round(count))
+    path = folder / "splats.usdc"
+    stage = Usd.Stage.CreateNew(str(path))
+    prim = UsdVol.ParticleField3DGaussianSplat.Define(stage, "/Splats").GetPrim()
+    prim.GetAttribute("extent").Set([Gf.Vec3f(-9), Gf.Vec3f(9)])
+    prim.GetAttribute("radiance:sphericalHarmonicsDegree").Set(_DEGREE)
+    suffix, letter = ("h", "h") if kind == "f2" else ("", "f")
+    scalar = Vt.HalfArray if kind == "f2" else Vt.FloatArray
+    vector, quaternion = (getattr(Vt, f"{name}{letter}Array") for name in ("Vec3", "Quat"))
+    random = np.random.default_rng(0)
+
+    def noise(width: int, count: int = size) -> Any:
+        """Normally distributed numbers, none beyond 8."""
+        values = np.empty((count, width), kind)
+        for start in range(0, count, _CHUNK):
+            part = values[start : start + _CHUNK]
+            part[:] = random.standard_normal(part.shape, "f4").clip(-8, 8)
+        return values
+
+    def put(name: str, array: Any, values: Any, time: float | None) -> None:
+        code = Usd.TimeCode.Default() if time is None else time
+        prim.GetAttribute(name + suffix).Set(array.FromNumpy(values), code)
+        stage.Save()
+
+    for time in times:
+        put("positions", vector, noise(3), time)
+        turns = noise(4).astype("f4")
+        turns /= np.linalg.norm(turns, axis=1, keepdims=True)
+        put("orientations", quaternion, turns.astype(kind), time)
+        put("scales", vector, np.exp(noise(3) * 0.5 - 4).astype(kind), time)
+        put("opacities", scalar, (1 / (1 + np.exp(-noise(1)[:, 0]))).astype(kind), time)
+        coefficients = noise(3, size * (_DEGREE + 1) ** 2)
+        coefficients *= 0.2
+        if broken:
+            coefficients[-1, -1] = np.nan
+        put("radiance:sphericalHarmonicsCoefficients", vector, coefficients, time)
+        del coefficients
+    return path
+
+
+def _grown(name: str, make: Make, make_floor: Make, wanted: float) -> Case:
+    """Our own command on more splats, by the time that the rules take, against on fewer."""
+    command = gauged("check", linter())
+    return Case(name, command, command, wanted, make, make_floor)
+
+
+CASES = (
+    Case("splats", linter(), _SUM_EACH, 1.6, splats),
+    Case("splats-rules", gauged("check", linter()), _TIME_SUMS, 2.5, splats),
+    Case("splats-memory", gauged("memory", linter()), None, 250, splats, unit="MB"),
+    Case("splats-half", linter(), _SUM_EACH, 2.0, half_splats),
+    Case("splats-broken", linter(exit_code=1), linter(), 2.0, broken_splats, splats),
+    _grown("splats-growth", splats, tenth, 10.0),
+    _grown("splats-frames", animated_splats, tenth, _FRAMES),
+)
