@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from process import ROOT
+from process import ROOT, run
 from pxr import Sdf, Usd, Vt
 
 from usdvol_lint.catalog import Catalog
@@ -467,6 +467,25 @@ def test_the_columns_of_a_ply_file(engine: Engine, tmp_path: Path) -> None:
 # --- bad input ------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    ("opacities", "hint"),
+    [
+        ("[1.15, 2.4, 3.89]", "logits"),
+        ("[-2.3, 1.9, 3.9]", "logits"),
+        ("[0, 128, 255]", "bytes"),
+        ("[0.5, 0.6, 1.5]", "clamp"),
+    ],
+)
+def test_the_remedy_for_opacities(
+    opacities: str, hint: str, lint_text: Callable[[str], StageReport]
+) -> None:
+    """The logits of an opaque scan are all positive: they are no bytes for that."""
+    positions = "point3f[] positions = [(0, 0, 0), (1, 1, 1), (2, 2, 2)]"
+    body = f"{positions}\nfloat[] opacities = {opacities}"
+    findings = [each for each in lint_text(bare(body)).findings if each.code == "ARR008"]
+    assert [hint in (each.suggestion or "") for each in findings] == [True]
+
+
 def bare(body: str) -> str:
     return f"""#usda 1.0
 def {SPLAT} "Splats"
@@ -549,18 +568,10 @@ def test_a_truncated_crate_ends_no_run(tmp_path: Path) -> None:
         short[16:24] = struct.pack("<q", places - left_out)
         (tmp_path / f"short{number}.usdc").write_bytes(short)
     (tmp_path / "good.usda").write_text(bare(""))
-    options = ["--isolated", "--output-format", "concise", "--jobs", "1"]
-    run = subprocess.run(
-        [sys.executable, "-P", "-m", "usdvol_lint", *options, "."],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    said = {line.partition(":")[0] for line in run.stdout.splitlines() if "LNT004" not in line}
+    ran = run("--isolated", "--output-format", "concise", "--jobs", "1", ".", cwd=tmp_path)
+    said = {line.partition(":")[0] for line in ran.out.splitlines() if "LNT004" not in line}
     assert said == {"short0.usdc", "short1.usdc"}
-    assert run.returncode in (1, 2), run.stderr
+    assert ran.code in (1, 2), ran.err
 
 
 # --- cost -----------------------------------------------------------------------------------------
@@ -594,12 +605,12 @@ catalog = load()
 Engine(catalog.rules, activate(Config(), catalog)).lint(sys.argv[1])
 sys.exit("numpy" in sys.modules)
 """
-    run = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-c", program, str(tmp_path / "volume.usda")],
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         check=False,
     )
-    assert run.returncode == 0
+    assert done.returncode == 0
 
 
 # --- statistics -----------------------------------------------------------------------------------
@@ -636,6 +647,47 @@ def test_statistics_of_next_to_nothing(catalog: Catalog, tmp_path: Path) -> None
     a, b = engine.lint(str(tmp_path / "stage.usda")).particle_fields or ()
     assert (a.prim, a.count, a.precision, a.bounds, a.opacity) == ("/a", 1, "mixed", None, None)
     assert (b.prim, b.count, b.precision, b.bounds, b.opacity) == ("/b", 0, None, None, None)
+
+
+# --- the command line and the configuration -------------------------------------------------------
+
+
+def test_statistics_and_times_of_a_run(tmp_path: Path) -> None:
+    particles = Field(tuple(splats(count) for count in (3, 4, 5)), 0)
+    write(particles.changed("opacities", _set(0, 9), 1), tmp_path / "stage.usdc")
+    options = ("--isolated", "--ignore", "LNT004", "--output-format", "json", "stage.usdc")
+    (plain,) = run(*options, cwd=tmp_path).json["stages"]
+    assert "particle_fields" not in plain
+    assert [finding["code"] for finding in plain["findings"]] == ["ARR008"]
+    ran = run("--times", "ends", "--statistics", *options, cwd=tmp_path)
+    assert ran.json["settings"]["times"] == "ends"
+    (stage,) = ran.json["stages"]
+    assert stage["findings"] == []
+    assert [each["count"] for each in stage["particle_fields"]] == [5]
+    (tmp_path / "usdvol-lint.toml").write_text("times = 2\nstatistics = true\n")
+    assert run(*options[1:], cwd=tmp_path).json["stages"][0].keys() == stage.keys()
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("times = 0", "times must be all, first, ends or a whole number from 1, not 0"),
+        ("times = true", "times must be all, first, ends or a whole number from 1, not True"),
+        ("times = []", "times must be all, first, ends or a whole number from 1, not []"),
+        ("statistics = 1", "statistics must be true or false, not 1"),
+    ],
+)
+def test_settings_that_make_no_sense(text: str, expected: str, tmp_path: Path) -> None:
+    (tmp_path / "usdvol-lint.toml").write_text(f"{text}\n")
+    ran = run(".", cwd=tmp_path)
+    assert (ran.code, ran.out) == (2, "")
+    assert expected in ran.err
+
+
+def test_times_that_make_no_sense(tmp_path: Path) -> None:
+    ran = run("--times", "last", ".", cwd=tmp_path)
+    assert (ran.code, ran.out) == (2, "")
+    assert "--times must be all, first, ends or a whole number from 1, not 'last'" in ran.err
 
 
 # --- a USD that knows no particle fields ----------------------------------------------------------

@@ -19,11 +19,12 @@ def opacity_out_of_range(particles: Prim, facts: Facts, *, tolerance: float = 1e
 
 
 def _remedy(low: float, high: float, share: float) -> str:
-    if share > 0.5 and -100 < low < 0 and high < 100:
+    """Logits rarely leave -15 to 15, bytes reach far beyond; few strays are neither."""
+    if share > 0.5 and -100 < low and high < 32:
         return (
             "these look like the logits of a PLY file: apply the sigmoid, 1 / (1 + exp(-x)), "
             "before the export"
         )
-    if share > 0.5 and low >= 0 and 2 < high <= 255:
+    if share > 0.5 and low >= 0 and high <= 255:
         return "these look like bytes: divide them by 255 before the export"
     return "clamp them to 0 and 1 before the export"
