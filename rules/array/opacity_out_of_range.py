@@ -20,7 +20,7 @@ def opacity_out_of_range(particles: Prim, facts: Facts, *, tolerance: float = 1e
 
 def _remedy(low: float, high: float, share: float) -> str:
     """Logits rarely leave -15 to 15, bytes reach far beyond; few strays are neither."""
-    if share > 0.5 and -100 < low and high < 32:
+    if share > 0.5 and low > -100 and high < 32:
         return (
             "these look like the logits of a PLY file: apply the sigmoid, 1 / (1 + exp(-x)), "
             "before the export"

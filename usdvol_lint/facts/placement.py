@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from pxr import Gf, Usd, UsdGeom
+from pxr import Gf, Usd
 
 from usdvol_lint.facts.held import Time
 from usdvol_lint.facts.instances import shown
@@ -108,6 +108,8 @@ def _transformed(prim: Any, count: int) -> tuple[tuple[Any, ...], bool]:
     found = []
     for _ in range(count):
         if prim.GetAttribute("xformOpOrder").Get():  # most have none, and this costs least
+            from pxr import UsdGeom  # costs start-up time
+
             xformable = UsdGeom.Xformable(prim)
             if xformable:
                 found.append(xformable)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -103,6 +103,7 @@ class ParticleArray:
         self.total = total
         self.sizes = Held(samples)
         self._with_counts = with_counts
+        self._counts = memory.NO_COUNTS
         self._advance = advance
 
     @property
@@ -119,7 +120,20 @@ class ParticleArray:
         measure = _MEASURES.get(self.noun, memory.column_range)
         if self._with_counts and self.noun in _COUNTED:
             measure = memory.counted_column_range
-        return tuple((sample, measure(rows)) for sample, rows in self.read())
+        ranges = []
+        for sample, rows in self.read():
+            found = measure(rows)
+            if found.counts is not None:  # half a megabyte, too much to keep for each sample
+                self._counts = self._counts + found.counts
+                found = replace(found, counts=None)
+            ranges.append((sample, found))
+        return tuple(ranges)
+
+    @property
+    def counts(self) -> Rows:
+        """How often each number occurs in all samples together, if that was asked for."""
+        assert self.ranges
+        return self._counts
 
     @property
     def low(self) -> Row | None:

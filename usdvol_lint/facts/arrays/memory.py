@@ -30,6 +30,8 @@ _FOLD = 128
 _HALF_INFINITY = 0x7C00
 _HALF_MINUS_INFINITY = 0xFC00
 
+NO_COUNTS: Rows = np.zeros(1 << 16, np.int64)
+
 
 @dataclass(frozen=True, slots=True)
 class Spot:
@@ -175,7 +177,7 @@ def _measure_columns(chunk: Rows, start: int) -> Range:
 
 def _measure_and_count(chunk: Rows, start: int) -> Range:
     bits = _bits(chunk).view(f"u{chunk.dtype.itemsize}") >> 8 * (chunk.dtype.itemsize - 2)
-    counts = np.bincount(bits.reshape(-1), minlength=1 << 16)
+    counts = np.bincount(bits.reshape(-1), minlength=len(NO_COUNTS))
     return replace(_measure_columns(chunk, start), counts=counts)
 
 
@@ -193,12 +195,10 @@ def _measure_finiteness(chunk: Rows, start: int) -> Range:
     """NaN and infinity poison a sum; a sum may also be too large, so they are looked for then."""
     if chunk.dtype == np.float16:
         bits = _bits(chunk)  # NaN and infinity are above all others of their sign
-        is_finite = (
-            bits.max() < _HALF_INFINITY and bits.view(np.uint16).max() < _HALF_MINUS_INFINITY
-        )
+        clean = bits.max() < _HALF_INFINITY and bits.view(np.uint16).max() < _HALF_MINUS_INFINITY
     else:
-        is_finite = bool(np.isfinite(np.add.reduce(chunk, axis=None)))
-    if is_finite or np.isfinite(chunk).all():
+        clean = np.isfinite(np.add.reduce(chunk, axis=None))
+    if clean or np.isfinite(chunk).all():
         return Range(None, None)
     return _without_non_finite(chunk, start, _measure_finiteness)
 
