@@ -7,7 +7,6 @@ import random
 import re
 import subprocess
 import sys
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -358,7 +357,7 @@ def test_a_process_that_says_why_it_ends_is_heard() -> None:
     child = subprocess.Popen([sys.executable, "-P", "-c", program], env=environment(), **pipes)
     child.wait()
     worker = Worker(child)
-    nothing: Any = [None] * len(fields(Setup))
+    nothing: Any = [None] * len(Setup._fields)
     with pytest.raises(UsageError, match=r"^not today$"):
         worker.prepare(Setup(*nothing), 60)
     worker.stop()

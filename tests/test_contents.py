@@ -165,7 +165,7 @@ def plainly(path: Path) -> VolumeFile | str:
     except VolumeFileError as error:
         return str(error)
     grids = tuple(replace(each, metadata={}) for each in file.grids)
-    return replace(file, uuid=None, metadata={}, grids=grids)
+    return file._replace(uuid=None, metadata={}, grids=grids)
 
 
 def as_kept(found: Reading) -> VolumeFile | str | None:

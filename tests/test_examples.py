@@ -8,7 +8,6 @@ import re
 import subprocess
 import sys
 import tomllib
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -129,9 +128,7 @@ def test_configuration_reference_is_complete() -> None:
     """Every key of the table exists, with the default that it has, and none is left out."""
     text = (ROOT / "docs" / "getting-started.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| `([a-z-]+)` \| [^|]+ \| ([^|]+) \| ([^|]+) \|$", text, re.MULTILINE)
-    defaults = {
-        field.name.replace("_", "-"): getattr(Config(), field.name) for field in fields(Config)
-    }
+    defaults = {name.replace("_", "-"): value for name, value in Config()._asdict().items()}
     assert [key for key, _, _ in rows] == list(defaults)
     for key, default, example in rows:
         if default.startswith("`") and defaults[key]:

@@ -193,7 +193,7 @@ def report(*stages: StageReport) -> Report:
 
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
 NOTHING = report(CLEAN)
-INFOS = report(replace(SMOKE, findings=SMOKE.findings[3:4]), CLEAN)
+INFOS = report(SMOKE._replace(findings=SMOKE.findings[3:4]), CLEAN)
 
 
 @pytest.mark.parametrize(
@@ -245,7 +245,7 @@ def test_json_does_not_depend_on_presentation() -> None:
             "11 volumes, 1 particle field, 31,204 files checked in 1.2 s",
         ),
         (
-            (HOSTILE, replace(CLEAN, stats={})),
+            (HOSTILE, CLEAN._replace(stats={})),
             "1 error in 1 of 2 stages; no volumes or particle fields found in 1.2 s",
         ),
         (
@@ -261,7 +261,7 @@ def test_verdict(stages: tuple[StageReport, ...], expected: str) -> None:
 
 
 def test_verdict_of_a_short_run() -> None:
-    assert verdict(replace(NOTHING, seconds=0.049)).endswith(" in 0.05 s")
+    assert verdict(NOTHING._replace(seconds=0.049)).endswith(" in 0.05 s")
 
 
 def test_wrapping_keeps_every_word_and_quoted_path() -> None:
@@ -304,8 +304,8 @@ def test_frames_in_words(times: tuple[float, ...], at_default: bool, expected: s
 
 
 def test_concise_knows_the_stage_by_any_spelling() -> None:
-    stage = replace(SMOKE, path=str(Path("shots/../shots/smoke.usda").absolute()))
-    stage = replace(stage, findings=(MISSING,))
+    stage = SMOKE._replace(path=str(Path("shots/../shots/smoke.usda").absolute()))
+    stage = stage._replace(findings=(MISSING,))
     assert "(in " not in render(report(stage), "concise", Options())
 
 
@@ -492,7 +492,7 @@ def test_concise_has_one_line_a_finding(subject: Report, options: Options) -> No
 @LAW
 @given(REPORTS, OPTIONS)
 def test_text_has_no_foreign_control_characters(subject: Report, options: Options) -> None:
-    text = render(subject, "full", replace(options, color=False))
+    text = render(subject, "full", options._replace(color=False))
     assert text.replace("\n", "").isprintable()
     text.encode("utf-8")
 
@@ -500,9 +500,9 @@ def test_text_has_no_foreign_control_characters(subject: Report, options: Option
 @LAW
 @given(REPORTS, OPTIONS)
 def test_colour_changes_nothing_else(subject: Report, options: Options) -> None:
-    wide = replace(options, width=10**6, color=True)
+    wide = options._replace(width=10**6, color=True)
     painted = without_styles(render(subject, "concise", wide))
-    assert painted == render(subject, "concise", replace(wide, color=False))
+    assert painted == render(subject, "concise", wide._replace(color=False))
 
 
 def without_styles(text: str) -> str:

@@ -21,7 +21,7 @@ def main() -> None:
     elif not arguments or not _LINTS_NOTHING.isdisjoint(arguments):
         from usdvol_lint.cli import main as run_command
 
-        run_command(arguments)
+        sys.exit(run_command(arguments))
     else:
         _lint(arguments)
 
@@ -45,9 +45,21 @@ def _lint(arguments: list[str]) -> None:
     try:
         from usdvol_lint.cli import main as run_command
 
-        run_command(arguments, child)
+        code = run_command(arguments, child)
     finally:
         child.kill()
+    _leave(code)
+
+
+def _leave(code: int) -> None:
+    """Ends the process at once: to take down all that was imported would only cost time."""
+    try:
+        for stream in (sys.stdout, sys.stderr):
+            if stream is not None:
+                stream.flush()
+    except OSError:
+        code = 2
+    os._exit(code)
 
 
 if __name__ == "__main__":

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 
-from usdvol_lint.catalog import Catalog, Page
+from usdvol_lint.catalog import Catalog
 from usdvol_lint.model import UsageError
+from usdvol_lint.page import Page
 from usdvol_lint.report.plain import paint
 
 

@@ -2,68 +2,29 @@
 
 from __future__ import annotations
 
-import importlib
-import importlib.util
 import os
 import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import redirect_stdout, suppress
-from dataclasses import dataclass, field
-from pathlib import Path
+from importlib import import_module
 from types import ModuleType
-from zlib import crc32
+from typing import TYPE_CHECKING, NamedTuple
 
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.rule import Problems, Rule
 
+if TYPE_CHECKING:
+    from usdvol_lint.page import Page
+
 ENTRY_POINT_GROUP = "usdvol_lint.packs"
 _BUILT_IN = "usdvol_lint.rules"
 _CODE = re.compile(r"[A-Z]{3}\d{3}")
-_TITLE = re.compile(r"^# (?P<name>[a-z0-9-]+) \((?P<code>[A-Z]{3}\d{3})\)\n+(?P<summary>[^\n]+)")
-_BLOCK = re.compile(
-    r"^```usda(?: (?P<file>[^\n`]+))?\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL
-)
-_HEADING = re.compile(r"^## (?P<title>.+)$", re.MULTILINE)
 
 
 class PackError(UsageError):
     """A rule pack that can't be loaded."""
-
-
-@dataclass(frozen=True, slots=True)
-class Example:
-    """One example of a page: stages in their order, and files that are written beside them."""
-
-    heading: str
-    text: str
-    files: Mapping[str, str]
-    line: int
-
-
-@dataclass(frozen=True, slots=True)
-class Page:
-    """A rule's page: its documentation and its test."""
-
-    code: str
-    name: str
-    summary: str
-    text: str
-    path: Path
-
-    def examples(self) -> Iterator[Example]:
-        """The unnamed blocks under `## Wrong` and `## Right`, with the named ones before each."""
-        headings = [(match.start(), match["title"]) for match in _HEADING.finditer(self.text)]
-        files: dict[str, str] = {}
-        for block in _BLOCK.finditer(self.text):
-            heading = [title for start, title in headings if start < block.start()][-1:]
-            if block["file"]:
-                files[block["file"].strip()] = block["text"]
-            else:
-                line = self.text.count("\n", 0, block.start()) + 2
-                yield Example(heading[0] if heading else "", block["text"], files, line)
-                files = {}
 
 
 def _from_engine(prim: object, facts: object) -> Problems:
@@ -89,18 +50,21 @@ def help_for(rule: Rule) -> str:
     return f"usdvol-lint --explain {rule.code}"
 
 
-@dataclass(frozen=True)
-class Catalog:
+class Catalog(NamedTuple):
     """All rules by code, in order, with the folders their pages lie in."""
 
     rules: Mapping[str, Rule]
-    folders: tuple[Path, ...] = field(default=())
+    folders: tuple[str, ...] = ()
 
     def page(self, code: str) -> Page | None:
         """The page of a rule, or None if its pack has none."""
+        from pathlib import Path  # this and the next cost start-up time, and few runs show a page
+
+        from usdvol_lint.page import read_page
+
         stem = self.rules[code].name.replace("-", "_")
         for folder in self.folders:
-            for path in folder.glob(f"**/{stem}.md"):
+            for path in Path(folder).glob(f"**/{stem}.md"):
                 page = read_page(path)
                 if page.code == code:
                     return page
@@ -168,99 +132,105 @@ def load(packs: Sequence[str] = ()) -> Catalog:
             for other in (same_code, same_name):
                 if other is not rule:
                     raise PackError(
-                        f"rule pack {str(folder)!r}: {rule.code} ({rule.name}) takes the code or "
+                        f"rule pack {folder!r}: {rule.code} ({rule.name}) takes the code or "
                         f"name of another rule, {other.code} ({other.name})"
                     )
     return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in mounted))
 
 
-def read_page(path: Path) -> Page:
-    """Parses a page: its title names the rule, the next paragraph says what is wrong."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise PackError(f"{path}: {error}") from error
-    title = _TITLE.match(text)
-    if title is None:
-        raise PackError(f"{path}: the page must begin with '# name (CODE)' and one sentence")
-    return Page(title["code"], title["name"], title["summary"], text, path)
-
-
-def _built_in_folder() -> Path:
+def _built_in_folder() -> str:
     """Beside the engine in a checkout, inside it in a wheel."""
-    package = Path(__file__).parent
-    inside = package / "rules"
-    return inside if inside.is_dir() else package.parent / "rules"
+    package = os.path.dirname(os.path.abspath(__file__))
+    inside = os.path.join(package, "rules")
+    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "rules")
 
 
-def _installed_packs() -> Iterator[tuple[str, Path]]:
+def _installed_packs() -> Iterator[tuple[str, str]]:
     # To import what reads entry points takes ten times as long as to see that there are none.
-    if not any(_names_packs(folder) for folder in sys.path):
+    if not any(map(_names_packs, sys.path)):
         return
     from importlib.metadata import entry_points
+    from importlib.util import find_spec
 
     for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
         try:
-            spec = importlib.util.find_spec(entry.value)
+            spec = find_spec(entry.value)
         except (ImportError, ValueError):
             spec = None
         places = list(spec.submodule_search_locations or ()) if spec else []
         if not places:
             raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
-        yield entry.value, Path(places[0])
+        yield entry.value, places[0]
 
 
 def _names_packs(folder: str) -> bool:
     """Whether some distribution in a folder of `sys.path` declares a rule pack."""
-    for file in Path(folder).glob("*-info/entry_points.txt"):
-        with suppress(OSError):
-            if ENTRY_POINT_GROUP.encode() in file.read_bytes():
-                return True
+    with suppress(OSError):
+        for name in os.listdir(folder or "."):
+            if name.endswith("-info"):
+                declared = os.path.join(folder, name, "entry_points.txt")
+                with suppress(OSError), open(declared, "rb") as file:
+                    if ENTRY_POINT_GROUP.encode() in file.read():
+                        return True
     return False
 
 
-def _named_packs(packs: Sequence[str]) -> Iterator[tuple[str, Path]]:
+def _named_packs(packs: Sequence[str]) -> Iterator[tuple[str, str]]:
+    from zlib import crc32
+
     for pack in packs:
-        folder = Path(pack).resolve()
-        if not folder.is_dir():
+        folder = os.path.realpath(pack)
+        if not os.path.isdir(folder):
             raise PackError(f"rule pack {pack!r}: no such folder")
         # By its place: two packs in one process may both have a module `checks`.
         yield _mount(f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}", folder), folder
 
 
-def _mount(name: str, folder: Path) -> str:
+def _mount(name: str, folder: str) -> str:
     """Makes a folder importable as a package of that name, wherever it lies."""
     package = ModuleType(name)
-    package.__path__ = [str(folder)]
+    package.__path__ = [folder]
     sys.modules[name] = package
     return name
 
 
-def _collect(package: str, folder: Path) -> list[Rule]:
+def _collect(package: str, folder: str) -> list[Rule]:
     """The rules of every module below the folder that holds one; a pack without any is broken."""
-    rules = []
-    for path in sorted(folder.rglob("*.py")):
-        parts = path.relative_to(folder).with_suffix("").parts
-        if any(part.startswith(("_", ".")) for part in parts):
-            continue
-        module = _import(".".join((package, *parts)), path)
-        rules += [value for value in vars(module).values() if isinstance(value, Rule)]
+    rules: list[Rule] = []
+    with redirect_stdout(sys.stderr):  # what a module prints stays out of the report
+        for name, path in _modules(package, folder):
+            module = _import(name, path)
+            rules += [value for value in vars(module).values() if isinstance(value, Rule)]
     if not rules:
-        raise PackError(f"rule pack {str(folder)!r} holds no rule")
+        raise PackError(f"rule pack {folder!r} holds no rule")
     for rule in rules:
         if not _CODE.fullmatch(rule.code):
             raise PackError(
-                f"rule pack {str(folder)!r}: a code is three capitals and three digits, "
+                f"rule pack {folder!r}: a code is three capitals and three digits, "
                 f"not {rule.code!r} ({rule.name})"
             )
     return rules
 
 
-def _import(name: str, path: Path) -> ModuleType:
-    """Imports a module of a pack; what it prints stays out of the report."""
+def _modules(package: str, folder: str) -> Iterator[tuple[str, str]]:
+    """Name and path of each module below a folder, but of none that `_` or `.` hides."""
     try:
-        with redirect_stdout(sys.stderr):
-            return importlib.import_module(name)
+        entries = sorted(os.scandir(folder), key=lambda entry: entry.name)
+    except OSError as error:
+        raise PackError(f"{folder}: {error.strerror}") from error
+    for entry in entries:
+        stem, suffix = os.path.splitext(entry.name)
+        if stem.startswith(("_", ".")):
+            continue
+        if entry.is_dir(follow_symlinks=False):
+            yield from _modules(f"{package}.{entry.name}", entry.path)
+        elif suffix == ".py":
+            yield f"{package}.{stem}", entry.path
+
+
+def _import(name: str, path: str) -> ModuleType:
+    try:
+        return import_module(name)
     except (Exception, SystemExit) as error:
         said = " ".join(f"{type(error).__name__}: {error}".split())
         raise PackError(f"{path}: {said}") from error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -112,22 +111,22 @@ def command(paths: tuple[str, ...], **given: Any) -> int:
 # fmt: on
 
 
-def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) -> None:
-    """Runs the command and exits; every failure is one line on standard error.
+def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) -> int:
+    """Runs the command and says its exit code; every failure is one line on standard error.
 
     `child` is the first worker process, if it was started already.
     """
     try:
-        code = command.main(arguments, prog_name="usdvol-lint", standalone_mode=False, obj=child)
+        code: int = command.main(
+            arguments, prog_name="usdvol-lint", standalone_mode=False, obj=child
+        )
+        return code
     except click.ClickException as error:
         error.show()
-        code = FAILED
     except UsageError as error:
         click.echo(f"usdvol-lint: error: {error}", err=True)
-        code = FAILED
     except (click.Abort, KeyboardInterrupt):
         click.echo("usdvol-lint: interrupted", err=True)
-        code = FAILED
     except Exception as error:
         said = " ".join(f"{type(error).__name__}: {error}".split())
         click.echo(f"usdvol-lint: internal error: {said} (--verbose shows more)", err=True)
@@ -135,8 +134,7 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
             import traceback
 
             traceback.print_exc()
-        code = FAILED
-    sys.exit(code)
+    return FAILED
 
 
 def help_text() -> str:
@@ -226,7 +224,7 @@ def _settle(given: dict[str, Any]) -> tuple[Config, Path | None]:
     kept = tuple(code for code in base.ignore if code.strip().upper() not in again)
     changes["ignore"] = kept + _codes(given["ignore"])
     changes["severity"] = {**base.severity, **_severities(given["severity"])}
-    return replace(base, **changes), file
+    return base._replace(**changes), file
 
 
 def _codes(lists: tuple[str, ...]) -> tuple[str, ...]:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
 from os.path import isfile
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.catalog import NOT_IGNORABLE, Catalog, length
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 FILE_NAME = "usdvol-lint.toml"
 TABLE = "usdvol-lint"
@@ -32,14 +33,13 @@ LONGEST_TIMEOUT = 1_000_000
 _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
 
 
-@dataclass(frozen=True, slots=True)
-class Config:
+class Config(NamedTuple):
     """What a run was asked for. `jobs` of 0 means one for each processor."""
 
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
-    severity: Mapping[str, str] = field(default_factory=dict)
-    options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    severity: Mapping[str, str] = {}
+    options: Mapping[str, Mapping[str, Any]] = {}
     packs: tuple[str, ...] = ()
     fail_on: str = "error"
     output_format: str = "full"
@@ -53,8 +53,7 @@ class Config:
     statistics: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class ActiveRules:
+class ActiveRules(NamedTuple):
     """What of the catalog is switched on: severity and options by code."""
 
     severities: Mapping[str, Severity]
@@ -78,7 +77,7 @@ def read_config(path: Path) -> Config:
     table = _own_table(path) if path.name == "pyproject.toml" else _read_toml(path)
     if table is None:
         raise UsageError(f"{path} has no table [tool.{TABLE}]")
-    known = {f.name.replace("_", "-"): f.name for f in fields(Config)}
+    known = {name.replace("_", "-"): name for name in Config._fields}
     values = {}
     for key, value in _table(f"{path}: tool.{TABLE}", table).items():
         if key not in known:
@@ -86,7 +85,7 @@ def read_config(path: Path) -> Config:
         values[known[key]] = _checked(path, key, value)
     config = Config(**values)
     packs = tuple(str(path.parent / pack) for pack in config.packs)
-    return replace(config, packs=packs)
+    return config._replace(packs=packs)
 
 
 def activate(config: Config, catalog: Catalog) -> ActiveRules:

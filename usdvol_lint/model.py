@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import builtins
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from enum import IntEnum, StrEnum
+from typing import NamedTuple
 
 
 class UsageError(Exception):
@@ -102,8 +103,7 @@ class ParticleFieldStats:
     transparent: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class StageReport:
+class StageReport(NamedTuple):
     """What one stage came to.
 
     `path` is the stage as the user gave it or as it was found in a folder.
@@ -113,14 +113,13 @@ class StageReport:
 
     path: str
     status: Status
-    stats: dict[str, int] = field(default_factory=dict)
+    stats: Mapping[str, int] = {}
     findings: tuple[Finding, ...] = ()
-    seconds: dict[str, float] = field(default_factory=dict)
+    seconds: Mapping[str, float] = {}
     particle_fields: tuple[ParticleFieldStats, ...] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Summary:
+class Summary(NamedTuple):
     """Counts over all stages."""
 
     stages: int
@@ -137,8 +136,7 @@ class Summary:
         return self.errors + self.warnings + self.infos
 
 
-@dataclass(frozen=True, slots=True)
-class Report:
+class Report(NamedTuple):
     """A whole run: everything that any output format prints."""
 
     version: str

@@ -6,8 +6,8 @@ import os
 import shutil
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from usdvol_lint.model import Report, UsageError
 from usdvol_lint.report import FORMATS, Options, render
@@ -15,8 +15,7 @@ from usdvol_lint.report import FORMATS, Options, render
 MACHINE_FORMATS = frozenset(FORMATS) - {"full", "concise"}
 
 
-@dataclass(frozen=True, slots=True)
-class Destination:
+class Destination(NamedTuple):
     """One report: its format, and its file or None for standard output."""
 
     format: str

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usdvol_lint.config import ActiveRules
 
 
-@dataclass(frozen=True, slots=True)
-class Setup:
+class Setup(NamedTuple):
     """The parent's first message: what a worker has to know before its first stage."""
 
     active: ActiveRules
@@ -20,22 +19,19 @@ class Setup:
     statistics: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Ready:
+class Ready(NamedTuple):
     """The worker's first message."""
 
     usd_version: str
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
+class Refusal(NamedTuple):
     """The worker's only message, where it can't work at all."""
 
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class Advance:
+class Advance(NamedTuple):
     """So many samples of a long sequence were read; then comes more."""
 
     samples: int

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Protocol
 
 from usdvol_lint import __version__
@@ -89,7 +88,7 @@ def lint(
 
 def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
     """The settings that shape the findings, as reports and `--show-settings` print them."""
-    chosen = asdict(config)
+    chosen = config._asdict()
     return {
         "rules": {code: severity.label for code, severity in active.severities.items()},
         **{key: chosen[key] for key in _SHAPING},

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Ar, Usd
@@ -111,7 +110,7 @@ def _read(layer: Any) -> bytes:
         asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
         return bytes(asset.GetBuffer()) if asset else b""
     try:
-        with Path(path).open("rb") as file:
+        with open(path, "rb") as file:
             head = file.read(8)
             return head + file.read() if head.startswith(_TEXT_SIGNATURES) else b""
     except OSError:

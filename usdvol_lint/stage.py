@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import stat
-from pathlib import Path
 from typing import Any
 
 from pxr import Sdf, Tf, Usd
@@ -67,14 +66,14 @@ def _diagnose(path: str) -> bytes:
         raise _diagnose_folder(path)
     if not stat.S_ISREG(status.st_mode):
         raise Unreadable("not a regular file (a pipe, socket or device)")
-    suffix = Path(path).suffix.lower()
+    suffix = os.path.splitext(path)[1].lower()
     if suffix not in SUFFIXES:
         what = f"unsupported file type {suffix!r}" if suffix else "a file name without an extension"
         raise Unreadable(what, f"USD files end in {_suffixes()}")
     if not _is_unicode(os.path.abspath(path)):
         raise Unreadable("USD opens no file whose path is not UTF-8", "rename the file or folder")
     try:
-        with Path(path).open("rb") as file:
+        with open(path, "rb") as file:
             head = file.read(64)
     except OSError as error:
         raise Unreadable(f"can't be read: {error.strerror or error}") from error

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from usdvol_lint.catalog import STAGE_UNREADABLE, help_for
 from usdvol_lint.model import Finding, Severity, Site, StageReport, Status, with_fingerprints
 from usdvol_lint.paths import display
 
 
-@dataclass(slots=True)
 class Unreadable(Exception):  # noqa: N818  (it says what a path is, like a status)
     """Why a path is not a stage; the place is where text does not parse."""
 
-    message: str
-    suggestion: str | None = None
-    layer: str | None = None
-    line: int | None = None
-    column: int | None = None
-    detail: str | None = None
+    def __init__(
+        self,
+        message: str,
+        suggestion: str | None = None,
+        layer: str | None = None,
+        line: int | None = None,
+        column: int | None = None,
+        detail: str | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.suggestion = suggestion
+        self.layer = layer
+        self.line = line
+        self.column = column
+        self.detail = detail
 
 
 def report_trouble(

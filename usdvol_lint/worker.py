@@ -14,6 +14,9 @@ from usdvol_lint.protocol import Advance, Ready, Refusal, Setup
 
 def main() -> None:
     """Answers each path with a report, until the pipe closes."""
+    # All that is imported stays, and facts are many and live as long as their stage: looking for
+    # garbage among them, again and again, takes a third of the time on a stage of 100,000 prims.
+    gc.disable()
     requests, replies = _take_pipes()
     try:
         from pxr import Usd  # noqa: F401
@@ -39,9 +42,6 @@ def main() -> None:
         setup.statistics,
     )
     _send(replies, Ready(usd_version()))
-    # Facts are many and live as long as their stage: looking for garbage among them, again and
-    # again, takes a third of the time on a stage of 100,000 prims.
-    gc.disable()
     while path := _next(requests):
         _send(replies, engine.lint(path))
         gc.collect()

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 if TYPE_CHECKING:
     from usdvol_lint.model import Report
@@ -18,8 +17,7 @@ FORMATS: Final[Mapping[str, str]] = {
 """The name of each format, and the module that writes it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Options:
+class Options(NamedTuple):
     """How to write a report; a format ignores what means nothing to it.
 
     `width` is that of the terminal and matters with `color` only.

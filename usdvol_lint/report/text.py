@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 
 from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status, Summary
@@ -49,7 +49,7 @@ def _found(summary: Summary) -> str:
     return f"{counts} in {of}{_count(summary.stages, 'stage')}"
 
 
-def _looked_at(stats: dict[str, int]) -> str:
+def _looked_at(stats: Mapping[str, int]) -> str:
     counts = _counts(
         (stats.get("volumes", 0), "volume"),
         (stats.get("particle_fields", 0), "particle field"),

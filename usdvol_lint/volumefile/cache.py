@@ -86,7 +86,7 @@ class VolumeFiles:
 
 def _without_metadata(file: VolumeFile) -> VolumeFile:
     grids = tuple(replace(grid, metadata={}) if grid.metadata else grid for grid in file.grids)
-    return replace(file, uuid=None, metadata={}, grids=grids)
+    return file._replace(uuid=None, metadata={}, grids=grids)
 
 
 def _kind(file: VolumeFile | None, fault: Fault | None) -> Hashable:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 from usdvol_lint.volumefile.transform import Bounds, Matrix, Transform, finite
 
@@ -32,8 +33,7 @@ IndexBounds: TypeAlias = tuple[Coordinate, Coordinate]
 _LONGEST_QUOTE = 80
 
 
-@dataclass(frozen=True, slots=True)
-class Metadatum:
+class Metadatum(NamedTuple):
     """One entry of a file's or a grid's metadata.
 
     `value` is None for types that this reader does not know and for values too large to matter.
@@ -44,8 +44,7 @@ class Metadatum:
     size: int
 
 
-@dataclass(frozen=True, slots=True)
-class FileWarning:
+class FileWarning(NamedTuple):
     """Something odd that did not stop the reader; `grid` is a position in `VolumeFile.grids`."""
 
     code: WarningCode
@@ -107,8 +106,7 @@ class Grid:
         return bounds if finite((*bounds[0], *bounds[1])) else None
 
 
-@dataclass(frozen=True, slots=True)
-class VolumeFile:
+class VolumeFile(NamedTuple):
     """What a file says of itself and its grids, in file order.
 
     `version` is the file format's (OpenVDB's `224`, NanoVDB's `32.4.2`, Field3D's `1.7.3`), and
@@ -123,7 +121,7 @@ class VolumeFile:
     version_number: int
     library: str | None = None
     uuid: str | None = None
-    metadata: dict[str, Metadatum] = field(default_factory=dict)
+    metadata: Mapping[str, Metadatum] = {}
     grids: tuple[Grid, ...] = ()
     warnings: tuple[FileWarning, ...] = ()
     grid_count: int = 0

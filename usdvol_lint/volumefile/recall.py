@@ -67,7 +67,7 @@ class _Layout:
                 return None
             grids.append(_with_bounds(grid, head.bounds(fields)))
         differ = any(map(is_not, grids, self._file.grids))
-        return replace(self._file, grids=tuple(grids)) if differ else self._file
+        return self._file._replace(grids=tuple(grids)) if differ else self._file
 
 
 class _Head:

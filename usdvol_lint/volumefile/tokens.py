@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final, Literal, NamedTuple
 
 DATA_TYPES: Final[dict[str, str]] = {
     **{name: name for name in ("half", "float", "double", "int64", "bool", "mask", "string")},
@@ -38,8 +37,7 @@ FIELD_CLASSES: Final[dict[str, str]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class RoleHints:
+class RoleHints(NamedTuple):
     """The `vectorDataRoleHint`s that fit a vector type.
 
     `strength` says how far the vector type can be relied on: the default proves nothing.

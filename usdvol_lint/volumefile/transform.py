@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
 from itertools import product
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 Point: TypeAlias = tuple[float, float, float]
 Bounds: TypeAlias = tuple[Point, Point]
@@ -48,8 +47,7 @@ def finite(numbers: Iterable[float]) -> bool:
     return all(map(math.isfinite, numbers))
 
 
-@dataclass(frozen=True, slots=True)
-class Frustum:
+class Frustum(NamedTuple):
     """The perspective half of a frustum map: a box of index space becomes a pyramid's stump."""
 
     minimum: Point
@@ -75,8 +73,7 @@ class Frustum:
         return finite(numbers) and 0 not in (*lengths, self.taper, self.depth)
 
 
-@dataclass(frozen=True, slots=True)
-class Transform:
+class Transform(NamedTuple):
     """A grid's own transform: `kind` is the map's type, and a frustum comes before the matrix."""
 
     kind: str
@@ -89,7 +86,7 @@ class Transform:
 
     def then(self, matrix: Matrix) -> Transform:
         """This transform with a matrix after it."""
-        return replace(self, matrix=multiply(self.matrix, matrix))
+        return self._replace(matrix=multiply(self.matrix, matrix))
 
     def apply(self, point: Point) -> Point:
         """A point of index space in world space."""
