@@ -7,7 +7,6 @@ import random
 import zipfile
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -164,7 +163,7 @@ def plainly(path: Path) -> VolumeFile | str:
         file = read_volume_file(str(path))
     except VolumeFileError as error:
         return str(error)
-    grids = tuple(replace(each, metadata={}) for each in file.grids)
+    grids = tuple(each._replace(metadata={}) for each in file.grids)
     return file._replace(uuid=None, metadata={}, grids=grids)
 
 

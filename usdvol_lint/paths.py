@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 """What USD's own layers end in."""
-_IN_PACKAGE = re.compile(r"(?P<package>.+?\.usdz)(?P<inside>\[.+\])", re.IGNORECASE | re.DOTALL)
+_IN_PACKAGE = r"(?is)(?P<package>.+?\.usdz)(?P<inside>\[.+\])"
 
 
 def discover(paths: Iterable[str]) -> list[str]:
@@ -39,7 +39,7 @@ def _inside(folder: str) -> Iterator[str]:
 
 def display(path: str) -> str:
     """A path relative to the working directory, with `/`; `package.usdz[inner]` stays as it is."""
-    package = _IN_PACKAGE.fullmatch(path)
+    package = re.fullmatch(_IN_PACKAGE, path) if path.endswith("]") else None
     outer, inner = (package["package"], package["inside"]) if package else (path, "")
     try:
         relative = os.path.relpath(outer)

@@ -24,10 +24,11 @@ _HOLDS = (
     (_TEXT, "USD text", (".usda", ".usd")),
 )
 """What a file can begin with, what it is then, and the names under which USD reads that."""
-_UNEXPECTED = re.compile(r"parse error matching .*? at '(?P<text>.*)'(?= in <)", re.DOTALL)
-_SESSION = re.compile(r", sessionLayer @anon:[^@]*@")
-_MENTION = re.compile(r"[@<]([^@<>]+)[@>]")
-_PLACE = re.compile(r"^(?P<path>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:\s*(?P<what>.*)", re.DOTALL)
+# Few stages fail, so what takes their errors apart is compiled only then.
+_UNEXPECTED = r"(?s)parse error matching .*? at '(?P<text>.*)'(?= in <)"
+_SESSION = r", sessionLayer @anon:[^@]*@"
+_MENTION = r"[@<]([^@<>]+)[@>]"
+_PLACE = r"(?s)(?P<path>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:\s*(?P<what>.*)"
 _LONGEST = 300
 _EXPORT_AGAIN = "copy or export it again"
 
@@ -124,7 +125,7 @@ def _diagnose_head(head: bytes, size: int, suffix: str) -> None:
 def _explain(path: str, errors: list[str], head: bytes) -> Unreadable:
     """One of USD's errors in one line: the first that has a place in the text, or the first."""
     lines = [_in_one_line(path, error) for error in errors]
-    place = next(filter(None, map(_PLACE.match, lines)), None)
+    place = next(filter(None, (re.match(_PLACE, line) for line in lines)), None)
     if place:
         at_fault = place["path"]
         return Unreadable(
@@ -143,7 +144,7 @@ def _in_one_line(path: str, error: str) -> str:
     """An error of USD's without the path that the finding names anyway, and without C++."""
     for mention in (f", while reading {display(path)}", "Encountered: "):
         error = error.replace(mention, "")
-    return _UNEXPECTED.sub(_unexpected, " ".join(error.split()))
+    return re.sub(_UNEXPECTED, _unexpected, " ".join(error.split()))
 
 
 def _unexpected(match: re.Match[str]) -> str:
@@ -161,8 +162,12 @@ def _commentary(error: Any) -> str:
         text = str(error.commentary)
     except UnicodeDecodeError as undecodable:
         text = undecodable.object.decode("utf-8", "backslashreplace")
-    text = _SESSION.sub("", text)
-    return _MENTION.sub(lambda m: display(m[1]) if os.path.isfile(m[1]) else m[0], text)
+    text = re.sub(_SESSION, "", text)
+    return re.sub(_MENTION, _shown, text)
+
+
+def _shown(mention: re.Match[str]) -> str:
+    return display(mention[1]) if os.path.isfile(mention[1]) else mention[0]
 
 
 def _is_unicode(text: str) -> bool:

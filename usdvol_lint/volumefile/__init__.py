@@ -16,6 +16,7 @@ from usdvol_lint.volumefile.model import (
     VolumeFileError,
     WarningCode,
 )
+from usdvol_lint.volumefile.signatures import HDF5, LFS_POINTER, NANOVDB, OGAWA, OPENVDB
 from usdvol_lint.volumefile.transform import Bounds, Frustum, Matrix, Point, Transform
 from usdvol_lint.volumefile.window import Window, open_window
 
@@ -43,8 +44,8 @@ __all__ = [
 FileKey: TypeAlias = tuple[int, int, int, int]
 """Device, inode, size and time of change: a file with the same key has the same content."""
 
-_LFS_SIGNATURE = b"version https://git-lfs"
-_LONGEST_SIGNATURE = len(_LFS_SIGNATURE)
+_SIGNATURES = (OPENVDB, *NANOVDB, OGAWA, HDF5)
+_LONGEST_SIGNATURE = len(LFS_POINTER)
 
 
 def read_volume_file(path: str, offset: int = 0, size: int | None = None) -> VolumeFile:
@@ -65,25 +66,27 @@ def read_window(window: Window) -> VolumeFile:
     head = window.peek(_LONGEST_SIGNATURE)
     if not head:
         raise VolumeFileError("not-a-file", "empty (0 bytes)")
-    if head.startswith(_LFS_SIGNATURE):
+    if head.startswith(LFS_POINTER):
         raise VolumeFileError("not-a-file", "a Git-LFS pointer, not the file itself")
+    if head.startswith(OPENVDB):
+        from usdvol_lint.volumefile.vdb import read_vdb
 
-    from usdvol_lint.volumefile import hdf5, nvdb, ogawa, vdb
+        return read_vdb(window)
+    if head.startswith(NANOVDB):
+        from usdvol_lint.volumefile.nvdb import read_nvdb
 
-    if head.startswith(vdb.SIGNATURE):
-        return vdb.read_vdb(window)
-    if head.startswith(nvdb.SIGNATURES):
-        return nvdb.read_nvdb(window)
+        return read_nvdb(window)
+    if head.startswith(OGAWA):
+        from usdvol_lint.volumefile.f3d import volume_file
+        from usdvol_lint.volumefile.ogawa import read_ogawa
 
-    from usdvol_lint.volumefile import f3d
+        return volume_file(read_ogawa(window))
+    if head.startswith(HDF5):
+        from usdvol_lint.volumefile.f3d import volume_file
+        from usdvol_lint.volumefile.hdf5 import read_hdf5
 
-    if head.startswith(ogawa.SIGNATURE):
-        return f3d.volume_file(ogawa.read_ogawa(window))
-    if head.startswith(hdf5.SIGNATURE):
-        return f3d.volume_file(hdf5.read_hdf5(window))
-
-    signatures = (vdb.SIGNATURE, *nvdb.SIGNATURES, ogawa.SIGNATURE, hdf5.SIGNATURE)
-    if any(signature.startswith(head) for signature in signatures):
+        return volume_file(read_hdf5(window))
+    if any(signature.startswith(head) for signature in _SIGNATURES):
         raise VolumeFileError("truncated", f"the file ends after {len(head)} bytes", len(head))
     raise VolumeFileError(
         "not-a-volume-file", "it begins like no OpenVDB, NanoVDB or Field3D file", 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Hashable
-from dataclasses import replace
 from typing import NamedTuple
 
 from usdvol_lint.volumefile import read_window
@@ -12,7 +11,7 @@ from usdvol_lint.volumefile.model import VolumeFile, VolumeFileError
 from usdvol_lint.volumefile.recall import Recall
 from usdvol_lint.volumefile.window import Window, open_window
 
-_NUMBER = re.compile(r"\d+")
+_NUMBER = r"\d+"
 
 
 class Fault(NamedTuple):
@@ -85,12 +84,12 @@ class VolumeFiles:
 
 
 def _without_metadata(file: VolumeFile) -> VolumeFile:
-    grids = tuple(replace(grid, metadata={}) if grid.metadata else grid for grid in file.grids)
+    grids = tuple(grid._replace(metadata={}) if grid.metadata else grid for grid in file.grids)
     return file._replace(uuid=None, metadata={}, grids=grids)
 
 
 def _kind(file: VolumeFile | None, fault: Fault | None) -> Hashable:
-    said = fault and (fault.code, _NUMBER.sub("", fault.message))
+    said = fault and (fault.code, re.sub(_NUMBER, "", fault.message))
     if file is None:
         return said
     return (

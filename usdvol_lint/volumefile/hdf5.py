@@ -5,13 +5,12 @@ from __future__ import annotations
 import importlib
 import io
 from struct import Struct
-from typing import Any, Final
+from typing import Any
 
 from usdvol_lint.volumefile.f3d import DEEPEST, LARGEST_VALUE, MOST, Group
 from usdvol_lint.volumefile.model import MetadataValue, Metadatum, VolumeFileError
+from usdvol_lint.volumefile.signatures import HDF5
 from usdvol_lint.volumefile.window import Window
-
-SIGNATURE: Final = b"\x89HDF\r\n\x1a\n"
 
 # Where a superblock of each version keeps the size of its offsets and the end of the file.
 _END = {0: (13, 40), 1: (13, 44), 2: (9, 28), 3: (9, 28)}
@@ -43,7 +42,7 @@ def _stored_end(window: Window) -> int:
     """Where the file says that it ends; 0 where it says so in a way not known here."""
     head = window.read(_LONGEST_SUPERBLOCK)
     window.position = 0
-    size_at, end_at = _END.get(head[len(SIGNATURE)], (0, 0))
+    size_at, end_at = _END.get(head[len(HDF5)], (0, 0))
     return int(_U64.unpack_from(head, end_at)[0]) if end_at and head[size_at] == 8 else 0
 
 

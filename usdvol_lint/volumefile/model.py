@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Literal, NamedTuple, TypeAlias
 
 from usdvol_lint.volumefile.transform import Bounds, Matrix, Transform, finite
@@ -52,8 +51,7 @@ class FileWarning(NamedTuple):
     grid: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Grid:
+class Grid(NamedTuple):
     """One grid, or one Field3D layer.
 
     `name` is that of the metadata, `unique_name` that of the descriptor without its suffix, which
@@ -70,7 +68,7 @@ class Grid:
 
     name: str
     unique_name: str
-    index: int
+    index: int  # type: ignore[assignment]  # in the place of what tuples call so
     value_type: str
     tree_type: str
     suffix: str | None = None
@@ -82,7 +80,7 @@ class Grid:
     index_bounds: IndexBounds | None = None
     is_empty: bool = False
     transform: Transform | None = None
-    metadata: dict[str, Metadatum] = field(default_factory=dict)
+    metadata: Mapping[str, Metadatum] = {}
     instance_of: str | None = None
 
     @property

@@ -16,10 +16,10 @@ from usdvol_lint.volumefile.model import (
     VolumeFileError,
     quoted,
 )
+from usdvol_lint.volumefile.signatures import NANOVDB
 from usdvol_lint.volumefile.transform import Bounds, Point, Transform, finite, scale_translate
 from usdvol_lint.volumefile.window import Window
 
-SIGNATURES: Final = (b"NanoVDB0", b"NanoVDB1", b"NanoVDB2")
 MAJOR_VERSION: Final = 32
 
 _BARE = b"NanoVDB1"
@@ -109,7 +109,7 @@ class _Reader:
             if segments > _MOST:
                 raise _invalid(f"more than {_MOST} segments", at)
             signature, version, count, _ = window.unpack(_SEGMENT)
-            if signature not in SIGNATURES or signature == _BARE:
+            if signature not in NANOVDB or signature == _BARE:
                 raise _invalid("no segment where one should begin", at)
             self.take_version(version, at)
             self.count_grids(count)
@@ -122,7 +122,7 @@ class _Reader:
         """Whether another segment follows; NanoVDB ignores a few bytes that are none."""
         rest = self.window.peek(_SEGMENT.size)
         signature = rest[: len(_BARE)]
-        is_start = bool(signature) and any(word.startswith(signature) for word in SIGNATURES)
+        is_start = bool(signature) and any(word.startswith(signature) for word in NANOVDB)
         return len(rest) == _SEGMENT.size or is_start
 
     def take_version(self, version: int, at: int) -> None:
@@ -179,7 +179,7 @@ class _Reader:
             except zlib.error:
                 return None
         window.position = start
-        return head if len(head) == _BUFFER.size and head[:8] in SIGNATURES else None
+        return head if len(head) == _BUFFER.size and head[:8] in NANOVDB else None
 
     def read_buffers(self) -> None:
         """Grid buffers one after the other, each of which knows how many they are."""

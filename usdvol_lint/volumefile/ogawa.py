@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from struct import Struct
-from typing import Final
 
 from usdvol_lint.volumefile.f3d import DEEPEST, LARGEST_VALUE, MOST, Group
 from usdvol_lint.volumefile.model import Metadatum, VolumeFileError
+from usdvol_lint.volumefile.signatures import OGAWA
 from usdvol_lint.volumefile.window import Window
-
-SIGNATURE: Final = b"Ogawa"
 
 _ROOT_NAME = "f3droot"
 _LONGEST_NAME = 1 << 16
@@ -41,7 +39,7 @@ def read_ogawa(window: Window) -> Group:
     """The tree of groups, without data sets."""
     _, state, _, root = window.unpack(_HEADER)
     if state != _CLOSED or root == 0:
-        raise VolumeFileError("truncated", "its writer never closed the file", len(SIGNATURE))
+        raise VolumeFileError("truncated", "its writer never closed the file", len(OGAWA))
     reader = _Reader(window)
     name, kind = reader.head(reader.children(root, _ATTRIBUTE_PARTS), root)
     if (name, kind) != (_ROOT_NAME, _GROUP):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from operator import is_not, itemgetter
 from struct import Struct
 from typing import Any, TypeAlias
@@ -149,7 +148,7 @@ def _with_bounds(grid: Grid, bounds: IndexBounds | None) -> Grid:
         return grid
     (x, y, z), (u, v, w) = bounds
     is_empty = x > u or y > v or z > w
-    return replace(grid, index_bounds=None if is_empty else bounds, is_empty=is_empty)
+    return grid._replace(index_bounds=None if is_empty else bounds, is_empty=is_empty)
 
 
 def _picker(names: list[str], wanted: str) -> Any:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Mapping
 from itertools import chain
 from operator import gt
 from struct import Struct
@@ -20,6 +19,7 @@ from usdvol_lint.volumefile.model import (
     VolumeFileError,
     quoted,
 )
+from usdvol_lint.volumefile.signatures import OPENVDB
 from usdvol_lint.volumefile.transform import (
     Frustum,
     Matrix,
@@ -30,7 +30,6 @@ from usdvol_lint.volumefile.transform import (
 )
 from usdvol_lint.volumefile.window import Window
 
-SIGNATURE: Final = b" BDV\0\0\0\0"
 OLDEST_VERSION: Final = 222
 NEWEST_VERSION: Final = 225
 
@@ -168,14 +167,14 @@ class _Reader:
 
     def read_header(self) -> None:
         window = self.window
-        window.skip(len(SIGNATURE))
+        window.skip(len(OPENVDB))
         (self.version,) = window.unpack(_VERSION)
         if self.version < OLDEST_VERSION:
             raise VolumeFileError(
                 "version-unsupported",
                 f"file version {self.version} is older than {OLDEST_VERSION}, "
                 "which OpenVDB no longer reads",
-                len(SIGNATURE),
+                len(OPENVDB),
             )
         if self.version > NEWEST_VERSION:
             message = f"file version {self.version} is newer than {NEWEST_VERSION}"
@@ -338,8 +337,7 @@ class _Reader:
                     warning = FileWarning("instance-parent-missing", message, position)
                     self.warnings.append(warning)
             elif grid.index_bounds is None and not grid.is_empty:
-                self.grids[position] = replace(
-                    grid,
+                self.grids[position] = grid._replace(
                     index_bounds=self.grids[parent].index_bounds,
                     is_empty=self.grids[parent].is_empty,
                 )
@@ -359,7 +357,7 @@ def _text(metadata: dict[str, Metadatum], name: str) -> str:
     return entry.value if entry is not None and isinstance(entry.value, str) else ""
 
 
-def _saved_as_half(metadata: dict[str, Metadatum]) -> bool:
+def _saved_as_half(metadata: Mapping[str, Metadatum]) -> bool:
     entry = metadata.get("is_saved_as_half_float")
     return entry is not None and entry.value is True
 
