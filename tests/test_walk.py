@@ -9,6 +9,7 @@ import pytest
 from pxr import Usd
 
 from usdvol_lint.engine import Engine
+from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Kinds
 from usdvol_lint.model import Severity
 from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
@@ -152,9 +153,10 @@ def Sphere "ball"
     rules = [asks(name, name) for name, _ in asked]
     rules.append(asks("TWO001", "Volume", "Gprim", "MaterialBindingAPI"))
     kinds = Kinds()
+    found = walk(stage, rules, kinds)
     pairs = Counter(
         (rule.code, prim.GetName())
-        for rule, prim in assign(walk(stage, rules, kinds), rules, kinds)
+        for rule, prim in assign(found, rules, Facts(stage, kinds, found.kept), {})
     )
     assert pairs == Counter(
         (code, name)

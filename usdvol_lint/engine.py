@@ -160,10 +160,10 @@ class Engine:
 
     def _work(self, walked: Walk, facts: Facts) -> Iterator[tuple[Rule, Any]]:
         """Each rule with each prim it asked for."""
+        yield from assign(walked, self._rules, facts, self._options)
         for rule in self._rules:
             if STAGE in rule.on:
                 yield rule, facts.stage.GetPseudoRoot()
-        yield from assign(walked, self._rules, facts.kinds)
 
     def _stamp(self, rule: Rule, problem: Problem | NotChecked, sites: Sites) -> Iterator[_Found]:
         """The problem with code, severity and site; nothing if LNT005 is switched off."""

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, TypeAlias
+from enum import Enum
+from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.facts import Facts
-from usdvol_lint.facts.states import AssetState, Emptiness, FileFault, TargetState
+from usdvol_lint.facts.states import (
+    AssetState,
+    BindingMark,
+    Emptiness,
+    FileFault,
+    PathMark,
+    TargetState,
+)
 from usdvol_lint.model import Severity, format_time, frame_ranges
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
 
@@ -19,16 +27,23 @@ __all__ = [
     "UNKNOWN_TYPE",
     "WARNING",
     "AssetState",
+    "BindingMark",
     "Content",
     "Emptiness",
     "Facts",
     "FileFault",
     "NotChecked",
+    "PathMark",
     "Prim",
     "Problem",
     "Problems",
     "Rule",
     "TargetState",
+    "When",
+    "authored",
+    "bindings",
+    "contents",
+    "file_paths",
     "format_time",
     "frame_ranges",
     "rule",
@@ -86,6 +101,40 @@ Problems: TypeAlias = Iterator[Problem | NotChecked]
 Check: TypeAlias = Callable[..., Problems]
 
 
+class When(NamedTuple):
+    """What must hold for a rule to be handed a prim, so that it costs nothing on all others.
+
+    `fact` is a method of `Facts` that sums a prim up; prims that have a lot in common share what
+    it gives, and `holds` is asked once for each such sum. It is given the rule's options too.
+    """
+
+    fact: str
+    holds: Callable[..., bool]
+
+
+def authored(*names: str) -> When:
+    """When one of these attributes is authored, or has values in clips."""
+    return When("authored", lambda authored: not authored.declared.keys().isdisjoint(names))
+
+
+def file_paths(*marks: Enum) -> When:
+    """When the values of `filePath` have one of these states or marks about them."""
+    return When("file_path_marks", lambda found: not found.isdisjoint(marks))
+
+
+def bindings(*marks: Enum) -> When:
+    """When the `field:` namespace of a Volume has one of these states or marks about it."""
+    return When("binding_marks", lambda found: not found.isdisjoint(marks))
+
+
+def contents(*keys: Callable[[Content], Hashable | None]) -> When:
+    """When the content of one of a field's files has one of these keys."""
+    return When(
+        "content_kinds",
+        lambda kinds: any(kind.answer(key) is not None for kind in kinds for key in keys),
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Rule:
     """One rule: what it is called, which prims it is handed, and what it does with them.
@@ -95,6 +144,7 @@ class Rule:
     (prims whose type nobody registers), `ABSTRACT_TYPE` (prims whose type may not be instantiated).
     `options` maps the names of the check's keyword-only parameters to their defaults.
     `default` is False for rules that are off until selected by name.
+    `when` narrows down which of these prims it is handed; None means all of them.
     """
 
     code: str
@@ -105,6 +155,7 @@ class Rule:
     check: Check
     options: dict[str, Any]
     default: bool = True
+    when: When | None = None
 
 
 def rule(
@@ -114,6 +165,7 @@ def rule(
     severity: Severity,
     since: str,
     default: bool = True,
+    when: When | None = None,
 ) -> Callable[[Check], Rule]:
     """Makes the decorated generator a rule, named after it: `file_missing` is `file-missing`."""
 
@@ -127,6 +179,7 @@ def rule(
             check=check,
             options=dict(check.__kwdefaults__ or {}),
             default=default,
+            when=when,
         )
 
     return decorate

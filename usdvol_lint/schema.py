@@ -17,6 +17,9 @@ FIELD_ASSET = "FieldAsset"
 PARTICLE_FIELD = "ParticleField"
 GPRIM = "Gprim"
 
+FIELD_NAMESPACE = "field:"
+"""What the names of a Volume's relationships to its fields begin with."""
+
 STAGE = "<stage>"
 UNKNOWN_TYPE = "<unknown type>"
 ABSTRACT_TYPE = "<abstract type>"

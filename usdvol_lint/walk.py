@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import Any
+from typing import Any, TypeAlias
 
 from pxr import Usd
 
 from usdvol_lint import schema
+from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Key, Kinds
 from usdvol_lint.rule import Rule
 
 _BATCH = 256
 """Small enough that its objects are gone before the garbage collector looks at them."""
+Options: TypeAlias = Mapping[str, Mapping[str, Any]]
+"""The options of rules, by code."""
+
 _COUNTED = frozenset({schema.VOLUME, schema.FIELD, schema.PARTICLE_FIELD})
 
 
@@ -47,15 +51,63 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: Kinds) -> Walk:
     return result
 
 
-def assign(walked: Walk, rules: Iterable[Rule], kinds: Kinds) -> Iterator[tuple[Rule, Any]]:
-    """Each rule with each kept prim that it asked for."""
-    by_key = [(kinds.names(key), prims) for key, prims in walked.kept.items()]
-    for rule in rules:
-        asked = frozenset(rule.on)
-        for names, prims in by_key:
-            if not asked.isdisjoint(names):
-                for prim in prims:
+def assign(
+    walked: Walk, rules: Iterable[Rule], facts: Facts, options: Options
+) -> Iterator[tuple[Rule, Any]]:
+    """Each rule with each kept prim that it asked for.
+
+    A prim that nothing is remarkable about is handed to few: `Rule.when` is asked once for all
+    prims that are alike, and what sums up a prim is found for those alone that are asked for it.
+    """
+    rules = list(rules)
+    for key, prims in walked.kept.items():
+        names = facts.kinds.names(key)
+        asked = [rule for rule in rules if not names.isdisjoint(rule.on)]
+        always = [rule for rule in asked if rule.when is None]
+        triages = _triages(asked, facts, options)
+        for prim in prims:
+            for rule in always:
+                yield rule, prim
+            for triage in triages:
+                for rule in triage.rules_for(prim):
                     yield rule, prim
+
+
+class _Triage:
+    """The rules that go by one fact, chosen once for each sum that it gives."""
+
+    def __init__(self, sum_up: Callable[[Any], Any], rules: list[Rule], options: Options) -> None:
+        self._sum_up = sum_up
+        self._rules = rules
+        self._options = options
+        self._chosen: dict[Any, list[Rule]] = {}
+
+    def rules_for(self, prim: Any) -> list[Rule]:
+        """The rules that a prim is handed; what can't be told here, they find out themselves."""
+        try:
+            found = self._sum_up(prim)
+        except Exception:
+            return self._rules
+        chosen = self._chosen.get(found)
+        if chosen is None:
+            chosen = self._chosen[found] = [
+                rule for rule in self._rules if self._holds(rule, found)
+            ]
+        return chosen
+
+    def _holds(self, rule: Rule, found: Any) -> bool:
+        try:
+            return not rule.when or rule.when.holds(found, **self._options.get(rule.code, {}))
+        except Exception:
+            return True
+
+
+def _triages(rules: Iterable[Rule], facts: Facts, options: Options) -> list[_Triage]:
+    by_fact: dict[str, list[Rule]] = defaultdict(list)
+    for rule in rules:
+        if rule.when:
+            by_fact[rule.when.fact].append(rule)
+    return [_Triage(getattr(facts, fact), chosen, options) for fact, chosen in by_fact.items()]
 
 
 def _keys(prims: list[Any], kinds: Kinds) -> Iterable[Key]:

@@ -1,9 +1,9 @@
 """AST014: the manifest of value clips must declare what the clips hold."""
 
-from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 
 
-@rule("AST014", on="FieldAsset", severity=ERROR, since="0.1")
+@rule("AST014", on="FieldAsset", when=file_paths(PathMark.CLIPPED), severity=ERROR, since="0.1")
 def clip_manifest_incomplete(field: Prim, facts: Facts) -> Problems:
     unlisted = facts.unlisted_clips(field, "filePath")
     if unlisted:

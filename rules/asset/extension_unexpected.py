@@ -2,7 +2,17 @@
 
 import re
 
-from usdvol_lint.rule import WARNING, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    WARNING,
+    AssetState,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    rule,
+)
 
 _TYPES = {".vdb": "OpenVDBAsset", ".f3d": "Field3DAsset"}
 _WITHOUT = {
@@ -11,7 +21,13 @@ _WITHOUT = {
 }
 
 
-@rule("AST006", on=tuple(_TYPES.values()), severity=WARNING, since="0.1")
+@rule(
+    "AST006",
+    on=tuple(_TYPES.values()),
+    when=file_paths(PathMark.FOREIGN),
+    severity=WARNING,
+    since="0.1",
+)
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
     wanted = ".vdb" if facts.is_a(field, "OpenVDBAsset") else ".f3d"
     other = facts.assets(field, "filePath").matching(_WITHOUT[wanted], AssetState.FILE)

@@ -1,9 +1,9 @@
 """AST002: the file that a field names must exist."""
 
-from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
 
-@rule("AST002", on="FieldAsset", severity=ERROR, since="0.1")
+@rule("AST002", on="FieldAsset", when=file_paths(AssetState.MISSING), severity=ERROR, since="0.1")
 def file_missing(field: Prim, facts: Facts) -> Problems:
     missing = facts.assets(field, "filePath").of(AssetState.MISSING)
     if missing:

@@ -1,9 +1,19 @@
 """AST001: a field must name a file at some time."""
 
-from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    ERROR,
+    AssetState,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    rule,
+)
 
 
-@rule("AST001", on="FieldAsset", severity=ERROR, since="0.1")
+@rule("AST001", on="FieldAsset", when=file_paths(PathMark.NONE), severity=ERROR, since="0.1")
 def file_path_missing(field: Prim, facts: Facts) -> Problems:
     paths = facts.assets(field, "filePath")
     if paths.names_a_path or facts.unlisted_clips(field, "filePath"):

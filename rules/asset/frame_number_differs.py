@@ -1,9 +1,9 @@
 """AST013: a file's frame number should follow the time as those of all other samples do."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 
 
-@rule("AST013", on="FieldAsset", severity=WARNING, since="0.1")
+@rule("AST013", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def frame_number_differs(field: Prim, facts: Facts) -> Problems:
     sequence = facts.sequence(field, "filePath")
     strays = sequence.strays() if sequence else None

@@ -1,9 +1,9 @@
 """AST015: a package must hold the files that it names."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 
 
-@rule("AST015", on="FieldAsset", severity=WARNING, since="0.1")
+@rule("AST015", on="FieldAsset", when=file_paths(PathMark.PACKAGED), severity=WARNING, since="0.1")
 def outside_package(field: Prim, facts: Facts) -> Problems:
     outside = facts.outside_package(field, "filePath")
     if outside:

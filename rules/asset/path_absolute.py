@@ -2,13 +2,23 @@
 
 import re
 
-from usdvol_lint.rule import INFO, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    INFO,
+    AssetState,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    rule,
+)
 
 _ABSOLUTE = re.compile(r"/|\\\\|[A-Za-z]:")
 _STATES = (AssetState.FILE, AssetState.MISSING, AssetState.NOT_A_FILE, AssetState.PATTERN)
 
 
-@rule("AST007", on="FieldAsset", severity=INFO, since="0.1")
+@rule("AST007", on="FieldAsset", when=file_paths(PathMark.UNPLAIN), severity=INFO, since="0.1")
 def path_absolute(field: Prim, facts: Facts) -> Problems:
     paths = facts.assets(field, "filePath")
     found = paths.matching(_ABSOLUTE, *_STATES)

@@ -1,9 +1,11 @@
 """AST009: a path must have the case of the names that it leads to."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 
 
-@rule("AST009", on="FieldAsset", severity=WARNING, since="0.1")
+@rule(
+    "AST009", on="FieldAsset", when=file_paths(PathMark.CASE_BLIND), severity=WARNING, since="0.1"
+)
 def path_case_differs(field: Prim, facts: Facts) -> Problems:
     recased = facts.recased(field, "filePath")
     if recased:

@@ -1,9 +1,25 @@
 """AST004: a variable expression must evaluate to a path."""
 
-from usdvol_lint.rule import ERROR, WARNING, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    ERROR,
+    WARNING,
+    AssetState,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    rule,
+)
 
 
-@rule("AST004", on="FieldAsset", severity=ERROR, since="0.1")
+@rule(
+    "AST004",
+    on="FieldAsset",
+    when=file_paths(AssetState.BROKEN_EXPRESSION, AssetState.UNSET_VARIABLE),
+    severity=ERROR,
+    since="0.1",
+)
 def path_expression_broken(field: Prim, facts: Facts) -> Problems:
     paths = facts.assets(field, "filePath")
     for broken in paths.by_detail(AssetState.BROKEN_EXPRESSION):

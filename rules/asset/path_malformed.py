@@ -3,7 +3,17 @@
 import re
 from collections.abc import Iterator
 
-from usdvol_lint.rule import WARNING, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    WARNING,
+    AssetState,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    rule,
+)
 
 _STATES = (AssetState.FILE, AssetState.MISSING, AssetState.NOT_A_FILE, AssetState.PATTERN)
 _SUSPECT = re.compile(r"[A-Za-z]:|~|\s|[^\\]*+(?:\\|(?<=\s)\Z)")
@@ -11,7 +21,7 @@ _HOME = re.compile(r"~[^/\\]*[/\\]")
 _ROOT = re.compile(r"[A-Za-z]:|\\\\")
 
 
-@rule("AST008", on="FieldAsset", severity=WARNING, since="0.1")
+@rule("AST008", on="FieldAsset", when=file_paths(PathMark.UNPLAIN), severity=WARNING, since="0.1")
 def path_malformed(field: Prim, facts: Facts) -> Problems:
     paths = facts.assets(field, "filePath")
     suspect = paths.matching(_SUSPECT, *_STATES)

@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
 _SHOWN = 4
 
 
-@rule("AST003", on="FieldAsset", severity=ERROR, since="0.1")
+@rule("AST003", on="FieldAsset", when=file_paths(AssetState.PATTERN), severity=ERROR, since="0.1")
 def path_pattern(field: Prim, facts: Facts) -> Problems:
     for found in facts.assets(field, "filePath").by_detail(AssetState.PATTERN):
         frames = facts.files.frames(found.anchored(), found.first.path)

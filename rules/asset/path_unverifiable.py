@@ -1,9 +1,25 @@
 """AST010: a path that nothing here resolves can't be checked, or not rendered elsewhere."""
 
-from usdvol_lint.rule import INFO, WARNING, AssetState, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    INFO,
+    WARNING,
+    AssetState,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    rule,
+)
 
 
-@rule("AST010", on="FieldAsset", severity=WARNING, since="0.1")
+@rule(
+    "AST010",
+    on="FieldAsset",
+    when=file_paths(AssetState.LIVE_SESSION, AssetState.UNVERIFIABLE),
+    severity=WARNING,
+    since="0.1",
+)
 def path_unverifiable(field: Prim, facts: Facts) -> Problems:
     paths = facts.assets(field, "filePath")
     for live in paths.by_detail(AssetState.LIVE_SESSION):

@@ -1,9 +1,19 @@
 """AST011: a run of samples should have no holes."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, frame_ranges, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    frame_ranges,
+    rule,
+)
 
 
-@rule("AST011", on="FieldAsset", severity=WARNING, since="0.1")
+@rule("AST011", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def sequence_gap(field: Prim, facts: Facts) -> Problems:
     sequence = facts.sequence(field, "filePath")
     missing = sequence.missing() if sequence else None

@@ -1,9 +1,20 @@
 """AST012: the samples should cover the time range of the stage."""
 
-from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, format_time, rule
+from usdvol_lint.rule import (
+    INFO,
+    WARNING,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    format_time,
+    rule,
+)
 
 
-@rule("AST012", on="FieldAsset", severity=WARNING, since="0.1")
+@rule("AST012", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     sequence = facts.sequence(field, "filePath")
     if sequence is None or facts.time_range is None or not sequence.is_animated:

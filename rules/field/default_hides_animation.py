@@ -1,9 +1,9 @@
 """FLD006: a default must not hide the animation of a field's file."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 
 
-@rule("FLD006", on="FieldAsset", severity=WARNING, since="0.1")
+@rule("FLD006", on="FieldAsset", when=file_paths(PathMark.LAYERED), severity=WARNING, since="0.1")
 def default_hides_animation(field: Prim, facts: Facts) -> Problems:
     hidden = facts.hidden_animation(field, "filePath")
     if hidden:

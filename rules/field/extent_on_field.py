@@ -1,12 +1,12 @@
 """FLD008: a field has no extent, its Volume has."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, When, rule
+
+_HAS_EXTENT = When("authored", lambda authored: "extent" in authored.strange)
 
 
-@rule("FLD008", on="VolumeFieldBase", severity=INFO, since="0.1")
+@rule("FLD008", on="VolumeFieldBase", when=_HAS_EXTENT, severity=INFO, since="0.1")
 def extent_on_field(field: Prim, facts: Facts) -> Problems:
-    if "extent" not in facts.authored(field).strange:
-        return
     extent = field.GetAttribute("extent")
     if extent.HasAuthoredValue():
         yield Problem(

@@ -1,9 +1,15 @@
 """FLD002: a field should say what type of data it holds."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, When, rule
 
 
-@rule("FLD002", on="FieldAsset", severity=INFO, since="0.1")
+@rule(
+    "FLD002",
+    on="FieldAsset",
+    when=When("claims", lambda claims: not all(claim.data_type for claim in claims.all)),
+    severity=INFO,
+    since="0.1",
+)
 def field_data_type_missing(field: Prim, facts: Facts) -> Problems:
     data_type = field.GetAttribute("fieldDataType")
     if data_type.Get():

@@ -1,12 +1,10 @@
 """FLD005: few renderers look at the index of a field."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, authored, rule
 
 
-@rule("FLD005", on="FieldAsset", severity=INFO, since="0.1")
+@rule("FLD005", on="FieldAsset", when=authored("fieldIndex"), severity=INFO, since="0.1")
 def field_index_ignored(field: Prim, facts: Facts) -> Problems:
-    if "fieldIndex" not in facts.authored(field).declared:
-        return
     values = facts.values(field, "fieldIndex")
     for index, held in values.apart(
         lambda value: value if type(value) is int and value > 0 else None

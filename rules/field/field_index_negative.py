@@ -1,12 +1,10 @@
 """FLD004: an index counts from 0."""
 
-from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, authored, rule
 
 
-@rule("FLD004", on="FieldAsset", severity=ERROR, since="0.1")
+@rule("FLD004", on="FieldAsset", when=authored("fieldIndex"), severity=ERROR, since="0.1")
 def field_index_negative(field: Prim, facts: Facts) -> Problems:
-    if "fieldIndex" not in facts.authored(field).declared:
-        return
     values = facts.values(field, "fieldIndex")
     for index, held in values.apart(
         lambda value: value if type(value) is int and value < 0 else None

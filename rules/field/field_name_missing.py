@@ -1,9 +1,15 @@
 """FLD001: a field must say which of the fields in its file it is."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
 
 
-@rule("FLD001", on="FieldAsset", severity=WARNING, since="0.1")
+@rule(
+    "FLD001",
+    on="FieldAsset",
+    when=When("claims", lambda claims: not all(claim.name for claim in claims.all)),
+    severity=WARNING,
+    since="0.1",
+)
 def field_name_missing(field: Prim, facts: Facts) -> Problems:
     name = field.GetAttribute("fieldName")
     names = {name.Get(), *map(name.Get, name.GetTimeSamples())}

@@ -1,16 +1,14 @@
 """FLD003: only vectors have a role."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, authored, rule
 from usdvol_lint.schema import SCALAR_DATA_TYPES
 
 _ROLE, _DATA_TYPE = "vectorDataRoleHint", "fieldDataType"
 
 
-@rule("FLD003", on="FieldAsset", severity=INFO, since="0.1")
+@rule("FLD003", on="FieldAsset", when=authored(_ROLE), severity=INFO, since="0.1")
 def role_hint_on_scalar(field: Prim, facts: Facts) -> Problems:
     declared = facts.authored(field).declared
-    if _ROLE not in declared:
-        return
     types = list(facts.values(field, _DATA_TYPE))
     if not all(isinstance(name, str) and name in SCALAR_DATA_TYPES for name in types):
         return

@@ -1,12 +1,20 @@
 """GRD005: a field's data type must be that of its grid."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, rule
 from usdvol_lint.schema import ATTRIBUTES
 
 _KNOWN = ATTRIBUTES["OpenVDBAsset"]["fieldDataType"].tokens
 
 
-@rule("GRD005", on="FieldAsset", severity=ERROR, since="0.1")
+def _difference(content: Content) -> object:
+    claimed, grid = content.claim.data_type, content.grid
+    if claimed not in _KNOWN or grid is None or grid.value_type == "unknown":
+        return None
+    fits = claimed in content.data_types
+    return None if fits else (claimed, grid.value_type, grid.half)
+
+
+@rule("GRD005", on="FieldAsset", when=contents(_difference), severity=ERROR, since="0.1")
 def data_type_differs(field: Prim, facts: Facts) -> Problems:
     for content, found in facts.contents(field).grouped(_difference):
         grid = content.grid
@@ -23,11 +31,3 @@ def data_type_differs(field: Prim, facts: Facts) -> Problems:
             if fitting
             else f"remove it: no fieldDataType stands for {grid.value_type}",
         )
-
-
-def _difference(content: Content) -> object:
-    claimed, grid = content.claim.data_type, content.grid
-    if claimed not in _KNOWN or grid is None or grid.value_type == "unknown":
-        return None
-    fits = claimed in content.data_types
-    return None if fits else (claimed, grid.value_type, grid.half)

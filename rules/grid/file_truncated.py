@@ -1,9 +1,14 @@
 """GRD002: a file must be as long as it says."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, rule
 
 
-@rule("GRD002", on="FieldAsset", severity=ERROR, since="0.1")
+def _cut(content: Content) -> object:
+    code = content.fault and content.fault.code
+    return code if code == "truncated" else None
+
+
+@rule("GRD002", on="FieldAsset", when=contents(_cut), severity=ERROR, since="0.1")
 def file_truncated(field: Prim, facts: Facts) -> Problems:
     for content, found in facts.contents(field).grouped(_cut):
         yield Problem(
@@ -14,8 +19,3 @@ def file_truncated(field: Prim, facts: Facts) -> Problems:
             asset=found.first.authored,
             suggestion="write it again, or copy it again; look for a full disk",
         )
-
-
-def _cut(content: Content) -> object:
-    code = content.fault and content.fault.code
-    return code if code == "truncated" else None

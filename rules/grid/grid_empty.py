@@ -1,9 +1,14 @@
 """GRD008: a grid without active voxels shows nothing."""
 
-from usdvol_lint.rule import INFO, Content, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, Content, Facts, Prim, Problem, Problems, contents, rule
 
 
-@rule("GRD008", on="FieldAsset", severity=INFO, since="0.1")
+def _empty(content: Content) -> object:
+    grid = content.grid
+    return grid.label if grid is not None and grid.is_empty else None
+
+
+@rule("GRD008", on="FieldAsset", when=contents(_empty), severity=INFO, since="0.1")
 def grid_empty(field: Prim, facts: Facts) -> Problems:
     for content, found in facts.contents(field).grouped(_empty):
         yield Problem(
@@ -13,8 +18,3 @@ def grid_empty(field: Prim, facts: Facts) -> Problems:
             at_default=found.at_default,
             asset=found.first.authored,
         )
-
-
-def _empty(content: Content) -> object:
-    grid = content.grid
-    return grid.label if grid is not None and grid.is_empty else None

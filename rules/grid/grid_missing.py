@@ -1,12 +1,20 @@
 """GRD003: the grid that a field names must be in its file."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, rule
 from usdvol_lint.schema import nearest
 
 _PARTS = [tuple(f"{mark}{part}" for part in "xyz") for mark in (".", "_", ":", "")]
 
 
-@rule("GRD003", on="FieldAsset", severity=ERROR, since="0.1")
+def _missing(content: Content) -> object:
+    """What is missing, where nothing of that name may lie in what was not read."""
+    file, claim = content.file, content.claim
+    if file is None or not file.complete or not claim.name or content.grids:
+        return None
+    return claim.name, claim.purpose, bool(file.grids)
+
+
+@rule("GRD003", on="FieldAsset", when=contents(_missing), severity=ERROR, since="0.1")
 def grid_missing(field: Prim, facts: Facts) -> Problems:
     for content, found in facts.contents(field).grouped(_missing):
         name, purpose = content.claim.name, content.claim.purpose
@@ -19,14 +27,6 @@ def grid_missing(field: Prim, facts: Facts) -> Problems:
             asset=found.first.authored,
             suggestion=_suggestion(name, {grid.unique_name for grid in content.file.grids}),
         )
-
-
-def _missing(content: Content) -> object:
-    """What is missing, where nothing of that name may lie in what was not read."""
-    file, claim = content.file, content.claim
-    if file is None or not file.complete or not claim.name or content.grids:
-        return None
-    return claim.name, claim.purpose, bool(file.grids)
 
 
 def _suggestion(name: str, names: set[str]) -> str | None:

@@ -1,20 +1,6 @@
 """GRD009: one grid of the file, and no other, should answer to the field's name."""
 
-from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, rule
-
-
-@rule("GRD009", on="FieldAsset", severity=WARNING, since="0.1")
-def grid_name_ambiguous(field: Prim, facts: Facts) -> Problems:
-    for content, found in facts.contents(field).grouped(_ambiguity):
-        reason, suggestion = _ambiguity(content)
-        yield Problem(
-            f"{found.shown} holds {reason}{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
-            suggestion=suggestion,
-        )
+from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
 
 
 def _ambiguity(content: Content) -> tuple[str, str] | None:
@@ -38,3 +24,17 @@ def _ambiguity(content: Content) -> tuple[str, str] | None:
             "write the file again: readers go by the one or the other",
         )
     return None
+
+
+@rule("GRD009", on="FieldAsset", when=contents(_ambiguity), severity=WARNING, since="0.1")
+def grid_name_ambiguous(field: Prim, facts: Facts) -> Problems:
+    for content, found in facts.contents(field).grouped(_ambiguity):
+        reason, suggestion = _ambiguity(content)
+        yield Problem(
+            f"{found.shown} holds {reason}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion=suggestion,
+        )

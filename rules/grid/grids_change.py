@@ -1,9 +1,15 @@
 """GRD013: the files of a sequence should hold the same grids."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
 
 
-@rule("GRD013", on="FieldAsset", severity=WARNING, since="0.1")
+@rule(
+    "GRD013",
+    on="FieldAsset",
+    when=When("content_kinds", lambda kinds: len(kinds) > 1),
+    severity=WARNING,
+    since="0.1",
+)
 def grids_change(field: Prim, facts: Facts) -> Problems:
     changes = facts.grid_changes(field)
     if changes:

@@ -1,12 +1,42 @@
 """GRD001: a field names volume files, and of the format that its type asks for."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, NotChecked, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    ERROR,
+    Content,
+    Facts,
+    NotChecked,
+    Prim,
+    Problem,
+    Problems,
+    contents,
+    rule,
+)
 
 _FAULTS = ("not-a-volume-file", "not-a-file")
 _FORMATS = {"openvdb": "an OpenVDB", "nanovdb": "a NanoVDB", "field3d": "a Field3D"}
 
 
-@rule("GRD001", on="FieldAsset", severity=ERROR, since="0.1")
+def _unread(content: Content) -> object:
+    return content.unread
+
+
+def _stranger(content: Content) -> object:
+    return content.stranger
+
+
+def _fault(content: Content) -> object:
+    if content.fault and content.fault.code in _FAULTS:
+        return content.fault.code, content.reading.file is None
+    return None
+
+
+@rule(
+    "GRD001",
+    on="FieldAsset",
+    when=contents(_unread, _fault, _stranger),
+    severity=ERROR,
+    since="0.1",
+)
 def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
     contents = facts.contents(field)
     for content, found in contents.grouped(_unread):
@@ -38,17 +68,3 @@ def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
             asset=found.first.authored,
             suggestion="convert it" if content.stranger != "field3d" else "use a Field3DAsset",
         )
-
-
-def _unread(content: Content) -> object:
-    return content.unread
-
-
-def _stranger(content: Content) -> object:
-    return content.stranger
-
-
-def _fault(content: Content) -> object:
-    if content.fault and content.fault.code in _FAULTS:
-        return content.fault.code, content.reading.file is None
-    return None

@@ -2,22 +2,9 @@
 
 from collections.abc import Callable
 from functools import cache
+from typing import Any
 
-from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, rule
-
-
-@rule("GRD010", on="FieldAsset", severity=WARNING, since="0.1")
-def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
-    reason = _reason(newest)
-    for content, found in facts.contents(field).grouped(reason):
-        yield Problem(
-            f"{found.shown}: {reason(content)}{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
-            suggestion="write it again with another version of the library",
-        )
+from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, When, rule
 
 
 @cache
@@ -35,3 +22,21 @@ def _reason(newest: int) -> Callable[[Content], str | None]:
         return next(warnings, None)
 
     return reason
+
+
+def _holds(kinds: tuple[Any, ...], newest: int) -> bool:
+    return any(kind.answer(_reason(newest)) is not None for kind in kinds)
+
+
+@rule("GRD010", on="FieldAsset", when=When("content_kinds", _holds), severity=WARNING, since="0.1")
+def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
+    reason = _reason(newest)
+    for content, found in facts.contents(field).grouped(reason):
+        yield Problem(
+            f"{found.shown}: {reason(content)}{found.count}",
+            at=found.attribute,
+            times=found.times,
+            at_default=found.at_default,
+            asset=found.first.authored,
+            suggestion="write it again with another version of the library",
+        )

@@ -4,17 +4,21 @@ from math import isfinite
 from operator import le
 from typing import Any
 
-from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, When, rule
 
 _LARGEST = 3.4028234663852886e38
 _NOTHING = (2, (_LARGEST,) * 3, (-_LARGEST,) * 3)
 """USD's empty range: what it computes as the extent of no points."""
 
 
-@rule("SCH008", on=("Volume", "ParticleField"), severity=ERROR, since="0.1")
+@rule(
+    "SCH008",
+    on=("Volume", "ParticleField"),
+    when=When("has_odd_extent", bool),
+    severity=ERROR,
+    since="0.1",
+)
 def extent_malformed(prim: Prim, facts: Facts) -> Problems:
-    if "extent" not in facts.authored(prim).declared:
-        return
     for fault, held in facts.extents(prim).apart(_fault):
         first = next(iter(held))
         corners = f": {first.low}, {first.high}" if first.size == 2 else ""

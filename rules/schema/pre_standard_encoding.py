@@ -1,11 +1,12 @@
 """SCH011: volumes and splats in encodings from before the schema are none to other readers."""
 
-from usdvol_lint.rule import UNKNOWN_TYPE, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import UNKNOWN_TYPE, WARNING, Facts, Prim, Problem, Problems, When, rule
 
 
 @rule(
     "SCH011",
     on=(UNKNOWN_TYPE, "Points", "ParticleField", "Volume"),
+    when=When("is_strange", bool),
     severity=WARNING,
     since="0.1",
 )

@@ -1,10 +1,16 @@
 """SCH005: an attribute with a list of allowed tokens holds one of them."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, When, rule
 from usdvol_lint.schema import misspelt_token
 
 
-@rule("SCH005", on=("VolumeFieldBase", "ParticleField"), severity=ERROR, since="0.1")
+@rule(
+    "SCH005",
+    on=("VolumeFieldBase", "ParticleField"),
+    when=When("authored", lambda authored: bool(authored.tokens)),
+    severity=ERROR,
+    since="0.1",
+)
 def token_not_allowed(prim: Prim, facts: Facts) -> Problems:
     for name, token, allowed, values in facts.unlisted_tokens(prim):
         meant = misspelt_token(name, token, allowed)

@@ -1,9 +1,15 @@
 """SCH006: a uniform attribute has one value, and time samples are no such thing."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
 
 
-@rule("SCH006", on=("Volume", "VolumeFieldBase", "ParticleField"), severity=WARNING, since="0.1")
+@rule(
+    "SCH006",
+    on=("Volume", "VolumeFieldBase", "ParticleField"),
+    when=When("authored", lambda authored: bool(authored.uniform)),
+    severity=WARNING,
+    since="0.1",
+)
 def uniform_attribute_animated(prim: Prim, facts: Facts) -> Problems:
     for name in facts.authored(prim).uniform:
         values = facts.values(prim, name)

@@ -1,9 +1,16 @@
 """VOL011: a field that one Volume alone uses should lie below it."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
-@rule("VOL011", on="Volume", severity=INFO, since="0.1", default=False)
+@rule(
+    "VOL011",
+    on="Volume",
+    when=bindings(BindingMark.OUTSIDE),
+    severity=INFO,
+    since="0.1",
+    default=False,
+)
 def field_outside_volume(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.fields(volume).outside(volume):
         if not facts.is_shared(volume, target.prim):

@@ -1,9 +1,9 @@
 """VOL015: a field outside its Volume should have the Volume's transform."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
-@rule("VOL015", on="Volume", severity=INFO, since="0.1")
+@rule("VOL015", on="Volume", when=bindings(BindingMark.OUTSIDE), severity=INFO, since="0.1")
 def field_transform_differs(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.fields(volume).outside(volume):
         displacement = facts.displacement(volume, target.prim)

@@ -1,11 +1,11 @@
-"""VOL012: a field does something only if a Volume targets it."""
+"""VOL012: a field that no Volume targets is drawn by nobody."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, STAGE, Facts, Prim, Problem, Problems, rule
 
 
-@rule("VOL012", on="VolumeFieldBase", severity=INFO, since="0.1")
-def field_unused(field: Prim, facts: Facts) -> Problems:
-    if field.GetPath() in facts.unused_field_paths:
+@rule("VOL012", on=STAGE, severity=INFO, since="0.1")
+def field_unused(root: Prim, facts: Facts) -> Problems:
+    for field in facts.unused_fields:
         yield Problem(
             f"no Volume of this stage targets the field {field.GetName()!r}",
             at=field,

@@ -1,9 +1,9 @@
 """VOL014: the fields of one Volume should name one file."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
-@rule("VOL014", on="Volume", severity=INFO, since="0.1")
+@rule("VOL014", on="Volume", when=bindings(BindingMark.SEVERAL), severity=INFO, since="0.1")
 def mixed_files(volume: Prim, facts: Facts) -> Problems:
     mixed = facts.mixed_files(volume)
     if mixed:

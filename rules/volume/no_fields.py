@@ -1,9 +1,19 @@
 """VOL010: a Volume without fields shows nothing, unless a renderer fills it by other means."""
 
-from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    INFO,
+    WARNING,
+    BindingMark,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    bindings,
+    rule,
+)
 
 
-@rule("VOL010", on="Volume", severity=WARNING, since="0.1")
+@rule("VOL010", on="Volume", when=bindings(BindingMark.NONE), severity=WARNING, since="0.1")
 def no_fields(volume: Prim, facts: Facts) -> Problems:
     fields = facts.fields(volume)
     if fields.bindings or fields.strays or facts.composition.may_lack(volume):

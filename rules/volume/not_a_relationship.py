@@ -1,9 +1,25 @@
 """VOL006: a field must be bound by a relationship in the `field:` namespace."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    ERROR,
+    WARNING,
+    BindingMark,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    bindings,
+    rule,
+)
 
 
-@rule("VOL006", on="Volume", severity=ERROR, since="0.1")
+@rule(
+    "VOL006",
+    on="Volume",
+    when=bindings(BindingMark.ATTRIBUTE, BindingMark.STRAY),
+    severity=ERROR,
+    since="0.1",
+)
 def not_a_relationship(volume: Prim, facts: Facts) -> Problems:
     fields = facts.fields(volume)
     for binding in fields.bindings:

@@ -1,9 +1,25 @@
 """VOL003: a field relationship must have a target."""
 
-from usdvol_lint.rule import INFO, WARNING, Emptiness, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import (
+    INFO,
+    WARNING,
+    Emptiness,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    bindings,
+    rule,
+)
 
 
-@rule("VOL003", on="Volume", severity=WARNING, since="0.1")
+@rule(
+    "VOL003",
+    on="Volume",
+    when=bindings(Emptiness.UNAUTHORED, Emptiness.BLOCKED, Emptiness.DELETED),
+    severity=WARNING,
+    since="0.1",
+)
 def relationship_empty(volume: Prim, facts: Facts) -> Problems:
     for binding in facts.fields(volume).relationships:
         if binding.emptiness is Emptiness.UNAUTHORED:

@@ -1,9 +1,9 @@
 """VOL005: a field relationship must target a prim, not one of its properties."""
 
-from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, rule
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, bindings, rule
 
 
-@rule("VOL005", on="Volume", severity=ERROR, since="0.1")
+@rule("VOL005", on="Volume", when=bindings(TargetState.PROPERTY), severity=ERROR, since="0.1")
 def target_is_a_property(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.fields(volume).with_target(TargetState.PROPERTY):
         meant = facts.meant_field(binding)

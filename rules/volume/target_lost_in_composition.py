@@ -1,9 +1,9 @@
 """VOL007: the target of a field relationship must survive composition."""
 
-from usdvol_lint.rule import ERROR, Emptiness, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Emptiness, Facts, Prim, Problem, Problems, bindings, rule
 
 
-@rule("VOL007", on="Volume", severity=ERROR, since="0.1")
+@rule("VOL007", on="Volume", when=bindings(Emptiness.LOST), severity=ERROR, since="0.1")
 def target_lost_in_composition(volume: Prim, facts: Facts) -> Problems:
     for binding in facts.fields(volume).relationships:
         if binding.emptiness is Emptiness.LOST:

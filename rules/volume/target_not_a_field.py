@@ -1,10 +1,26 @@
 """VOL002: a field relationship must target a field."""
 
-from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, rule
+from usdvol_lint.rule import (
+    ERROR,
+    Facts,
+    NotChecked,
+    Prim,
+    Problem,
+    Problems,
+    TargetState,
+    bindings,
+    rule,
+)
 from usdvol_lint.schema import misspelt_type
 
 
-@rule("VOL002", on="Volume", severity=ERROR, since="0.1")
+@rule(
+    "VOL002",
+    on="Volume",
+    when=bindings(TargetState.NOT_A_FIELD, TargetState.UNKNOWN_TYPE),
+    severity=ERROR,
+    since="0.1",
+)
 def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
     bindings = facts.fields(volume)
     for binding, target in bindings.with_target(TargetState.NOT_A_FIELD):

@@ -1,6 +1,6 @@
 """VOL008: the target of a field relationship must be active, defined and concrete."""
 
-from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, rule
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, bindings, rule
 
 _WHY = {
     TargetState.INACTIVE: ("inactive", "activate <{}>"),
@@ -9,7 +9,7 @@ _WHY = {
 }
 
 
-@rule("VOL008", on="Volume", severity=ERROR, since="0.1")
+@rule("VOL008", on="Volume", when=bindings(*_WHY), severity=ERROR, since="0.1")
 def target_not_live(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.fields(volume).with_target(*_WHY):
         what, advice = _WHY[target.state]

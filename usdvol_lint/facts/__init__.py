@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,7 @@ from usdvol_lint.facts.states import TargetState
 if TYPE_CHECKING:
     from usdvol_lint.facts.arrays import ParticleArrays
     from usdvol_lint.facts.arrays.extent import Strays
-    from usdvol_lint.facts.assets import Affected, AssetSamples, UnlistedClips
+    from usdvol_lint.facts.assets import Affected, AssetReader, AssetSamples, UnlistedClips
     from usdvol_lint.facts.attributes import (
         Authored,
         AuthoredAttributes,
@@ -23,18 +24,27 @@ if TYPE_CHECKING:
         Unlisted,
     )
     from usdvol_lint.facts.changes import GridChanges
+    from usdvol_lint.facts.claims import ClaimReader, FieldClaims
     from usdvol_lint.facts.clips import Clips, ClipSet
     from usdvol_lint.facts.colour_spaces import ColourSpace
     from usdvol_lint.facts.composition import Composition
-    from usdvol_lint.facts.contents import ContentReader, FieldContents
-    from usdvol_lint.facts.enclosure import Boxes, Shortfall
+    from usdvol_lint.facts.contents import ContentReader, FieldContents, Kind
+    from usdvol_lint.facts.enclosure import Enclosure, Shortfall
     from usdvol_lint.facts.encodings import Encoding
-    from usdvol_lint.facts.fields import Binding, FieldBindings, FieldNames, Target
+    from usdvol_lint.facts.extents import Limits
+    from usdvol_lint.facts.fields import (
+        Binding,
+        BindingReader,
+        FieldBindings,
+        FieldNames,
+        Target,
+    )
     from usdvol_lint.facts.files import Files
     from usdvol_lint.facts.kinds import Key, Kinds
     from usdvol_lint.facts.mixture import MixedFiles
     from usdvol_lint.facts.nesting import Nested, Nesting
     from usdvol_lint.facts.particles import ParticleApis
+    from usdvol_lint.facts.path_marks import PathMarks
     from usdvol_lint.facts.placement import Displacement
     from usdvol_lint.facts.places import Recased
     from usdvol_lint.facts.sequences import SampleSequence
@@ -113,25 +123,37 @@ class Facts:
     def assets(self, prim: Any, name: str) -> AssetSamples:
         """Every value of an asset attribute, resolved and classified."""
         known = self._known_of(prim)
-        if name not in known:
-            from usdvol_lint.facts.assets import read_asset_samples
-
-            known[name] = read_asset_samples(prim.GetAttribute(name), self.files, self._advance)
-        samples: AssetSamples = known[name]
+        samples: AssetSamples | None = known.get(name)
+        if samples is None:
+            samples = known[name] = self._asset_reader.read(prim.GetAttribute(name))
         return samples
+
+    def file_path_marks(self, field: Any) -> frozenset[Enum]:
+        """What there is to say of the values of a field's `filePath`."""
+        return self._path_marks.of(self.assets(field, "filePath"), self.authored(field))
+
+    def claims(self, field: Any) -> FieldClaims:
+        """What a field says of the content of its files."""
+        known = self._known_of(field)
+        claims: FieldClaims | None = known.get(":claims")
+        if claims is None:
+            read = self._claim_reader.read(field, self.authored(field).declared)
+            claims = known[":claims"] = read
+        return claims
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""
         known = self._known_of(field)
-        if ":contents" not in known:
-            known[":contents"] = self._content_reader.read(
-                field,
-                self.assets(field, "filePath"),
-                self.kinds.names(self.kinds.key(field)),
-                self.authored(field).declared,
+        contents: FieldContents | None = known.get(":contents")
+        if contents is None:
+            contents = known[":contents"] = self._content_reader.read(
+                self.assets(field, "filePath"), self.claims(field), self.authored(field).schemas
             )
-        contents: FieldContents = known[":contents"]
         return contents
+
+    def content_kinds(self, field: Any) -> tuple[Kind, ...]:
+        """What sums up what is inside the files that a field names."""
+        return tuple(kind for kind, _ in self.contents(field).kinds)
 
     def sequence(self, prim: Any, name: str) -> SampleSequence | None:
         """The time samples of an asset attribute as a sequence, or None if there are not two."""
@@ -169,14 +191,14 @@ class Facts:
     def fields(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
         known = self._known_of(volume)
-        if ":fields" not in known:
-            from usdvol_lint.facts.fields import read_field_bindings
-
-            known[":fields"] = read_field_bindings(
-                volume, self.kinds, lambda prim: self.composition.may_lack(prim)
-            )
-        bindings: FieldBindings = known[":fields"]
+        bindings: FieldBindings | None = known.get(":fields")
+        if bindings is None:
+            bindings = known[":fields"] = self._binding_reader.read(volume, self._may_lack)
         return bindings
+
+    def binding_marks(self, volume: Any) -> frozenset[Enum]:
+        """What there is to say of what the `field:` namespace of a Volume binds."""
+        return self.fields(volume).marks(volume)
 
     def apis(self, prim: Any) -> ParticleApis:
         """The applied APIs of a prim, those that nobody registers among them."""
@@ -187,6 +209,11 @@ class Facts:
             known[":apis"] = read_particle_apis(prim, self.kinds)
         apis: ParticleApis = known[":apis"]
         return apis
+
+    def is_strange(self, prim: Any) -> bool:
+        """Whether a prim has properties that no schema declares, or is of no type of ours."""
+        known = self._authored.known(prim)
+        return known is None or bool(known.strange)
 
     def encoding(self, prim: Any) -> Encoding | None:
         """The encoding from before the schema that a prim is in, if it is in one."""
@@ -245,11 +272,7 @@ class Facts:
 
     def authored(self, prim: Any) -> Authored:
         """The authored attributes of a prim, by what the schemas declare of them."""
-        known = self._known_of(prim)
-        if ":authored" not in known:
-            known[":authored"] = self._authored.on(prim)
-        authored: Authored = known[":authored"]
-        return authored
+        return self._authored.on(prim)
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
@@ -274,6 +297,18 @@ class Facts:
         from usdvol_lint.facts.extents import read_extents
 
         return read_extents(prim.GetAttribute("extent"))
+
+    def limits(self, prim: Any) -> Limits:
+        """Every `extent` of a prim as a box."""
+        known = self._known_of(prim)
+        limits: Limits | None = known.get(":limits")
+        if limits is None:
+            limits = known[":limits"] = self._limits(prim.GetAttribute("extent"))
+        return limits
+
+    def has_odd_extent(self, prim: Any) -> bool:
+        """Whether some authored `extent` is no box."""
+        return self.limits(prim).are_odd
 
     def gprim_above(self, prim: Any) -> Any | None:
         """The nearest Gprim among the ancestors of a prim."""
@@ -337,19 +372,16 @@ class Facts:
 
     def extent_shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
         """What the grids of a Volume have outside its extent, if one is authored."""
-        from usdvol_lint.facts.enclosure import Limits, PlacedField, find_shortfall, grids_over_time
-        from usdvol_lint.facts.placement import read_placement
-
-        limits = Limits(volume.GetAttribute("extent"))
+        limits = self.limits(volume)
+        if not limits.are_authored:
+            return None
         fields = []
-        bound = self._bound_assets(volume) if limits.are_authored else ()
-        for _, target in bound:
+        for _, target in self._bound_assets(volume):
             field = in_prototype(target.prim)
-            grids = grids_over_time(self.assets(field, "filePath"), self.contents(field))
-            if any(grid for _, grid in grids):
-                placement = read_placement(volume, target.prim)
-                fields.append(PlacedField(target.shown, grids, placement))
-        return find_shortfall(limits, fields, relative_slack, self._boxes) if fields else None
+            contents = self.contents(field)
+            if contents.select_grids:
+                fields.append((target, self.assets(field, "filePath"), contents))
+        return self._enclosure.shortfall(volume, limits, fields, relative_slack) if fields else None
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:
         """The different files that the fields of a Volume name at one time, if they do."""
@@ -369,8 +401,8 @@ class Facts:
         return self._field_users.keys()
 
     @cached_property
-    def unused_field_paths(self) -> frozenset[Any]:
-        """The paths of the fields that no Volume targets, on a stage of which all could be seen.
+    def unused_fields(self) -> list[Any]:
+        """The fields that no Volume targets, on a stage of which all could be seen.
 
         Those are left out that something wrong with a Volume accounts for: they lie below it, or
         a broken relationship was probably meant to target them.
@@ -379,15 +411,16 @@ class Facts:
 
         volumes = self.of(schema.VOLUME)
         self._ever_used |= self.used_field_paths
-        unused = {field.GetPath() for field in self.of(schema.FIELD)} - self._ever_used
+        fields = {field.GetPath(): field for field in self.of(schema.FIELD)}
+        unused = fields.keys() - self._ever_used
         if not volumes or not unused or not self.composition.is_whole:
-            return frozenset()
+            return []
         for volume in volumes:
             if not self.fields(volume).is_sound:
                 below = fields_below(volume, self.kinds)
                 unused.difference_update(in_prototype(field).GetPath() for field in below)
                 unused.difference_update(map(self._meant_path, self.fields(volume).bindings))
-        return frozenset(unused)
+        return [fields[path] for path in sorted(unused)]
 
     @cached_property
     def without_extent(self) -> list[Any]:
@@ -419,7 +452,8 @@ class Facts:
 
         names = (schema.FIELD, schema.VOLUME, schema.PARTICLE_FIELD)
         subjects = [prim for name in names for prim in self.of(name)]
-        clip_sets = dict.fromkeys(found for prim in subjects for found in self.clip_sets(prim))
+        clipped = [prim for prim in subjects if self.authored(prim).is_clipped]
+        clip_sets = dict.fromkeys(found for prim in clipped for found in self.clip_sets(prim))
         return read_composition(self.stage, clip_sets)
 
     def grid_changes(self, field: Any) -> GridChanges | None:
@@ -435,6 +469,36 @@ class Facts:
         others = map(self.contents, self.of(schema.FIELD_ASSET))
         sharing = [other for other in others if other.files == contents.files]
         return find_grid_changes(sharing) if sharing[0] is contents else None
+
+    @cached_property
+    def _asset_reader(self) -> AssetReader:
+        from usdvol_lint.facts.assets import AssetReader
+
+        return AssetReader(self.files, self._advance)
+
+    @cached_property
+    def _path_marks(self) -> PathMarks:
+        from usdvol_lint.facts.path_marks import PathMarks
+
+        return PathMarks(self.files, self._has_packages)
+
+    @cached_property
+    def _claim_reader(self) -> ClaimReader:
+        from usdvol_lint.facts.claims import ClaimReader
+
+        return ClaimReader()
+
+    @cached_property
+    def _binding_reader(self) -> BindingReader:
+        from usdvol_lint.facts.fields import BindingReader
+
+        return BindingReader(self.kinds)
+
+    @cached_property
+    def _limits(self) -> type[Limits]:
+        from usdvol_lint.facts.extents import Limits
+
+        return Limits
 
     @cached_property
     def _content_reader(self) -> ContentReader:
@@ -460,8 +524,14 @@ class Facts:
     def _known_of(self, prim: Any) -> dict[str, Any]:
         """What was found of one prim, by name; hashing a prim is dear, and rules ask in a row."""
         if prim is not self._prim:
-            self._prim, self._of_prim = prim, self._known.setdefault(prim, {})
+            known = self._known.get(prim)
+            if known is None:
+                known = self._known[prim] = {}
+            self._prim, self._of_prim = prim, known
         return self._of_prim
+
+    def _may_lack(self, prim: Any) -> bool:
+        return self.composition.may_lack(prim)
 
     def _meant_path(self, binding: Binding) -> Any | None:
         from usdvol_lint.facts.fields import meant_path
@@ -470,15 +540,15 @@ class Facts:
         return self._field_names.nearest(path) if path else None
 
     @cached_property
-    def _boxes(self) -> Boxes:
-        from usdvol_lint.facts.enclosure import Boxes
+    def _enclosure(self) -> Enclosure:
+        from usdvol_lint.facts.enclosure import Enclosure
 
-        return Boxes()
+        return Enclosure()
 
     def _bound_assets(self, volume: Any) -> Iterator[tuple[Binding, Target]]:
         """The fields with a file that a Volume really gets, with what binds them."""
         for binding, target in self.fields(volume).with_target(TargetState.FIELD):
-            if self.is_a(target.prim, schema.FIELD_ASSET):
+            if schema.FIELD_ASSET in self.authored(in_prototype(target.prim)).schemas:
                 yield binding, target
 
     @cached_property

@@ -25,7 +25,13 @@ _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
 _LIVE_SCHEMES = frozenset({"op", "opdef", "oplib"})
 _FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
 _LAYERS_NAMED = 3
+_READ_TOGETHER = 1024
+_FILE = frozenset({AssetState.FILE})
 _PATH_OF = attrgetter("path")
+# To look a method up on an object of USD's takes as long as what most methods do.
+_get = Usd.Attribute.Get
+_count_samples = Usd.Attribute.GetNumTimeSamples
+_is_authored = Usd.Property.IsAuthored
 
 
 class Sample(NamedTuple):
@@ -44,8 +50,7 @@ class Sample(NamedTuple):
     detail: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class AssetSamples:
+class AssetSamples(NamedTuple):
     """All samples of one asset attribute in ascending time, the default first.
 
     `states` are those that occur: most rules find nothing, and need not look at each sample.
@@ -169,22 +174,38 @@ class Affected:
         return _anchored(self.attribute, self.first.time, self.first.path)
 
 
-def read_asset_samples(
-    attribute: Any, files: Files, advance: Callable[[int], None] = lambda count: None
-) -> AssetSamples:
-    """Reads every value that USD gives for the attribute: default, time samples, value clips.
+class AssetReader:
+    """Reads every value that USD gives for an attribute: default, time samples, value clips.
 
     `advance` is told how many samples were read since its last call.
     """
-    samples = []
-    authored = attribute.IsAuthored() or attribute.HasAuthoredValue()
-    values = read_values(attribute) if authored else ()
-    for number, (time, value) in enumerate(values, start=1):
-        samples.append(_classify(attribute, time, value, files))
-        if number % 1024 == 0:
-            advance(1024)
-    states = frozenset(sample.state for sample in samples)
-    return AssetSamples(attribute, tuple(samples), states)
+
+    def __init__(self, files: Files, advance: Callable[[int], None]) -> None:
+        self._files = files
+        self._advance = advance
+        self._alone: dict[Any, tuple[Sample]] = {}
+        """Defaults that name files, which are the same wherever they are authored."""
+
+    def read(self, attribute: Any) -> AssetSamples:
+        if not (_is_authored(attribute) or attribute.HasAuthoredValue()):
+            return AssetSamples(attribute, (), frozenset())
+        if _count_samples(attribute):
+            samples = tuple(self._classified(attribute))
+            return AssetSamples(attribute, samples, frozenset(each.state for each in samples))
+        value = _get(attribute)
+        alone = self._alone.get(value) if isinstance(value, Sdf.AssetPath) else None
+        if alone:
+            return AssetSamples(attribute, alone, _FILE)
+        alone = (_classify(attribute, None, value, self._files),)
+        if alone[0].state is AssetState.FILE and _FORMAT_ARGUMENTS not in alone[0].path:
+            self._alone[value] = alone
+        return AssetSamples(attribute, alone, frozenset({alone[0].state}))
+
+    def _classified(self, attribute: Any) -> Iterator[Sample]:
+        for number, (time, value) in enumerate(read_values(attribute), start=1):
+            yield _classify(attribute, time, value, self._files)
+            if number % _READ_TOGETHER == 0:
+                self._advance(_READ_TOGETHER)
 
 
 def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:

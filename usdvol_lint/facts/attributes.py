@@ -14,28 +14,37 @@ from usdvol_lint.facts.kinds import Key, Kinds
 from usdvol_lint.facts.values import Values, values_of
 
 # To look a method up on an object of USD's takes as long as what most methods do.
+_names = Usd.Prim.GetAuthoredPropertyNames
+_stack = Usd.Prim.GetPrimStack
 _attribute = Usd.Prim.GetAttribute
 _get = Usd.Attribute.Get
 _count_samples = Usd.Attribute.GetNumTimeSamples
-_specs = Usd.Property.GetPropertyStack
+_property_of = Sdf.Path.AppendProperty
+_attribute_at = Sdf.Layer.GetAttributeAtPath
+_type_of = Sdf.AttributeSpec.typeName.fget
 _OURS = frozenset({schema.VOLUME, schema.FIELD, schema.PARTICLE_FIELD})
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Authored:
     """What prims of one kind share on which the same properties are authored.
 
+    `schemas` are those that they answer to.
     `declared` are those that UsdVol's schemas, or the ones they derive from, declare, with those
     that have values in clips alone; `types` are theirs, `tokens` and `uniform` are some of them.
     `strange` are names that no schema declares, `meant` is what some of these may be slips of.
+    `is_layered` says that several specs have a say, `is_clipped` that value clips may.
     """
 
+    schemas: frozenset[str]
     declared: Mapping[str, schema.Attribute]
     types: tuple[tuple[str, Any], ...]
     tokens: tuple[tuple[str, tuple[str, ...]], ...]
     uniform: tuple[str, ...]
     strange: frozenset[str]
     meant: tuple[tuple[str, str, str], ...]
+    is_layered: bool
+    is_clipped: bool
 
 
 class Mistyped(NamedTuple):
@@ -76,7 +85,7 @@ class AuthoredAttributes:
     def __init__(self, kinds: Kinds, kept: Mapping[Key, Sequence[Any]], clips: Clips) -> None:
         self._kinds = kinds
         self._clips = clips
-        self._shared: dict[tuple[Key, tuple[str, ...]], Authored] = {}
+        self._shared: dict[tuple[Key, tuple[str, ...], bool, bool], Authored] = {}
         self._prims: dict[Any, Authored] = {}
         for key, prims in kept.items():
             if not _OURS.isdisjoint(kinds.names(key)):
@@ -87,16 +96,27 @@ class AuthoredAttributes:
         """What is authored on a prim."""
         return self._prims.get(prim) or self._find(self._kinds.key(prim), prim)
 
+    def known(self, prim: Any) -> Authored | None:
+        """The same, or None if it is no prim of ours."""
+        return self._prims.get(prim)
+
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs, in every layer, whose type is not the one that the schema declares."""
-        for name, wanted in self.on(prim).types:
-            attribute = _attribute(prim, name)
-            for spec in _specs(attribute):
-                found = getattr(spec, "typeName", None)
-                if found == wanted:
-                    continue
-                same_values = found is not None and found.type == wanted.type
-                yield Mistyped(attribute, spec, str(found or "rel"), str(wanted), same_values)
+        types = self.on(prim).types
+        stack = _stack(prim) if types else ()
+        for holder in stack:
+            layer, path = holder.layer, holder.path
+            for name, wanted in types:
+                place = _property_of(path, name)
+                spec = _attribute_at(layer, place)
+                if spec is None:
+                    spec = layer.GetRelationshipAtPath(place)
+                    if spec:
+                        yield Mistyped(_attribute(prim, name), spec, "rel", str(wanted), False)
+                elif (found := _type_of(spec)) != wanted:
+                    same_values = found.type == wanted.type
+                    attribute = _attribute(prim, name)
+                    yield Mistyped(attribute, spec, str(found), str(wanted), same_values)
 
     def misspelt(self, prim: Any) -> Iterator[Misspelt]:
         """The attributes with values that nobody reads for a slip in their names.
@@ -123,17 +143,22 @@ class AuthoredAttributes:
                     yield Unlisted(name, token, allowed, values)
 
     def _find(self, key: Key, prim: Any) -> Authored:
-        names = tuple(Usd.Prim.GetAuthoredPropertyNames(prim))
-        if self._clips.reaching(prim):
+        names = tuple(_names(prim))
+        is_layered, is_clipped = len(_stack(prim)) > 1, bool(self._clips.reaching(prim))
+        if is_clipped:
             known = schema.attributes_of(self._kinds.names(key))
             names += tuple(name for name in known if prim.GetAttribute(name).HasAuthoredValue())
-        found = self._shared.get((key, names))
+        shape = (key, names, is_layered, is_clipped)
+        found = self._shared.get(shape)
         if found is None:
-            found = self._shared[key, names] = _compare(prim, names, self._kinds.names(key))
+            found = _compare(prim, names, self._kinds.names(key), is_layered, is_clipped)
+            self._shared[shape] = found
         return found
 
 
-def _compare(prim: Any, names: Iterable[str], schemas: frozenset[str]) -> Authored:
+def _compare(
+    prim: Any, names: Iterable[str], schemas: frozenset[str], is_layered: bool, is_clipped: bool
+) -> Authored:
     known = schema.attributes_of(schemas)
     candidates = dict(known)
     if schema.PARTICLE_FIELD in schemas:
@@ -141,7 +166,10 @@ def _compare(prim: Any, names: Iterable[str], schemas: frozenset[str]) -> Author
     registered = prim.GetPrimDefinition().GetPropertyNames()
     declared = {name: known[name] for name in names if name in known}
     strange = frozenset(names).difference(candidates, registered)
+    if schema.VOLUME in schemas:
+        strange = frozenset(name for name in strange if not name.startswith(schema.FIELD_NAMESPACE))
     return Authored(
+        schemas=schemas,
         declared=declared,
         types=tuple(
             (name, Sdf.ValueTypeNames.Find(attribute.type_name))
@@ -155,6 +183,8 @@ def _compare(prim: Any, names: Iterable[str], schemas: frozenset[str]) -> Author
             for name in sorted(strange)
             if (meant := schema.misspelt_attribute(name, candidates))
         ),
+        is_layered=is_layered,
+        is_clipped=is_clipped,
     )
 
 

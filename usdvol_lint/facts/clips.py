@@ -8,6 +8,8 @@ from typing import Any
 from pxr import Sdf, Tf, Usd
 
 _CLIPS_LOOKED_AT = 4
+# To look a method up on an object of USD's takes as long as what most methods do.
+_has_metadata = Usd.Prim.HasAuthoredMetadata
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +81,6 @@ def authored_path(asset: Any) -> str:
 
 def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
     """The clip sets authored on this very prim."""
-    if not prim.HasAuthoredMetadata("clips"):
-        return ()
     api = Usd.ClipsAPI(prim)
     found = []
     for name in sorted(api.GetClips() or ()):
@@ -105,15 +105,16 @@ def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
 
 
 class Clips:
-    """Clip sets by prim, each ancestor looked at once."""
+    """Finds clip sets; each ancestor is looked at once."""
 
     def __init__(self) -> None:
         self._reaching: dict[Any, tuple[ClipSet, ...]] = {}
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets on the prim and its ancestors, nearest first."""
-        found = self._reaching.get(prim)
-        if found is None:
-            above = () if prim.IsPseudoRoot() else self.reaching(prim.GetParent())
-            found = self._reaching[prim] = clip_sets_on(prim) + above
-        return found
+        parent = prim.GetParent()
+        above = self._reaching.get(parent)
+        if above is None:
+            above = () if parent.IsPseudoRoot() else self.reaching(parent)
+            self._reaching[parent] = above
+        return clip_sets_on(prim) + above if _has_metadata(prim, "clips") else above

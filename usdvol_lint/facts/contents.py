@@ -3,51 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Container, Hashable, Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Ar
 
 from usdvol_lint.facts.assets import Affected, AssetSamples, Sample
+from usdvol_lint.facts.claims import Claim, FieldClaims
 from usdvol_lint.facts.files import is_packaged
 from usdvol_lint.facts.held import Held, Time
 from usdvol_lint.facts.states import AssetState
-from usdvol_lint.facts.values import read_values
 from usdvol_lint.volumefile import tokens
 from usdvol_lint.volumefile.cache import Fault, Reading, VolumeFiles
 from usdvol_lint.volumefile.model import Format, Grid, VolumeFile, quoted
 
-FORMATS: dict[str, Format] = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
+_FORMATS: dict[str, Format] = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
 _READ_TOGETHER = 1024
 _NAMES = 8
 _UNREAD = ("needs-h5py", "not-in-place")
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Claim:
-    """What a field says at one time of what it wants from its file; empty where it says nothing.
-
-    Fields of a stage that say the same share one.
-    """
-
-    name: str = ""
-    purpose: str = ""
-    index: int | None = None
-    data_type: str = ""
-    field_class: str = ""
-    role_hint: str = ""
-
-
-_ATTRIBUTES = {
-    "fieldName": "name",
-    "fieldPurpose": "purpose",
-    "fieldIndex": "index",
-    "fieldDataType": "data_type",
-    "fieldClass": "field_class",
-    "vectorDataRoleHint": "role_hint",
-}
-_TYPES = {name: int if name == "index" else str for name in _ATTRIBUTES.values()}
 
 
 class Content(NamedTuple):
@@ -170,8 +143,7 @@ class Kind:
         return answers[key]
 
 
-@dataclass(frozen=True, slots=True)
-class FieldContents:
+class FieldContents(NamedTuple):
     """The contents of all files that a field names, by kind, in ascending time, the default first.
 
     `total` is at how many times it was looked for them.
@@ -208,10 +180,15 @@ class FieldContents:
     def grids(self) -> Iterator[tuple[Time, Grid | None]]:
         """The grid that name and index select, at each time."""
         for kind, contents in self.kinds:
-            chosen, file = kind.content.grid, kind.content.file
-            place = file.grids.index(chosen) if file and chosen else 0
+            place = kind.answer(_place_of_grid)
             for sample, _, reading, _ in contents:
-                yield sample.time, reading.file.grids[place] if chosen and reading.file else None
+                is_there = place is not None and reading.file is not None
+                yield sample.time, reading.file.grids[place] if is_there else None
+
+    @property
+    def select_grids(self) -> bool:
+        """Whether some file was looked into and has the grid that the field names."""
+        return any(kind.answer(_place_of_grid) is not None for kind, _ in self.kinds)
 
     @property
     def single_grid(self) -> bool:
@@ -235,24 +212,26 @@ class ContentReader:
         self._files = files
         self._extent = extent
         self._advance = advance
+        self._formats: dict[frozenset[str], Format | None] = {}
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
-        self._claims: dict[tuple[Any, ...], Claim] = {}
         self._kinds: dict[Hashable, Kind] = {}
 
     def read(
-        self, field: Any, samples: AssetSamples, schemas: Iterable[str], authored: Container[str]
+        self, samples: AssetSamples, claims: FieldClaims, schemas: frozenset[str]
     ) -> FieldContents:
         """The contents of the files in the samples of a field's `filePath`.
 
-        `schemas` are those that the field answers to; `authored` has the names of its attributes.
+        `schemas` are those that the field answers to.
         """
-        wanted = next((FORMATS[name] for name in schemas if name in FORMATS), None)
+        wanted = self._wanted(schemas)
         if not wanted or self._extent == "off" or AssetState.FILE not in samples.states:
             return FieldContents(samples.attribute, (), 0)
+        if len(samples.samples) == 1 and not claims.times:
+            return self._read_one(samples, claims.default, wanted)
         kinds: dict[Kind, list[Content]] = {}
         total = read = 0
-        for sample, claim in self._moments(samples, field, authored):
+        for sample, claim in _moments(samples, claims):
             total += sample.time is not None
             if sample.state is AssetState.FILE:
                 content = Content(sample, claim, self._reading(sample.resolved), wanted)
@@ -265,6 +244,19 @@ class ContentReader:
                     self._advance(_READ_TOGETHER)
         return FieldContents(samples.attribute, tuple(kinds.items()), total)
 
+    def _wanted(self, schemas: frozenset[str]) -> Format | None:
+        """The format of files that fields of these schemas ask for."""
+        if schemas not in self._formats:
+            named = (format for name, format in _FORMATS.items() if name in schemas)
+            self._formats[schemas] = next(named, None)
+        return self._formats[schemas]
+
+    def _read_one(self, samples: AssetSamples, claim: Claim, wanted: Format) -> FieldContents:
+        sample = samples.samples[0]
+        content = Content(sample, claim, self._reading(sample.resolved), wanted)
+        timed = int(sample.time is not None)
+        return FieldContents(samples.attribute, ((self._kind(content), [content]),), timed)
+
     def _kind(self, content: Content) -> Kind:
         _, claim, reading, wanted = content
         key = (claim, reading.kind, wanted, content.stranger)
@@ -272,32 +264,6 @@ class ContentReader:
         if kind is None:
             kind = self._kinds[key] = Kind(content)
         return kind
-
-    def _moments(
-        self, samples: AssetSamples, field: Any, authored: Container[str]
-    ) -> Iterator[tuple[Sample, Claim]]:
-        """The samples of a file path, and those at times when what the field says changes."""
-        constant, animated = _said(field, authored)
-        if not animated:
-            claim = self._claim(constant)
-            for sample in samples.samples:
-                yield sample, claim
-            return
-        files = Held((sample.time, sample) for sample in samples.samples)
-        times = {time for held in (files, *animated.values()) for time in held.times}
-        moments: list[Time] = [*([None] if files.default else []), *sorted(times)]
-        for time in moments:
-            if held_file := files.at(time):
-                said = {name: held.at(time) for name, held in animated.items()}
-                yield held_file._replace(time=time), self._claim(constant | said)
-
-    def _claim(self, said: dict[str, Any]) -> Claim:
-        key = tuple(said.items())
-        claim = self._claims.get(key)
-        if claim is None:
-            given: Any = {name: value for name, value in key if isinstance(value, _TYPES[name])}
-            claim = self._claims[key] = Claim(**given)
-        return claim
 
     def _reading(self, resolved: str) -> Reading:
         reading = self._readings.get(resolved)
@@ -323,29 +289,34 @@ class ContentReader:
         return self._files.read(package, offset, size)
 
 
+def _moments(samples: AssetSamples, claims: FieldClaims) -> Iterator[tuple[Sample, Claim]]:
+    """The samples of a file path, and those at times when what the field says changes."""
+    if not claims.times:
+        for sample in samples.samples:
+            yield sample, claims.default
+        return
+    files = Held((sample.time, sample) for sample in samples.samples)
+    moments: list[Time] = [None] if files.default else []
+    for time in (*moments, *sorted({*files.times, *claims.times})):
+        if held_file := files.at(time):
+            yield held_file._replace(time=time), claims.at(time)
+
+
 def _shown(grid: Grid) -> str:
     if not (grid.name or grid.unique_name):
         return "an unnamed grid"
     return quoted(f"{grid.purpose}:{grid.label}" if grid.purpose else grid.label)
 
 
+def _place_of_grid(content: Content) -> int | None:
+    """Which of the grids in its file a content selects, counted from 0."""
+    file, grid = content.file, content.grid
+    return file.grids.index(grid) if file and grid else None
+
+
 def _unread(reason: str) -> Reading:
     fault = Fault("not-in-place", reason)
     return Reading(None, fault, fault)
-
-
-def _said(field: Any, authored: Container[str]) -> tuple[dict[str, Any], dict[str, Held[Any]]]:
-    """What the field says of its content, once and over time, by the names in `Claim`."""
-    constant: dict[str, Any] = {}
-    animated: dict[str, Held[Any]] = {}
-    for attribute_name, name in _ATTRIBUTES.items():
-        if attribute_name in authored:
-            attribute = field.GetAttribute(attribute_name)
-            if attribute.GetNumTimeSamples():
-                animated[name] = Held(read_values(attribute))
-            else:
-                constant[name] = attribute.Get()
-    return constant, animated
 
 
 def _order(content: Content) -> tuple[bool, float]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cache, cached_property
 from typing import Any, NamedTuple
-
-from pxr import Usd, Vt
 
 from usdvol_lint.facts.assets import AssetSamples
 from usdvol_lint.facts.contents import FieldContents
+from usdvol_lint.facts.extents import Limits
+from usdvol_lint.facts.fields import Target
 from usdvol_lint.facts.held import Held, Time
-from usdvol_lint.facts.placement import IDENTITY, Placement
-from usdvol_lint.facts.values import read_values
+from usdvol_lint.facts.placement import IDENTITY, Placement, read_placement
 from usdvol_lint.model import format_time
 from usdvol_lint.volumefile import Bounds, Grid, Matrix
 
@@ -32,19 +32,30 @@ class Moment(NamedTuple):
 
 
 class PlacedField:
-    """A field of a Volume: the grids that it names, and where it stands.
-
-    `samples` ascend in time, the default first; a grid that is None says nothing of bounds.
-    """
+    """A field of a Volume: the grids that its files hold, and where it stands."""
 
     def __init__(
-        self, shown: str, samples: Iterable[tuple[Time, Grid | None]], placement: Placement
+        self, target: Target, paths: AssetSamples, contents: FieldContents, placement: Placement
     ) -> None:
-        self.shown = shown
-        self._grids = Held(samples)
+        self._target = target
+        self._paths = paths
+        self._contents = contents
+        self._placement = placement
         self._moved_at = placement.times
-        fixed = None if placement.times else placement.matrix(None)
-        self._matrix = placement.matrix if placement.times else lambda time: fixed
+
+    @property
+    def shown(self) -> str:
+        """The path of the field as the stage shows it."""
+        return self._target.shown
+
+    def hull(self, enclosure: Enclosure) -> Hull | None:
+        """The box around all grids at all times; None where that can't be told, or moves."""
+        if self._moved_at:
+            return None
+        matrix = self._placement.matrix(None)
+        grids = [grid for _, grid in self._contents.grids() if grid]
+        found = [enclosure.whole(grid, matrix) for grid in grids] if matrix else [None]
+        return _hull(found)
 
     def moments(self, more_times: Iterable[float]) -> Iterator[Moment]:
         """Each time at which grid or placement change, and these others, where both are known.
@@ -58,8 +69,19 @@ class PlacedField:
     def at(self, time: Time) -> Moment | None:
         """What holds at a time."""
         grid = self._grids.at(time)
-        matrix = self._matrix(time) if grid else None
+        matrix = self._matrix(time if self._moved_at else None) if grid else None
         return Moment(time, grid, matrix) if grid and matrix else None
+
+    @cached_property
+    def _grids(self) -> Held[Grid | None]:
+        """The grid that the field names at each sample; None where no file was read."""
+        grids: dict[Time, Grid | None] = {sample.time: None for sample in self._paths.samples}
+        grids.update(self._contents.grids())
+        return Held(sorted(grids.items(), key=lambda item: (item[0] is not None, item[0] or 0.0)))
+
+    @cached_property
+    def _matrix(self) -> Callable[[Time], Matrix | None]:
+        return cache(self._placement.matrix)
 
 
 class Overhang(NamedTuple):
@@ -125,92 +147,117 @@ class Shortfall:
         return f" ({', '.join(words)})" if words else ""
 
 
-class Boxes:
-    """The boxes around the whole voxels of grids, in the spaces of Volumes, each found once.
+class Hull(NamedTuple):
+    """A box around others, and the largest coordinate of that one for which it is least."""
 
-    They are good for as long as the grids are kept.
+    box: Bounds
+    magnitude: float
+
+
+class Enclosure:
+    """Holds extents against grids; the box around each grid is found once.
+
+    It is good for as long as the grids are kept.
     """
 
     def __init__(self) -> None:
-        self._boxes: dict[tuple[int, Matrix], Bounds | None] = {}
+        self._boxes: dict[tuple[int, Matrix | None], Bounds | None] = {}
 
-    def whole(self, moment: Moment) -> Bounds | None:
-        key = (id(moment.grid), moment.matrix)
+    def shortfall(
+        self,
+        volume: Any,
+        limits: Limits,
+        fields: Iterable[tuple[Target, AssetSamples, FieldContents]],
+        relative_slack: float,
+    ) -> Shortfall | None:
+        """Holds an extent against every grid at every time at which one of them changes.
+
+        A box may stick out by `relative_slack` of its largest coordinate.
+        Once the centre of a voxel lies outside, halves of voxels elsewhere are not worth a word.
+        """
+        placed = [
+            PlacedField(target, paths, contents, read_placement(volume, target.prim))
+            for target, paths, contents in fields
+        ]
+        if not limits.times and self._are_inside(placed, limits.at(None), relative_slack):
+            return None
+        return self._find_shortfall(limits, placed, relative_slack)
+
+    def whole(self, grid: Grid, matrix: Matrix) -> Bounds | None:
+        """The box around the whole voxels of a grid, carried into the space of a Volume."""
+        key = (id(grid), None if matrix is IDENTITY else matrix)
         if key not in self._boxes:
-            self._boxes[key] = _carried(moment, _HALF_VOXEL)
+            self._boxes[key] = _carried(grid, matrix, _HALF_VOXEL)
         return self._boxes[key]
 
+    def _are_inside(
+        self, fields: Iterable[PlacedField], limit: Bounds | None, relative_slack: float
+    ) -> bool:
+        """Whether one extent has all that there ever is inside it: then no time needs a look."""
+        if limit is None:
+            return False
+        for placed in fields:
+            hull = placed.hull(self)
+            if hull is None or not _encloses(limit, hull.box, relative_slack * hull.magnitude):
+                return False
+        return True
 
-class Limits:
-    """The authored values of an extent; a malformed one counts as none."""
+    def _find_shortfall(
+        self, limits: Limits, fields: Sequence[PlacedField], relative_slack: float
+    ) -> Shortfall | None:
+        centres, halves = _Tally(), _Tally()
+        checked = set()
+        for placed in fields:
+            for moment in placed.moments(limits.times):
+                limit, whole = limits.at(moment.time), self.whole(moment.grid, moment.matrix)
+                if limit is None or whole is None:
+                    continue
+                checked.add(moment.time)
+                slack = relative_slack * _magnitude(whole)
+                if not _encloses(limit, whole, slack):
+                    inner = _carried(moment.grid, moment.matrix, 0.0)
+                    if inner and (sides := _sides(limit, inner, slack)):
+                        centres.add(placed, moment, sides)
+                    else:
+                        halves.add(placed, moment, _sides(limit, whole, slack))
+        tally = centres if centres.worst else halves
+        if tally.worst is None:
+            return None
+        times = tuple(sorted(time for time in tally.times if time is not None))
+        if limits.times and len(tally.times) == 1:
+            moments = [held for each in fields if (held := each.at(tally.worst.time))]
+            statement = f"{format_time(times[0])}: {{}}" if times else "float3[] extent = {}"
+        else:
+            moments = [moment for each in fields for moment in each.moments(limits.times)]
+            statement = "float3[] extent = {}"
+        return Shortfall(
+            attribute=limits.attribute,
+            worst=tally.worst,
+            fields=len(tally.fields),
+            times=times,
+            at_default=None in tally.times and len(checked) > 1,
+            checked=len(checked),
+            only_half_voxels=tally is halves,
+            fitting=statement.format(
+                _as_text(filter(None, (self.whole(grid, matrix) for _, grid, matrix in moments)))
+            ),
+        )
 
-    def __init__(self, attribute: Any) -> None:
-        self.attribute = attribute
-        self._values = {time: _bounds(value) for time, value in read_values(attribute)}
-        self.times = [time for time in self._values if time is not None]
-        self._get = Usd.AttributeQuery(attribute).Get if self.times else None
 
-    @property
-    def are_authored(self) -> bool:
-        return any(self._values.values())
-
-    def at(self, time: Time) -> Bounds | None:
-        """The value as USD gives it: samples hide a default, and are interpolated between."""
-        if time is None or self._get is None:
-            return self._values.get(None)
-        return self._values[time] if time in self._values else _bounds(self._get(time))
-
-
-def grids_over_time(paths: AssetSamples, contents: FieldContents) -> list[tuple[Time, Grid | None]]:
-    """The grid that a field names at each sample; None where it names none or no file was read."""
-    grids: dict[Time, Grid | None] = {sample.time: None for sample in paths.samples}
-    grids.update(contents.grids())
-    return sorted(grids.items(), key=lambda item: (item[0] is not None, item[0] or 0.0))
-
-
-def find_shortfall(
-    limits: Limits, fields: Sequence[PlacedField], relative_slack: float, boxes: Boxes
-) -> Shortfall | None:
-    """Holds an extent against every grid at every time at which one of them changes.
-
-    A box may stick out by `relative_slack` of its largest coordinate.
-    Once the centre of a voxel lies outside, halves of voxels elsewhere are not worth a word.
-    """
-    centres, halves = _Tally(), _Tally()
-    checked = set()
-    for placed in fields:
-        for moment in placed.moments(limits.times):
-            limit, whole = limits.at(moment.time), boxes.whole(moment)
-            if limit is None or whole is None:
-                continue
-            checked.add(moment.time)
-            slack = relative_slack * max(map(abs, (*whole[0], *whole[1])))
-            if not _encloses(limit, whole, slack):
-                inner = _carried(moment, 0.0)
-                if inner and (sides := _sides(limit, inner, slack)):
-                    centres.add(placed, moment, sides)
-                else:
-                    halves.add(placed, moment, _sides(limit, whole, slack))
-    tally = centres if centres.worst else halves
-    if tally.worst is None:
+def _hull(boxes: Sequence[Bounds | None]) -> Hull | None:
+    known = [box for box in boxes if box]
+    if not known or len(known) < len(boxes):
         return None
-    times = tuple(sorted(time for time in tally.times if time is not None))
-    if limits.times and len(tally.times) == 1:
-        moments = [held for each in fields if (held := each.at(tally.worst.time))]
-        statement = f"{format_time(times[0])}: {{}}" if times else "float3[] extent = {}"
-    else:
-        moments = [moment for each in fields for moment in each.moments(limits.times)]
-        statement = "float3[] extent = {}"
-    return Shortfall(
-        attribute=limits.attribute,
-        worst=tally.worst,
-        fields=len(tally.fields),
-        times=times,
-        at_default=None in tally.times and len(checked) > 1,
-        checked=len(checked),
-        only_half_voxels=tally is halves,
-        fitting=statement.format(_as_text(filter(None, map(boxes.whole, moments)))),
-    )
+    if len(known) == 1:
+        return Hull(known[0], _magnitude(known[0]))
+    lows, highs = zip(*known, strict=True)
+    box: Any = tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
+    return Hull(box, min(map(_magnitude, known)))
+
+
+def _magnitude(box: Bounds) -> float:
+    (a, b, c), (x, y, z) = box
+    return max(abs(a), abs(b), abs(c), abs(x), abs(y), abs(z))
 
 
 @dataclass(slots=True)
@@ -232,20 +279,8 @@ class _Tally:
             self.worst = overhang
 
 
-def _carried(moment: Moment, padding: float) -> Bounds | None:
-    matrix = None if moment.matrix is IDENTITY else moment.matrix
-    return moment.grid.world_bounds(padding, matrix)
-
-
-def _bounds(value: Any) -> Bounds | None:
-    if not isinstance(value, Vt.Vec3fArray) or len(value) != 2:
-        return None
-    low, high = value[0], value[1]
-    # Indexing is many times faster than iterating over the vectors of Gf.
-    a, b, c = low[0], low[1], low[2]
-    x, y, z = high[0], high[1], high[2]
-    ordered = -math.inf < a <= x < math.inf and -math.inf < b <= y < math.inf
-    return ((a, b, c), (x, y, z)) if ordered and -math.inf < c <= z < math.inf else None
+def _carried(grid: Grid, matrix: Matrix, padding: float) -> Bounds | None:
+    return grid.world_bounds(padding, None if matrix is IDENTITY else matrix)
 
 
 def _encloses(limit: Bounds, box: Bounds, slack: float) -> bool:

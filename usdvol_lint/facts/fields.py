@@ -6,37 +6,57 @@ import builtins
 from bisect import bisect
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from typing import Any
+from enum import Enum
+from typing import Any, NamedTuple, TypeAlias
 
-from pxr import Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.instances import in_prototype, shown, shown_path
 from usdvol_lint.facts.kinds import Kinds
-from usdvol_lint.facts.states import Emptiness, TargetState
+from usdvol_lint.facts.states import BindingMark, Emptiness, TargetState
 from usdvol_lint.nearest import nearest_word
 
-NAMESPACE = "field"
+_BARE_NAMESPACE = schema.FIELD_NAMESPACE.rstrip(":")
+_LIVE = Usd.PrimDefaultPredicate
+# To look a method up on an object of USD's takes as long as what most methods do.
+_properties = Usd.Prim.GetAuthoredProperties
+_name = Usd.Object.GetName
+_stage = Usd.Object.GetStage
+_targets = Usd.Relationship.GetForwardedTargets
+_prim_at = Usd.Stage.GetPrimAtPath
+_path = Usd.Object.GetPath
+_has_prefix = Sdf.Path.HasPrefix
+_prim_path = Sdf.Path.GetPrimPath
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+MayLack: TypeAlias = Callable[[Any], bool]
+
+
+class Target(NamedTuple):
     """One forwarded target, which `prim` is None for where there is none.
 
-    `shown` is its path as the stage shows it, `culprit` that of the prim to blame: the target
-    itself or, where that is why it is not live, the prim above it.
+    `to_blame` is the target itself or, where that is why it is not live, the prim above it.
     """
 
     path: Any
-    shown: str
+    stage: Any
     state: TargetState
-    prim: Any | None = None
-    culprit: str = ""
+    prim: Any | None
+    to_blame: Any
+
+    @builtins.property
+    def shown(self) -> str:
+        """Its path as the stage shows it."""
+        return shown_path(self.stage, self.path)
+
+    @builtins.property
+    def culprit(self) -> str:
+        """The path of the prim to blame."""
+        return self.shown if self.to_blame is self.prim else shown(self.to_blame).path
 
 
-@dataclass(frozen=True, slots=True)
-class Binding:
+class Binding(NamedTuple):
     """One property of the `field:` namespace.
 
     `name` is what follows `field:`; USD keys the field by `key`, the last part of it.
@@ -68,8 +88,7 @@ class Binding:
         return self.target is not None and self.target.state is TargetState.FIELD
 
 
-@dataclass(frozen=True, slots=True)
-class FieldBindings:
+class FieldBindings(NamedTuple):
     """The bindings of one Volume, by name.
 
     `strays` are relationships outside the namespace that a reader would take for fields: a bare
@@ -96,27 +115,85 @@ class FieldBindings:
             if not target.path.HasPrefix(volume.GetPath()):
                 yield binding, target
 
+    def marks(self, volume: Any) -> frozenset[Enum]:
+        """What there is to say of the bindings of a Volume, if there is anything."""
+        found: set[Enum] = set()
+        for _, name, is_relationship, targets, emptiness, *_ in self.bindings:
+            if emptiness:
+                found.add(emptiness)
+            elif not is_relationship:
+                found.add(BindingMark.ATTRIBUTE)
+            elif len(targets) > 1:
+                found.add(BindingMark.SEVERAL_TARGETS)
+            else:
+                found.add(targets[0].state)
+                if not _has_prefix(targets[0].path, _path(volume)):
+                    found.add(BindingMark.OUTSIDE)
+            if ":" in name:
+                found.add(BindingMark.NESTED)
+        if len(self.bindings) != 1:
+            found.add(BindingMark.SEVERAL if self.bindings else BindingMark.NONE)
+        if self.strays:
+            found.add(BindingMark.STRAY)
+        return frozenset(found)
+
     @property
     def is_sound(self) -> bool:
         """Whether there are fields and each is bound."""
         return bool(self.bindings) and all(binding.is_bound for binding in self.bindings)
 
 
-def read_field_bindings(
-    volume: Any, kinds: Kinds, may_lack: Callable[[Any], bool]
-) -> FieldBindings:
-    """Reads the authored properties of a Volume.
+class BindingReader:
+    """Reads what Volumes bind."""
 
-    `may_lack` is asked whether opinions about a prim may lie in a layer that does not open.
-    """
-    bindings, others = [], []
-    for prop in volume.GetAuthoredProperties():
-        name = prop.GetName()
-        if name.startswith(f"{NAMESPACE}:"):
-            bindings.append(_read_binding(prop, name, kinds, may_lack))
-        elif isinstance(prop, Usd.Relationship):
-            others.append(prop)
-    return FieldBindings(tuple(bindings), tuple(_strays(others, bindings, kinds)))
+    def __init__(self, kinds: Kinds) -> None:
+        self._kinds = kinds
+
+    def read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
+        """What the authored properties of a Volume bind.
+
+        `may_lack` is asked whether opinions about a prim may lie in a layer that does not open.
+        """
+        bindings, others = [], []
+        for prop in _properties(volume):
+            name = _name(prop)
+            if name.startswith(schema.FIELD_NAMESPACE):
+                bindings.append(self._binding(prop, name[len(schema.FIELD_NAMESPACE) :], may_lack))
+            elif isinstance(prop, Usd.Relationship):
+                others.append(prop)
+        strays = tuple(_strays(others, bindings, self._kinds)) if others else ()
+        return FieldBindings(tuple(bindings), strays)
+
+    def _binding(self, prop: Any, name: str, may_lack: MayLack) -> Binding:
+        if not isinstance(prop, Usd.Relationship):
+            return Binding(prop, name, False)
+        stage = _stage(prop)
+        paths = _targets(prop)
+        if paths:
+            targets = tuple([self._target(stage, path, may_lack) for path in paths])
+            return Binding(prop, name, True, targets)
+        emptiness, lost = _why_empty(prop)
+        forwards_to = "".join(shown_path(stage, path) for path in prop.GetTargets()[:1])
+        return Binding(prop, name, True, (), emptiness, lost, forwards_to)
+
+    def _target(self, stage: Any, path: Any, may_lack: MayLack) -> Target:
+        prim = _prim_at(stage, _prim_path(path))
+        if not prim:
+            nearest = _nearest_prim(stage, path)
+            state = _told(_missing_state(nearest), nearest, may_lack)
+            return Target(path, stage, state, None, nearest)
+        if path.IsPropertyPath():
+            return Target(path, stage, TargetState.PROPERTY, prim, prim)
+        state, culprit = _prim_state(prim, self._kinds)
+        if state is TargetState.OVER or not (state is TargetState.FIELD or prim.GetTypeName()):
+            state = _told(state, prim, may_lack)
+        return Target(path, stage, state, prim, culprit)
+
+
+def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:
+    """The state of what lacks something, unless a layer that does not open may have it."""
+    vague = state in (TargetState.MISSING, TargetState.OVER, TargetState.NOT_A_FIELD)
+    return TargetState.UNCOMPOSED if vague and may_lack(nearest) else state
 
 
 def field_paths(bindings: FieldBindings) -> set[Any]:
@@ -173,26 +250,12 @@ def meant_path(binding: Binding) -> Any | None:
     return None
 
 
-def _read_binding(prop: Any, name: str, kinds: Kinds, may_lack: Callable[[Any], bool]) -> Binding:
-    short = name[len(NAMESPACE) + 1 :]
-    if not isinstance(prop, Usd.Relationship):
-        return Binding(prop, short, False)
-    stage = prop.GetStage()
-    paths = prop.GetForwardedTargets()
-    if paths:
-        targets = tuple(_read_target(stage, path, kinds, may_lack) for path in paths)
-        return Binding(prop, short, True, targets)
-    emptiness, lost = _why_empty(prop)
-    forwards_to = "".join(shown_path(stage, path) for path in prop.GetTargets()[:1])
-    return Binding(prop, short, True, (), emptiness, lost, forwards_to)
-
-
 def _strays(
     relationships: Iterable[Any], bindings: Iterable[Binding], kinds: Kinds
 ) -> Iterator[Any]:
     bound = {target.path for binding in bindings for target in binding.targets}
     for relationship in relationships:
-        if relationship.GetName() == NAMESPACE or (
+        if relationship.GetName() == _BARE_NAMESPACE or (
             not _is_declared(relationship)
             and any(
                 path not in bound and kinds.is_a(prim, schema.FIELD)
@@ -236,23 +299,6 @@ def _why_empty(relationship: Any) -> tuple[Emptiness, tuple[Any, ...]]:
     return (Emptiness.LOST, tuple(lost)) if lost else (emptiness, ())
 
 
-def _read_target(stage: Any, path: Any, kinds: Kinds, may_lack: Callable[[Any], bool]) -> Target:
-    prim = stage.GetPrimAtPath(path.GetPrimPath())
-    # Most targets are prims outside prototypes, and the general way takes longer.
-    where = shown_path(stage, path) if not prim or prim.IsInPrototype() else str(path)
-    if prim and path.IsPropertyPath():
-        return Target(path, where, TargetState.PROPERTY, prim)
-    nearest = prim or _nearest_prim(stage, path)
-    state, culprit = _prim_state(prim, kinds) if prim else (_missing_state(nearest), nearest)
-    vague = state in (TargetState.MISSING, TargetState.OVER) or (
-        state is TargetState.NOT_A_FIELD and not prim.GetTypeName()
-    )
-    if vague and may_lack(nearest):
-        state = TargetState.UNCOMPOSED
-    to_blame = where if culprit is prim else shown(culprit).path
-    return Target(path, where, state, prim or None, to_blame)
-
-
 def _nearest_prim(stage: Any, path: Any) -> Any:
     """The lowest prim on the way to where there is none."""
     for ancestor in path.GetPrimPath().GetAncestorsRange():
@@ -272,6 +318,8 @@ def _missing_state(nearest: Any) -> TargetState:
 
 def _prim_state(prim: Any, kinds: Kinds) -> tuple[TargetState, Any]:
     """The state of a prim, and the prim to blame for it."""
+    if _LIVE(prim):
+        return _kind_state(prim, kinds), prim
     if not prim.IsActive():
         return TargetState.INACTIVE, prim
     if not prim.IsLoaded():

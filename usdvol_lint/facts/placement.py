@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from pxr import Gf, Usd
@@ -14,6 +13,11 @@ from usdvol_lint.volumefile.transform import Matrix, finite, rows, scale_transla
 
 IDENTITY: Matrix = scale_translate((1, 1, 1))
 _ROUNDING = 1e-6
+# To look a method up on an object of USD's takes as long as what most methods do.
+_is_in_prototype = Usd.Prim.IsInPrototype
+_parent = Usd.Prim.GetParent
+_attribute = Usd.Prim.GetAttribute
+_get = Usd.Attribute.Get
 
 
 class Displacement(NamedTuple):
@@ -26,8 +30,7 @@ class Displacement(NamedTuple):
     times: tuple[float, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Placement:
+class Placement(NamedTuple):
     """The way from a field's space up to what it shares with its Volume, and down to that.
 
     `up` and `down` are the prims on it that have a transform, each from the bottom; what moves both
@@ -78,21 +81,33 @@ class Placement:
         return " and ".join(filter(None, ("rotated or scaled" if turned else "", movement)))
 
 
+_AT_REST = Placement((), (), ())
+
+
 def read_placement(volume: Any, field: Any) -> Placement:
     """Reads the transforms between a field and a Volume that binds it."""
-    if volume.IsInPrototype() and not field.IsInPrototype():
+    if _is_in_prototype(volume) and not _is_in_prototype(field):
         volume = volume.GetStage().GetPrimAtPath(shown(volume).path)
-    from_field, from_volume = field.GetPath(), volume.GetPath()
-    shared = from_field.GetCommonPrefix(from_volume).pathElementCount
-    up_length, down_length = from_field.pathElementCount, from_volume.pathElementCount
-    up, up_resets = _transformed(field, up_length - shared)
-    down, down_resets = _transformed(volume, down_length - shared)
+    up_count, down_count = _counts(volume, field)
+    up, up_resets = _transformed(field, up_count)
+    down, down_resets = _transformed(volume, down_count)
+    if not up and not down:
+        return _AT_REST
     if up_resets and not down_resets:  # what is above both moves the Volume alone
-        down, _ = _transformed(volume, down_length)
+        down, _ = _transformed(volume, volume.GetPath().pathElementCount)
     elif down_resets and not up_resets:
-        up, _ = _transformed(field, up_length)
+        up, _ = _transformed(field, field.GetPath().pathElementCount)
     times = {time for xformable in (*up, *down) for time in xformable.GetTimeSamples()}
     return Placement(up, down, tuple(sorted(times)))
+
+
+def _counts(volume: Any, field: Any) -> tuple[int, int]:
+    """How many prims there are from the field, and from the Volume, up to what they share."""
+    if _parent(field) == volume:  # so it is nearly always
+        return 1, 0
+    from_field, from_volume = field.GetPath(), volume.GetPath()
+    shared = from_field.GetCommonPrefix(from_volume).pathElementCount
+    return from_field.pathElementCount - shared, from_volume.pathElementCount - shared
 
 
 def _product(chain: Iterable[Any], time: Time) -> Any:
@@ -107,7 +122,7 @@ def _transformed(prim: Any, count: int) -> tuple[tuple[Any, ...], bool]:
     """The transformed ones of so many prims from one upward; whether the last of them resets."""
     found = []
     for _ in range(count):
-        if prim.GetAttribute("xformOpOrder").Get():  # most have none, and this costs least
+        if _get(_attribute(prim, "xformOpOrder")):  # most have none, and this costs least
             from pxr import UsdGeom  # costs start-up time
 
             xformable = UsdGeom.Xformable(prim)
@@ -115,5 +130,5 @@ def _transformed(prim: Any, count: int) -> tuple[tuple[Any, ...], bool]:
                 found.append(xformable)
                 if xformable.GetResetXformStack():
                     return tuple(found), True
-        prim = prim.GetParent()
+        prim = _parent(prim)
     return tuple(found), False

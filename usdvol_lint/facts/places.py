@@ -30,10 +30,6 @@ def recased(paths: AssetSamples, files: Files) -> Recased | None:
 
     What resolves is looked at only where the file system ignores case.
     """
-    one_of_each_folder = {sample.resolved.rpartition("/")[0]: sample for sample in paths.samples}
-    resolved = (sample.resolved for sample in one_of_each_folder.values() if sample.resolved)
-    if AssetState.MISSING not in paths.states and not any(map(files.ignores_case, resolved)):
-        return None
     folders = _Folders(paths, files)
     affected = paths.affected(filter(folders.have_in_another_case, paths.samples))
     if affected is None:

@@ -1,4 +1,4 @@
-"""What an asset path or a relationship target turns out to be: names without any pxr."""
+"""What asset paths and relationship targets turn out to be: names without any pxr."""
 
 from __future__ import annotations
 
@@ -29,6 +29,27 @@ class AssetState(Enum):
     """No value: blocked, or a value clip that gives none."""
     MISTYPED = auto()
     """A value that is no asset path."""
+
+
+class PathMark(Enum):
+    """What else the values of an asset attribute have about them, beside their states."""
+
+    NONE = auto()
+    """No value names anything."""
+    SEVERAL = auto()
+    """There are several values."""
+    UNPLAIN = auto()
+    """Some path is absolute, or has blanks, backslashes, a colon or a tilde in it."""
+    FOREIGN = auto()
+    """Some path has not the extension that the type of the prim asks for."""
+    CASE_BLIND = auto()
+    """Something is missing, or lies in a folder that finds names in any case."""
+    PACKAGED = auto()
+    """Some layer of the stage lies in a package."""
+    LAYERED = auto()
+    """Several specs have a say, or value clips."""
+    CLIPPED = auto()
+    """Value clips have a say."""
 
 
 class FileFault(StrEnum):
@@ -64,6 +85,24 @@ class TargetState(Enum):
     """Only overs, no definition."""
     ABSTRACT = auto()
     """A `class`, or below one."""
+
+
+class BindingMark(Enum):
+    """What else the `field:` namespace of a Volume has about it, beside its targets' states."""
+
+    NONE = auto()
+    """There is nothing in it."""
+    SEVERAL = auto()
+    """There are several fields."""
+    SEVERAL_TARGETS = auto()
+    ATTRIBUTE = auto()
+    """Something in it is an attribute."""
+    STRAY = auto()
+    """A relationship outside of it targets a field."""
+    NESTED = auto()
+    """A name in it is a namespace of its own."""
+    OUTSIDE = auto()
+    """A field lies elsewhere than below the Volume."""
 
 
 class Emptiness(Enum):

@@ -68,10 +68,15 @@ class Values:
 
 def values_of(attribute: Any) -> Values:
     """Every value of an attribute, kept."""
-    if not _count_samples(attribute):
-        return Values(attribute, (Value(None, _get(attribute)),), 0)
-    values = tuple(read_values(attribute))
+    values = all_values(attribute)
     return Values(attribute, values, len(values) - (values[0].time is None))
+
+
+def all_values(attribute: Any) -> tuple[Value, ...]:
+    """The default and the samples; the default is None where there is nothing at all."""
+    if _count_samples(attribute):
+        return tuple(read_values(attribute))
+    return (Value(None, _get(attribute)),)
 
 
 def read_values(attribute: Any) -> Iterator[Value]:

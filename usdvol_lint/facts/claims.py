@@ -1,0 +1,103 @@
+"""What a field says of the content of its files."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pxr import Usd
+
+from usdvol_lint.facts.held import Held, Time
+from usdvol_lint.facts.values import read_values
+
+_ATTRIBUTES = {
+    "fieldName": "name",
+    "fieldPurpose": "purpose",
+    "fieldIndex": "index",
+    "fieldDataType": "data_type",
+    "fieldClass": "field_class",
+    "vectorDataRoleHint": "role_hint",
+}
+_TYPES = {name: int if name == "index" else str for name in _ATTRIBUTES.values()}
+# To look a method up on an object of USD's takes as long as what most methods do.
+_attribute = Usd.Prim.GetAttribute
+_get = Usd.Attribute.Get
+_count_samples = Usd.Attribute.GetNumTimeSamples
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Claim:
+    """What a field says at one time of what it wants from its file; empty where it says nothing.
+
+    Fields of a stage that say the same share one.
+    """
+
+    name: str = ""
+    purpose: str = ""
+    index: int | None = None
+    data_type: str = ""
+    field_class: str = ""
+    role_hint: str = ""
+
+
+class FieldClaims:
+    """What a field says over time: `times` are those at which it changes, if it ever does.
+
+    Fields of a stage that say the same once and for all share one.
+    """
+
+    def __init__(self, default: Claim, samples: Sequence[tuple[float, Claim]] = ()) -> None:
+        self.default = default
+        self._samples = Held(samples)
+        self.times = self._samples.times
+        self.all = (default, *(claim for _, claim in samples))
+
+    def at(self, time: Time) -> Claim:
+        """What it says at a time."""
+        return self.default if time is None else self._samples.at(time) or self.default
+
+
+class ClaimReader:
+    """Reads what the fields of a stage say."""
+
+    def __init__(self) -> None:
+        self._claims: dict[tuple[Any, ...], Claim] = {}
+        self._unchanging: dict[tuple[Any, ...], FieldClaims] = {}
+
+    def read(self, field: Any, authored: Container[str]) -> FieldClaims:
+        """What a field says; `authored` has the names of its attributes."""
+        constant: dict[str, Any] = {}
+        animated: dict[str, Held[Any]] = {}
+        for attribute_name, name in _ATTRIBUTES.items():
+            if attribute_name in authored:
+                attribute = _attribute(field, attribute_name)
+                if _count_samples(attribute):
+                    animated[name] = Held(read_values(attribute))
+                else:
+                    constant[name] = _get(attribute)
+        if animated:
+            return self._read_changing(constant, animated)
+        key = tuple(constant.items())
+        found = self._unchanging.get(key)
+        if found is None:
+            found = self._unchanging[key] = FieldClaims(self._claim(constant))
+        return found
+
+    def _read_changing(
+        self, constant: dict[str, Any], animated: dict[str, Held[Any]]
+    ) -> FieldClaims:
+        def at(time: Time) -> Claim:
+            return self._claim(constant | {name: held.at(time) for name, held in animated.items()})
+
+        times = {time for held in animated.values() for time in held.times}
+        return FieldClaims(at(None), [(time, at(time)) for time in sorted(times)])
+
+    def _claim(self, said: dict[str, Any]) -> Claim:
+        """The claim of these values, the same one for the same values."""
+        key = tuple(said.items())
+        claim = self._claims.get(key)
+        if claim is None:
+            given: Any = {name: value for name, value in key if isinstance(value, _TYPES[name])}
+            claim = self._claims[key] = Claim(**given)
+        return claim
