@@ -81,8 +81,7 @@ class Finding:
     fingerprint: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class ParticleFieldStats:
+class ParticleFieldStats(NamedTuple):
     """What one particle field holds, over all the time samples that were looked at.
 
     `count` is the greatest number of particles at one time, `bytes` what its arrays take in all.
@@ -93,7 +92,7 @@ class ParticleFieldStats:
     """
 
     prim: str
-    count: int
+    count: int  # type: ignore[assignment]  # in the place of what tuples call so
     sh_degree: int | None
     bytes: int
     precision: str | None

@@ -69,9 +69,13 @@ class Worker:
         status = Status.TIMED_OUT if timed_out else Status.CRASHED
         return report_trouble(path, trouble, status, seconds)
 
-    def stop(self) -> None:
-        """Ends the child without ceremony."""
+    def kill(self) -> None:
+        """Has the child end without ceremony."""
         self._process.kill()
+
+    def stop(self) -> None:
+        """Ends the child, and is back when it has gone."""
+        self.kill()
         self._process.wait()
         for stream in (self._stdin, self._stdout):
             with suppress(OSError):
@@ -200,6 +204,8 @@ class Pool:
     def close(self) -> None:
         """Ends all workers."""
         self._closed = True
+        for worker in self._workers:  # all of them, before waiting for any
+            worker.kill()
         for worker in self._workers:
             worker.stop()
 

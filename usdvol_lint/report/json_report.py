@@ -7,7 +7,6 @@ import math
 import re
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
-from dataclasses import asdict
 from enum import Enum
 from pathlib import PurePath
 
@@ -56,7 +55,7 @@ def _stage(stage: StageReport) -> dict[str, object]:
         "path": stage.path,
         "status": stage.status.value,
         "stats": stage.stats,
-        **({} if fields is None else {"particle_fields": [asdict(each) for each in fields]}),
+        **({} if fields is None else {"particle_fields": [each._asdict() for each in fields]}),
         "seconds": round(sum(stage.seconds.values(), 0.0), 6),
         "findings": [_finding(finding) for finding in stage.findings],
     }
