@@ -27,7 +27,7 @@ RULES = ROOT / "rules"
 LAYERS = (
     {"model", "nearest"},
     {"schema"},
-    {"paths", "volumefile"},
+    {"page", "paths", "volumefile"},
     {"facts"},
     {"rule"},
     {"catalog"},
@@ -45,9 +45,9 @@ LAYERS = (
 """Who may import whom: a module of ours only what stands above it, or beside it in its package."""
 LEVELS = {name: level for level, names in enumerate(LAYERS) for name in names}
 WITHOUT_USD = {
-    *("model", "nearest", "schema", "paths", "volumefile", "rule", "catalog", "config", "trouble"),
-    *("protocol", "child", "pool", "run", "report", "progress", "output", "about", "cli"),
-    *("__main__", "__init__"),
+    *("model", "nearest", "schema", "page", "paths", "volumefile", "rule", "catalog", "config"),
+    *("trouble", "protocol", "child", "pool", "run", "report", "progress", "output", "about"),
+    *("cli", "__main__", "__init__"),
 }
 """What the parent process imports: in it neither pxr nor numpy may be named at module level."""
 

@@ -11,7 +11,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
-from usdvol_lint.model import Severity, UsageError
+from usdvol_lint.model import PackError, Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.rule import Problems, Rule
 
@@ -21,10 +21,6 @@ if TYPE_CHECKING:
 ENTRY_POINT_GROUP = "usdvol_lint.packs"
 _BUILT_IN = "usdvol_lint.rules"
 _CODE = re.compile(r"[A-Z]{3}\d{3}")
-
-
-class PackError(UsageError):
-    """A rule pack that can't be loaded."""
 
 
 def _from_engine(prim: object, facts: object) -> Problems:

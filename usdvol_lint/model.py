@@ -14,6 +14,10 @@ class UsageError(Exception):
     """A mistake of the user's: one line that says what, where and what to do (exit code 2)."""
 
 
+class PackError(UsageError):
+    """A rule pack that can't be loaded."""
+
+
 class Severity(IntEnum):
     """How bad a finding is; ordered, so that thresholds are comparisons."""
 

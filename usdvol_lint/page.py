@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from usdvol_lint.catalog import PackError
+from usdvol_lint.model import PackError
 
 _TITLE = re.compile(r"^# (?P<name>[a-z0-9-]+) \((?P<code>[A-Z]{3}\d{3})\)\n+(?P<summary>[^\n]+)")
 _BLOCK = re.compile(
