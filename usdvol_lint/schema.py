@@ -16,6 +16,7 @@ FIELD = "VolumeFieldBase"
 FIELD_ASSET = "FieldAsset"
 PARTICLE_FIELD = "ParticleField"
 GPRIM = "Gprim"
+OURS = frozenset({VOLUME, FIELD, PARTICLE_FIELD})
 
 FIELD_NAMESPACE = "field:"
 """What the names of a Volume's relationships to its fields begin with."""

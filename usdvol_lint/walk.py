@@ -97,7 +97,8 @@ class _Triage:
 
     def _holds(self, rule: Rule, found: Any) -> bool:
         try:
-            return not rule.when or rule.when.holds(found, **self._options.get(rule.code, {}))
+            options = {**rule.options, **self._options.get(rule.code, {})}
+            return not rule.when or rule.when.holds(found, **options)
         except Exception:
             return True
 

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from enum import Enum
 from functools import cached_property
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.assets import Affected, AssetReader, AssetSamples, UnlistedClips
     from usdvol_lint.facts.attributes import (
         Authored,
-        AuthoredAttributes,
+        AuthoredReader,
         Misspelt,
         Mistyped,
         Unlisted,
@@ -212,8 +213,8 @@ class Facts:
 
     def is_strange(self, prim: Any) -> bool:
         """Whether a prim has properties that no schema declares, or is of no type of ours."""
-        known = self._authored.known(prim)
-        return known is None or bool(known.strange)
+        schemas = self.kinds.names(self.kinds.key(prim))
+        return schema.OURS.isdisjoint(schemas) or bool(self.authored(prim).strange)
 
     def encoding(self, prim: Any) -> Encoding | None:
         """The encoding from before the schema that a prim is in, if it is in one."""
@@ -272,19 +273,23 @@ class Facts:
 
     def authored(self, prim: Any) -> Authored:
         """The authored attributes of a prim, by what the schemas declare of them."""
-        return self._authored.on(prim)
+        known = self._known_of(prim)
+        authored: Authored | None = known.get(":authored")
+        if authored is None:
+            authored = known[":authored"] = self._authored_reader.read(prim)
+        return authored
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
-        return self._authored.mistyped(prim)
+        return self._attributes.mistyped(prim, self.authored(prim))
 
     def misspelt(self, prim: Any) -> Iterator[Misspelt]:
         """The attributes of a prim that no schema declares for a slip in their names."""
-        return self._authored.misspelt(prim)
+        return self._attributes.misspelt(prim, self.authored(prim))
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The tokens in attributes of a prim that the schema does not allow there."""
-        return self._authored.unlisted_tokens(prim)
+        return self._attributes.unlisted_tokens(prim, self.authored(prim))
 
     def values(self, prim: Any, name: str) -> Values:
         """Every value of an attribute, the default first."""
@@ -548,7 +553,7 @@ class Facts:
     def _bound_assets(self, volume: Any) -> Iterator[tuple[Binding, Target]]:
         """The fields with a file that a Volume really gets, with what binds them."""
         for binding, target in self.fields(volume).with_target(TargetState.FIELD):
-            if schema.FIELD_ASSET in self.authored(in_prototype(target.prim)).schemas:
+            if schema.FIELD_ASSET in target.schemas:
                 yield binding, target
 
     @cached_property
@@ -566,10 +571,14 @@ class Facts:
         return FieldNames(self.of(schema.FIELD))
 
     @cached_property
-    def _authored(self) -> AuthoredAttributes:
-        from usdvol_lint.facts.attributes import AuthoredAttributes
+    def _authored_reader(self) -> AuthoredReader:
+        return self._attributes.AuthoredReader(self.kinds, self._clips)
 
-        return AuthoredAttributes(self.kinds, self._kept, self._clips)
+    @cached_property
+    def _attributes(self) -> ModuleType:
+        from usdvol_lint.facts import attributes
+
+        return attributes
 
     @cached_property
     def _nesting(self) -> Nesting:

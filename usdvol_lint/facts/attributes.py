@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -22,7 +22,6 @@ _count_samples = Usd.Attribute.GetNumTimeSamples
 _property_of = Sdf.Path.AppendProperty
 _attribute_at = Sdf.Layer.GetAttributeAtPath
 _type_of = Sdf.AttributeSpec.typeName.fget
-_OURS = frozenset({schema.VOLUME, schema.FIELD, schema.PARTICLE_FIELD})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,73 +75,17 @@ class Unlisted(NamedTuple):
     values: Values
 
 
-class AuthoredAttributes:
-    """Which attributes are authored on each prim of ours, looked at once.
+class AuthoredReader:
+    """Finds what is authored on prims: few combinations of kind and names, and many prims of each."""
 
-    A stage holds few combinations of kind and names, and many prims of each.
-    """
-
-    def __init__(self, kinds: Kinds, kept: Mapping[Key, Sequence[Any]], clips: Clips) -> None:
+    def __init__(self, kinds: Kinds, clips: Clips) -> None:
         self._kinds = kinds
         self._clips = clips
         self._shared: dict[tuple[Key, tuple[str, ...], bool, bool], Authored] = {}
-        self._prims: dict[Any, Authored] = {}
-        for key, prims in kept.items():
-            if not _OURS.isdisjoint(kinds.names(key)):
-                for prim in prims:
-                    self._prims[prim] = self._find(key, prim)
 
-    def on(self, prim: Any) -> Authored:
+    def read(self, prim: Any) -> Authored:
         """What is authored on a prim."""
-        return self._prims.get(prim) or self._find(self._kinds.key(prim), prim)
-
-    def known(self, prim: Any) -> Authored | None:
-        """The same, or None if it is no prim of ours."""
-        return self._prims.get(prim)
-
-    def mistyped(self, prim: Any) -> Iterator[Mistyped]:
-        """The specs, in every layer, whose type is not the one that the schema declares."""
-        types = self.on(prim).types
-        stack = _stack(prim) if types else ()
-        for holder in stack:
-            layer, path = holder.layer, holder.path
-            for name, wanted in types:
-                place = _property_of(path, name)
-                spec = _attribute_at(layer, place)
-                if spec is None:
-                    spec = layer.GetRelationshipAtPath(place)
-                    if spec:
-                        yield Mistyped(_attribute(prim, name), spec, "rel", str(wanted), False)
-                elif (found := _type_of(spec)) != wanted:
-                    same_values = found.type == wanted.type
-                    attribute = _attribute(prim, name)
-                    yield Mistyped(attribute, spec, str(found), str(wanted), same_values)
-
-    def misspelt(self, prim: Any) -> Iterator[Misspelt]:
-        """The attributes with values that nobody reads for a slip in their names.
-
-        Where the right one has a value, or could not hold this one, it is none.
-        """
-        for name, meant, wanted in self.on(prim).meant:
-            attribute = prim.GetAttribute(name)
-            if not attribute or not attribute.HasAuthoredValue():
-                continue
-            names_another = name.startswith("particleField:")
-            could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
-            if could_hold and not prim.GetAttribute(meant).HasAuthoredValue():
-                yield Misspelt(attribute, meant)
-
-    def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
-        """The tokens that the schema does not allow; an empty one is as good as none."""
-        for name, allowed in self.on(prim).tokens:
-            attribute = _attribute(prim, name)
-            if _get(attribute) in allowed and not _count_samples(attribute):
-                continue
-            for token, values in values_of(attribute).apart(_token):
-                if token not in allowed:
-                    yield Unlisted(name, token, allowed, values)
-
-    def _find(self, key: Key, prim: Any) -> Authored:
+        key = self._kinds.key(prim)
         names = tuple(_names(prim))
         is_layered, is_clipped = len(_stack(prim)) > 1, bool(self._clips.reaching(prim))
         if is_clipped:
@@ -154,6 +97,51 @@ class AuthoredAttributes:
             found = _compare(prim, names, self._kinds.names(key), is_layered, is_clipped)
             self._shared[shape] = found
         return found
+
+
+def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
+    """The specs, in every layer, whose type is not the one that the schema declares."""
+    types = authored.types
+    stack = _stack(prim) if types else ()
+    for holder in stack:
+        layer, path = holder.layer, holder.path
+        for name, wanted in types:
+            place = _property_of(path, name)
+            spec = _attribute_at(layer, place)
+            if spec is None:
+                spec = layer.GetRelationshipAtPath(place)
+                if spec:
+                    yield Mistyped(_attribute(prim, name), spec, "rel", str(wanted), False)
+            elif (found := _type_of(spec)) != wanted:
+                same_values = found.type == wanted.type
+                attribute = _attribute(prim, name)
+                yield Mistyped(attribute, spec, str(found), str(wanted), same_values)
+
+
+def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
+    """The attributes with values that nobody reads for a slip in their names.
+
+    Where the right one has a value, or could not hold this one, it is none.
+    """
+    for name, meant, wanted in authored.meant:
+        attribute = prim.GetAttribute(name)
+        if not attribute or not attribute.HasAuthoredValue():
+            continue
+        names_another = name.startswith("particleField:")
+        could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
+        if could_hold and not prim.GetAttribute(meant).HasAuthoredValue():
+            yield Misspelt(attribute, meant)
+
+
+def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
+    """The tokens that the schema does not allow; an empty one is as good as none."""
+    for name, allowed in authored.tokens:
+        attribute = _attribute(prim, name)
+        if _get(attribute) in allowed and not _count_samples(attribute):
+            continue
+        for token, values in values_of(attribute).apart(_token):
+            if token not in allowed:
+                yield Unlisted(name, token, allowed, values)
 
 
 def _compare(

@@ -37,6 +37,7 @@ class Target(NamedTuple):
     """One forwarded target, which `prim` is None for where there is none.
 
     `to_blame` is the target itself or, where that is why it is not live, the prim above it.
+    `schemas` are those that the prim answers to.
     """
 
     path: Any
@@ -44,6 +45,7 @@ class Target(NamedTuple):
     state: TargetState
     prim: Any | None
     to_blame: Any
+    schemas: frozenset[str] = frozenset()
 
     @builtins.property
     def shown(self) -> str:
@@ -184,10 +186,11 @@ class BindingReader:
             return Target(path, stage, state, None, nearest)
         if path.IsPropertyPath():
             return Target(path, stage, TargetState.PROPERTY, prim, prim)
-        state, culprit = _prim_state(prim, self._kinds)
+        schemas = self._kinds.names(self._kinds.key(prim))
+        state, culprit = _prim_state(prim, schemas)
         if state is TargetState.OVER or not (state is TargetState.FIELD or prim.GetTypeName()):
             state = _told(state, prim, may_lack)
-        return Target(path, stage, state, prim, culprit)
+        return Target(path, stage, state, prim, culprit, schemas)
 
 
 def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:
@@ -316,10 +319,10 @@ def _missing_state(nearest: Any) -> TargetState:
     return TargetState.MISSING
 
 
-def _prim_state(prim: Any, kinds: Kinds) -> tuple[TargetState, Any]:
+def _prim_state(prim: Any, schemas: frozenset[str]) -> tuple[TargetState, Any]:
     """The state of a prim, and the prim to blame for it."""
     if _LIVE(prim):
-        return _kind_state(prim, kinds), prim
+        return _kind_state(prim, schemas), prim
     if not prim.IsActive():
         return TargetState.INACTIVE, prim
     if not prim.IsLoaded():
@@ -328,7 +331,7 @@ def _prim_state(prim: Any, kinds: Kinds) -> tuple[TargetState, Any]:
         return TargetState.OVER, _topmost(prim, lambda above: not above.IsDefined())
     if prim.IsAbstract():
         return TargetState.ABSTRACT, _topmost(prim, lambda above: above.IsAbstract())
-    return _kind_state(prim, kinds), prim
+    return _kind_state(prim, schemas), prim
 
 
 def _topmost(prim: Any, has_trait: Callable[[Any], bool]) -> Any:
@@ -338,11 +341,10 @@ def _topmost(prim: Any, has_trait: Callable[[Any], bool]) -> Any:
     return prim
 
 
-def _kind_state(prim: Any, kinds: Kinds) -> TargetState:
-    names = kinds.names(kinds.key(prim))
-    if schema.FIELD in names:
+def _kind_state(prim: Any, schemas: frozenset[str]) -> TargetState:
+    if schema.FIELD in schemas:
         return TargetState.FIELD
-    if schema.UNKNOWN_TYPE in names:
+    if schema.UNKNOWN_TYPE in schemas:
         return TargetState.UNKNOWN_TYPE
     if prim.GetTypeName() in schema.ABSTRACT_TYPES:
         return TargetState.ABSTRACT_TYPE
