@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, TypeAlias
@@ -13,8 +13,11 @@ from pxr import Usd
 from usdvol_lint import schema
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Key, Kinds
+from usdvol_lint.facts.sums import Sums
 from usdvol_lint.rule import Rule
 
+_CHUNK = 1024
+"""So many prims are asked one question after the other: then what is found of them is cached."""
 _BATCH = 256
 """Small enough that its objects are gone before the garbage collector looks at them."""
 Options: TypeAlias = Mapping[str, Mapping[str, Any]]
@@ -42,7 +45,7 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: Kinds) -> Walk:
     result = Walk()
     for prims in _batches(stage):
         result.prims += len(prims)
-        for prim, key in zip(prims, _keys(prims, kinds), strict=True):
+        for prim, key in zip(prims, kinds.keys(prims), strict=True):
             keep = decided.get(key)
             if keep is None:
                 keep = decided[key] = not wanted.isdisjoint(kinds.names(key))
@@ -60,40 +63,50 @@ def assign(
     prims that are alike, and what sums up a prim is found for those alone that are asked for it.
     """
     rules = list(rules)
-    for key, prims in walked.kept.items():
-        names = facts.kinds.names(key)
+    sums = Sums(facts)
+    for names, prims in _fields_first(walked, facts):
         asked = [rule for rule in rules if not names.isdisjoint(rule.on)]
         always = [rule for rule in asked if rule.when is None]
-        triages = _triages(asked, facts, options)
-        for prim in prims:
-            for rule in always:
-                yield rule, prim
-            for triage in triages:
-                for rule in triage.rules_for(prim):
+        triages = _triages(asked, sums, options)
+        for start in range(0, len(prims), _CHUNK):
+            chunk = prims[start : start + _CHUNK]
+            for prim in chunk:
+                for rule in always:
                     yield rule, prim
+            for triage in triages:
+                for prim, chosen in zip(chunk, triage.rules_for(chunk), strict=True):
+                    for rule in chosen:
+                        yield rule, prim
 
 
 class _Triage:
     """The rules that go by one fact, chosen once for each sum that it gives."""
 
-    def __init__(self, sum_up: Callable[[Any], Any], rules: list[Rule], options: Options) -> None:
+    def __init__(
+        self,
+        sum_up: Callable[[Sequence[Any]], Iterable[Any]],
+        rules: list[Rule],
+        options: Options,
+    ) -> None:
         self._sum_up = sum_up
         self._rules = rules
         self._options = options
         self._chosen: dict[Any, list[Rule]] = {}
 
-    def rules_for(self, prim: Any) -> list[Rule]:
-        """The rules that a prim is handed; what can't be told here, they find out themselves."""
+    def rules_for(self, prims: Sequence[Any]) -> list[list[Rule]]:
+        """The rules that each prim is handed; what can't be told here, they find out themselves."""
         try:
-            found = self._sum_up(prim)
+            sums = self._sum_up(prims)
         except Exception:
-            return self._rules
-        chosen = self._chosen.get(found)
-        if chosen is None:
-            chosen = self._chosen[found] = [
-                rule for rule in self._rules if self._holds(rule, found)
-            ]
-        return chosen
+            if len(prims) == 1:
+                return [self._rules]
+            return [chosen for prim in prims for chosen in self.rules_for([prim])]
+        known = self._chosen
+        return [known[found] if found in known else self._choose(found) for found in sums]
+
+    def _choose(self, found: Any) -> list[Rule]:
+        self._chosen[found] = [rule for rule in self._rules if self._holds(rule, found)]
+        return self._chosen[found]
 
     def _holds(self, rule: Rule, found: Any) -> bool:
         try:
@@ -103,23 +116,21 @@ class _Triage:
             return True
 
 
-def _triages(rules: Iterable[Rule], facts: Facts, options: Options) -> list[_Triage]:
+def _fields_first(walked: Walk, facts: Facts) -> list[tuple[frozenset[str], list[Any]]]:
+    """The kept prims of each kind, with its schemas.
+
+    What Volumes are asked needs what fields hold: so those are read many at once as well.
+    """
+    kinds = [(facts.kinds.names(key), prims) for key, prims in walked.kept.items()]
+    return sorted(kinds, key=lambda kind: schema.FIELD not in kind[0])
+
+
+def _triages(rules: Iterable[Rule], sums: Sums, options: Options) -> list[_Triage]:
     by_fact: dict[str, list[Rule]] = defaultdict(list)
     for rule in rules:
         if rule.when:
             by_fact[rule.when.fact].append(rule)
-    return [_Triage(getattr(facts, fact), chosen, options) for fact, chosen in by_fact.items()]
-
-
-def _keys(prims: list[Any], kinds: Kinds) -> Iterable[Key]:
-    if not kinds.knows_particle_fields:
-        return map(kinds.key, prims)
-    # The same as Kinds.key, with both loops inside the interpreter's C code: a third of the time.
-    types = map(Usd.Prim.GetTypeName, prims)
-    return [
-        (name, *applied)
-        for name, applied in zip(types, map(Usd.Prim.GetAppliedSchemas, prims), strict=True)
-    ]
+    return [_Triage(getattr(sums, fact), chosen, options) for fact, chosen in by_fact.items()]
 
 
 def _batches(stage: Any) -> Iterator[list[Any]]:

@@ -1,9 +1,15 @@
 """SCH009: Volumes and particle fields are Gprims, and Gprims do not nest."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
 
 
-@rule("SCH009", on=("Volume", "ParticleField"), severity=WARNING, since="0.1")
+@rule(
+    "SCH009",
+    on=("Volume", "ParticleField"),
+    when=When("is_nested", bool),
+    severity=WARNING,
+    since="0.1",
+)
 def nested_gprim(prim: Prim, facts: Facts) -> Problems:
     above = facts.gprim_above(prim)
     if above:

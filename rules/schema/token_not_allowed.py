@@ -7,7 +7,7 @@ from usdvol_lint.schema import misspelt_token
 @rule(
     "SCH005",
     on=("VolumeFieldBase", "ParticleField"),
-    when=When("authored", lambda authored: bool(authored.tokens)),
+    when=When("has_odd_tokens", bool),
     severity=ERROR,
     since="0.1",
 )

@@ -1,9 +1,13 @@
 """VOL013: the extent of a Volume must enclose the grids that its fields name."""
 
-from usdvol_lint.rule import ERROR, INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, INFO, Facts, Prim, Problem, Problems, When, rule
 
 
-@rule("VOL013", on="Volume", severity=ERROR, since="0.1")
+def _sticks_out(overhang: float, relative_slack: float) -> bool:
+    return overhang > relative_slack
+
+
+@rule("VOL013", on="Volume", when=When("overhang", _sticks_out), severity=ERROR, since="0.1")
 def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5) -> Problems:
     found = facts.extent_shortfall(volume, relative_slack)
     if found:

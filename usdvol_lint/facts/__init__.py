@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
-from enum import Enum
 from functools import cached_property
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
@@ -29,8 +27,8 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.clips import Clips, ClipSet
     from usdvol_lint.facts.colour_spaces import ColourSpace
     from usdvol_lint.facts.composition import Composition
-    from usdvol_lint.facts.contents import ContentReader, FieldContents, Kind
-    from usdvol_lint.facts.enclosure import Enclosure, Shortfall
+    from usdvol_lint.facts.contents import ContentReader, FieldContents
+    from usdvol_lint.facts.enclosure import Enclosure, Shortfall, Standing
     from usdvol_lint.facts.encodings import Encoding
     from usdvol_lint.facts.extents import Limits
     from usdvol_lint.facts.fields import (
@@ -88,6 +86,9 @@ class Facts:
         self._known: dict[Any, dict[str, Any]] = {}
         self._prim: Any = None
         self._of_prim: dict[str, Any] = {}
+        self._prims: Sequence[Any] = ()
+        self._of_prims: list[dict[str, Any]] = []
+        self._columns: dict[str, list[Any]] = {}
 
     def composed_anew(self, kept: Mapping[Key, Sequence[Any]]) -> Facts:
         """The facts of the same stage under another variant selection.
@@ -123,38 +124,18 @@ class Facts:
 
     def assets(self, prim: Any, name: str) -> AssetSamples:
         """Every value of an asset attribute, resolved and classified."""
-        known = self._known_of(prim)
-        samples: AssetSamples | None = known.get(name)
-        if samples is None:
-            samples = known[name] = self._asset_reader.read(prim.GetAttribute(name))
+        samples: AssetSamples = self._one(prim, name)
         return samples
-
-    def file_path_marks(self, field: Any) -> frozenset[Enum]:
-        """What there is to say of the values of a field's `filePath`."""
-        return self._path_marks.of(self.assets(field, "filePath"), self.authored(field))
 
     def claims(self, field: Any) -> FieldClaims:
         """What a field says of the content of its files."""
-        known = self._known_of(field)
-        claims: FieldClaims | None = known.get(":claims")
-        if claims is None:
-            read = self._claim_reader.read(field, self.authored(field).declared)
-            claims = known[":claims"] = read
+        claims: FieldClaims = self._one(field, ":claims")
         return claims
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""
-        known = self._known_of(field)
-        contents: FieldContents | None = known.get(":contents")
-        if contents is None:
-            contents = known[":contents"] = self._content_reader.read(
-                self.assets(field, "filePath"), self.claims(field), self.authored(field).schemas
-            )
+        contents: FieldContents = self._one(field, ":contents")
         return contents
-
-    def content_kinds(self, field: Any) -> tuple[Kind, ...]:
-        """What sums up what is inside the files that a field names."""
-        return tuple(kind for kind, _ in self.contents(field).kinds)
 
     def sequence(self, prim: Any, name: str) -> SampleSequence | None:
         """The time samples of an asset attribute as a sequence, or None if there are not two."""
@@ -191,15 +172,8 @@ class Facts:
 
     def fields(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
-        known = self._known_of(volume)
-        bindings: FieldBindings | None = known.get(":fields")
-        if bindings is None:
-            bindings = known[":fields"] = self._binding_reader.read(volume, self._may_lack)
+        bindings: FieldBindings = self._one(volume, ":fields")
         return bindings
-
-    def binding_marks(self, volume: Any) -> frozenset[Enum]:
-        """What there is to say of what the `field:` namespace of a Volume binds."""
-        return self.fields(volume).marks(volume)
 
     def apis(self, prim: Any) -> ParticleApis:
         """The applied APIs of a prim, those that nobody registers among them."""
@@ -210,11 +184,6 @@ class Facts:
             known[":apis"] = read_particle_apis(prim, self.kinds)
         apis: ParticleApis = known[":apis"]
         return apis
-
-    def is_strange(self, prim: Any) -> bool:
-        """Whether a prim has properties that no schema declares, or is of no type of ours."""
-        schemas = self.kinds.names(self.kinds.key(prim))
-        return schema.OURS.isdisjoint(schemas) or bool(self.authored(prim).strange)
 
     def encoding(self, prim: Any) -> Encoding | None:
         """The encoding from before the schema that a prim is in, if it is in one."""
@@ -273,23 +242,26 @@ class Facts:
 
     def authored(self, prim: Any) -> Authored:
         """The authored attributes of a prim, by what the schemas declare of them."""
-        known = self._known_of(prim)
-        authored: Authored | None = known.get(":authored")
-        if authored is None:
-            authored = known[":authored"] = self._authored_reader.read(prim)
+        authored: Authored = self._one(prim, ":authored")
         return authored
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
-        return self._attributes.mistyped(prim, self.authored(prim))
+        from usdvol_lint.facts.attributes import mistyped
+
+        return mistyped(prim, self.authored(prim))
 
     def misspelt(self, prim: Any) -> Iterator[Misspelt]:
         """The attributes of a prim that no schema declares for a slip in their names."""
-        return self._attributes.misspelt(prim, self.authored(prim))
+        from usdvol_lint.facts.attributes import misspelt
+
+        return misspelt(prim, self.authored(prim))
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The tokens in attributes of a prim that the schema does not allow there."""
-        return self._attributes.unlisted_tokens(prim, self.authored(prim))
+        from usdvol_lint.facts.attributes import unlisted_tokens
+
+        return unlisted_tokens(prim, self.authored(prim))
 
     def values(self, prim: Any, name: str) -> Values:
         """Every value of an attribute, the default first."""
@@ -305,23 +277,16 @@ class Facts:
 
     def limits(self, prim: Any) -> Limits:
         """Every `extent` of a prim as a box."""
-        known = self._known_of(prim)
-        limits: Limits | None = known.get(":limits")
-        if limits is None:
-            limits = known[":limits"] = self._limits(prim.GetAttribute("extent"))
+        limits: Limits = self._one(prim, ":limits")
         return limits
-
-    def has_odd_extent(self, prim: Any) -> bool:
-        """Whether some authored `extent` is no box."""
-        return self.limits(prim).are_odd
 
     def gprim_above(self, prim: Any) -> Any | None:
         """The nearest Gprim among the ancestors of a prim."""
-        return self._nesting.above(prim)
+        return self.nesting.above(prim)
 
     def gprims_below(self, prim: Any) -> Iterator[Nested]:
         """The Gprims below a prim, but none that is a Volume or particle field or below one."""
-        return self._nesting.below(prim)
+        return self.nesting.below(prim)
 
     def shown_path(self, prim: Any) -> str:
         """The path of a prim as the stage shows it, also in a prototype."""
@@ -377,16 +342,17 @@ class Facts:
 
     def extent_shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
         """What the grids of a Volume have outside its extent, if one is authored."""
-        limits = self.limits(volume)
-        if not limits.are_authored:
-            return None
+        return self.enclosure.shortfall(self.standing(volume), relative_slack)
+
+    def standing(self, volume: Any) -> Standing:
+        """A Volume with its extent, and what there is to enclose in it."""
         fields = []
         for _, target in self._bound_assets(volume):
             field = in_prototype(target.prim)
-            contents = self.contents(field)
+            contents: FieldContents = self._one(field, ":contents")
             if contents.select_grids:
                 fields.append((target, self.assets(field, "filePath"), contents))
-        return self._enclosure.shortfall(volume, limits, fields, relative_slack) if fields else None
+        return volume, self.limits(volume), fields
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:
         """The different files that the fields of a Volume name at one time, if they do."""
@@ -482,7 +448,7 @@ class Facts:
         return AssetReader(self.files, self._advance)
 
     @cached_property
-    def _path_marks(self) -> PathMarks:
+    def path_marks(self) -> PathMarks:
         from usdvol_lint.facts.path_marks import PathMarks
 
         return PathMarks(self.files, self._has_packages)
@@ -498,12 +464,6 @@ class Facts:
         from usdvol_lint.facts.fields import BindingReader
 
         return BindingReader(self.kinds)
-
-    @cached_property
-    def _limits(self) -> type[Limits]:
-        from usdvol_lint.facts.extents import Limits
-
-        return Limits
 
     @cached_property
     def _content_reader(self) -> ContentReader:
@@ -526,6 +486,49 @@ class Facts:
 
         return any(map(package_of, self.stage.GetUsedLayers()))
 
+    def each(self, prims: Sequence[Any], name: str) -> list[Any]:
+        """A fact of each of many prims of one kind, by the name that it is kept under.
+
+        To find it in one go takes half the time that one by one would take.
+        """
+        if prims is not self._prims:
+            self._prims, self._of_prims = prims, [self._known_of(prim) for prim in prims]
+            self._columns = {}
+        column = self._columns.get(name)
+        if column is None:
+            records = self._of_prims
+            if not all(name in record for record in records):
+                for record, found in zip(records, self._read(name, prims), strict=True):
+                    record.setdefault(name, found)
+            column = self._columns[name] = [record[name] for record in records]
+        return column
+
+    def _one(self, prim: Any, name: str) -> Any:
+        known = self._known_of(prim)
+        if name not in known:
+            (known[name],) = self._read(name, (prim,))
+        return known[name]
+
+    def _read(self, name: str, prims: Sequence[Any]) -> Sequence[Any]:
+        """Finds what is kept under a name for each of many prims."""
+        if name == ":authored":
+            return self._authored_reader.read(prims)
+        if name == ":claims":
+            return self._claim_reader.read(prims, self.each(prims, ":authored"))
+        if name == ":contents":
+            return self._content_reader.read(
+                self.each(prims, "filePath"),
+                self.each(prims, ":claims"),
+                self.each(prims, ":authored"),
+            )
+        if name == ":fields":
+            return self._binding_reader.read(prims, self._may_lack)
+        if name == ":limits":
+            from usdvol_lint.facts.extents import read_limits
+
+            return read_limits(prims)
+        return self._asset_reader.read(prims, name)
+
     def _known_of(self, prim: Any) -> dict[str, Any]:
         """What was found of one prim, by name; hashing a prim is dear, and rules ask in a row."""
         if prim is not self._prim:
@@ -545,7 +548,7 @@ class Facts:
         return self._field_names.nearest(path) if path else None
 
     @cached_property
-    def _enclosure(self) -> Enclosure:
+    def enclosure(self) -> Enclosure:
         from usdvol_lint.facts.enclosure import Enclosure
 
         return Enclosure()
@@ -572,16 +575,12 @@ class Facts:
 
     @cached_property
     def _authored_reader(self) -> AuthoredReader:
-        return self._attributes.AuthoredReader(self.kinds, self._clips)
+        from usdvol_lint.facts.attributes import AuthoredReader
+
+        return AuthoredReader(self.kinds, self._clips)
 
     @cached_property
-    def _attributes(self) -> ModuleType:
-        from usdvol_lint.facts import attributes
-
-        return attributes
-
-    @cached_property
-    def _nesting(self) -> Nesting:
+    def nesting(self) -> Nesting:
         from usdvol_lint.facts.nesting import Nesting
 
         return Nesting(self.kinds)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import repeat
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -31,7 +32,7 @@ _PATH_OF = attrgetter("path")
 # To look a method up on an object of USD's takes as long as what most methods do.
 _get = Usd.Attribute.Get
 _count_samples = Usd.Attribute.GetNumTimeSamples
-_is_authored = Usd.Property.IsAuthored
+_attribute = Usd.Prim.GetAttribute
 
 
 class Sample(NamedTuple):
@@ -186,16 +187,25 @@ class AssetReader:
         self._alone: dict[Any, tuple[Sample]] = {}
         """Defaults that name files, which are the same wherever they are authored."""
 
-    def read(self, attribute: Any) -> AssetSamples:
-        if not (_is_authored(attribute) or attribute.HasAuthoredValue()):
-            return AssetSamples(attribute, (), frozenset())
-        if _count_samples(attribute):
+    def read(self, prims: Sequence[Any], name: str) -> list[AssetSamples]:
+        """The values of an attribute of that name on each of many prims."""
+        attributes = list(map(_attribute, prims, repeat(name)))
+        counts = map(_count_samples, attributes)
+        values = map(_get, attributes)
+        known = self._alone
+        return [
+            AssetSamples(attribute, known[value], _FILE)
+            if not count and isinstance(value, Sdf.AssetPath) and value in known
+            else self._read(attribute, count, value)
+            for attribute, count, value in zip(attributes, counts, values, strict=True)
+        ]
+
+    def _read(self, attribute: Any, count: int, value: Any) -> AssetSamples:
+        if count:
             samples = tuple(self._classified(attribute))
             return AssetSamples(attribute, samples, frozenset(each.state for each in samples))
-        value = _get(attribute)
-        alone = self._alone.get(value) if isinstance(value, Sdf.AssetPath) else None
-        if alone:
-            return AssetSamples(attribute, alone, _FILE)
+        if value is None and not (attribute.IsAuthored() or attribute.HasAuthoredValue()):
+            return AssetSamples(attribute, (), frozenset())
         alone = (_classify(attribute, None, value, self._files),)
         if alone[0].state is AssetState.FILE and _FORMAT_ARGUMENTS not in alone[0].path:
             self._alone[value] = alone

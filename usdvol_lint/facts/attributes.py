@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -22,6 +22,8 @@ _count_samples = Usd.Attribute.GetNumTimeSamples
 _property_of = Sdf.Path.AppendProperty
 _attribute_at = Sdf.Layer.GetAttributeAtPath
 _type_of = Sdf.AttributeSpec.typeName.fget
+_layer = Sdf.Spec.layer.fget
+_path = Sdf.Spec.path.fget
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,27 +78,45 @@ class Unlisted(NamedTuple):
 
 
 class AuthoredReader:
-    """Finds what is authored on prims: few combinations of kind and names, and many prims of each."""
+    """Finds what is authored on prims: there are few combinations, and many prims of each."""
 
     def __init__(self, kinds: Kinds, clips: Clips) -> None:
         self._kinds = kinds
         self._clips = clips
         self._shared: dict[tuple[Key, tuple[str, ...], bool, bool], Authored] = {}
 
-    def read(self, prim: Any) -> Authored:
-        """What is authored on a prim."""
-        key = self._kinds.key(prim)
-        names = tuple(_names(prim))
-        is_layered, is_clipped = len(_stack(prim)) > 1, bool(self._clips.reaching(prim))
-        if is_clipped:
-            known = schema.attributes_of(self._kinds.names(key))
-            names += tuple(name for name in known if prim.GetAttribute(name).HasAuthoredValue())
-        shape = (key, names, is_layered, is_clipped)
-        found = self._shared.get(shape)
-        if found is None:
-            found = _compare(prim, names, self._kinds.names(key), is_layered, is_clipped)
-            self._shared[shape] = found
+    def read(self, prims: Sequence[Any]) -> list[Authored]:
+        """What is authored on each of many prims of one kind."""
+        found = []
+        key = self._kinds.key(prims[0])
+        names = map(tuple, map(_names, prims))
+        layers = map(len, map(_stack, prims))
+        columns = zip(prims, names, layers, self._clips.reach(prims), strict=True)
+        for prim, own, count, is_clipped in columns:
+            if is_clipped:
+                known = schema.attributes_of(self._kinds.names(key))
+                own += tuple(name for name in known if prim.GetAttribute(name).HasAuthoredValue())
+            shape = (key, own, count > 1, is_clipped)
+            authored = self._shared.get(shape)
+            if authored is None:
+                authored = _compare(prim, own, self._kinds.names(key), count > 1, is_clipped)
+                self._shared[shape] = authored
+            found.append(authored)
         return found
+
+
+def may_be_mistyped(prims: Sequence[Any], authored: Sequence[Authored]) -> list[bool]:
+    """Whether `mistyped` may find anything, for each of many prims."""
+    found = []
+    for own, stack in zip(authored, map(_stack, prims), strict=True):
+        is_odd = False
+        for holder in stack:
+            layer, path = _layer(holder), _path(holder)
+            for name, wanted in own.types:
+                spec = _attribute_at(layer, _property_of(path, name))
+                is_odd = is_odd or spec is None or _type_of(spec) != wanted
+        found.append(is_odd)
+    return found
 
 
 def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
@@ -142,6 +162,17 @@ def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
         for token, values in values_of(attribute).apart(_token):
             if token not in allowed:
                 yield Unlisted(name, token, allowed, values)
+
+
+def may_have_unlisted(prims: Sequence[Any], authored: Sequence[Authored]) -> list[bool]:
+    """Whether `unlisted_tokens` may find anything, for each of many prims."""
+    return [
+        any(
+            _get(attribute := _attribute(prim, name)) not in allowed or _count_samples(attribute)
+            for name, allowed in own.tokens
+        )
+        for prim, own in zip(prims, authored, strict=True)
+    ]
 
 
 def _compare(

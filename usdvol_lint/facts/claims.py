@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from pxr import Usd
 
+from usdvol_lint.facts.attributes import Authored
 from usdvol_lint.facts.held import Held, Time
 from usdvol_lint.facts.values import read_values
 
@@ -64,29 +65,41 @@ class ClaimReader:
     def __init__(self) -> None:
         self._claims: dict[tuple[Any, ...], Claim] = {}
         self._unchanging: dict[tuple[Any, ...], FieldClaims] = {}
+        self._names: dict[Authored, tuple[str, ...]] = {}
 
-    def read(self, field: Any, authored: Container[str]) -> FieldClaims:
-        """What a field says; `authored` has the names of its attributes."""
-        constant: dict[str, Any] = {}
-        animated: dict[str, Held[Any]] = {}
-        for attribute_name, name in _ATTRIBUTES.items():
-            if attribute_name in authored:
-                attribute = _attribute(field, attribute_name)
-                if _count_samples(attribute):
-                    animated[name] = Held(read_values(attribute))
-                else:
-                    constant[name] = _get(attribute)
-        if animated:
-            return self._read_changing(constant, animated)
-        key = tuple(constant.items())
+    def read(self, fields: Sequence[Any], authored: Sequence[Authored]) -> list[FieldClaims]:
+        """What each of many fields says; `authored` is what is authored on them."""
+        return [self._read(*each) for each in zip(fields, map(self._said, authored), strict=True)]
+
+    def _said(self, authored: Authored) -> tuple[str, ...]:
+        """The names of the attributes that say something."""
+        names = self._names.get(authored)
+        if names is None:
+            names = tuple(name for name in _ATTRIBUTES if name in authored.declared)
+            self._names[authored] = names
+        return names
+
+    def _read(self, field: Any, names: tuple[str, ...]) -> FieldClaims:
+        attributes = [_attribute(field, name) for name in names]
+        if any(map(_count_samples, attributes)):
+            return self._read_changing(attributes)
+        key = (names, *map(_get, attributes))
         found = self._unchanging.get(key)
         if found is None:
-            found = self._unchanging[key] = FieldClaims(self._claim(constant))
+            said = {_ATTRIBUTES[name]: value for name, value in zip(names, key[1:], strict=True)}
+            found = self._unchanging[key] = FieldClaims(self._claim(said))
         return found
 
-    def _read_changing(
-        self, constant: dict[str, Any], animated: dict[str, Held[Any]]
-    ) -> FieldClaims:
+    def _read_changing(self, attributes: Sequence[Any]) -> FieldClaims:
+        constant: dict[str, Any] = {}
+        animated: dict[str, Held[Any]] = {}
+        for attribute in attributes:
+            name = _ATTRIBUTES[attribute.GetName()]
+            if _count_samples(attribute):
+                animated[name] = Held(read_values(attribute))
+            else:
+                constant[name] = _get(attribute)
+
         def at(time: Time) -> Claim:
             return self._claim(constant | {name: held.at(time) for name, held in animated.items()})
 

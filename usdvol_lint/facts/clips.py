@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +11,7 @@ from pxr import Sdf, Tf, Usd
 _CLIPS_LOOKED_AT = 4
 # To look a method up on an object of USD's takes as long as what most methods do.
 _has_metadata = Usd.Prim.HasAuthoredMetadata
+_parent = Usd.Prim.GetParent
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,11 +112,24 @@ class Clips:
     def __init__(self) -> None:
         self._reaching: dict[Any, tuple[ClipSet, ...]] = {}
 
+    def reach(self, prims: Sequence[Any]) -> list[bool]:
+        """Whether there are clip sets for each of many prims."""
+        known = map(self._reaching.get, prims)
+        return [
+            bool(self.reaching(prim) if found is None else found)
+            for found, prim in zip(known, prims, strict=True)
+        ]
+
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets on the prim and its ancestors, nearest first."""
-        parent = prim.GetParent()
-        above = self._reaching.get(parent)
-        if above is None:
-            above = () if parent.IsPseudoRoot() else self.reaching(parent)
-            self._reaching[parent] = above
+        above = self.above(prim)
         return clip_sets_on(prim) + above if _has_metadata(prim, "clips") else above
+
+    def above(self, prim: Any) -> tuple[ClipSet, ...]:
+        """The clip sets on the ancestors of a prim, nearest first."""
+        parent = _parent(prim)
+        found = self._reaching.get(parent)
+        if found is None:
+            found = () if parent.IsPseudoRoot() else self.reaching(parent)
+            self._reaching[parent] = found
+        return found

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Ar
 
 from usdvol_lint.facts.assets import Affected, AssetSamples, Sample
+from usdvol_lint.facts.attributes import Authored
 from usdvol_lint.facts.claims import Claim, FieldClaims
 from usdvol_lint.facts.files import is_packaged
 from usdvol_lint.facts.held import Held, Time
@@ -180,10 +181,12 @@ class FieldContents(NamedTuple):
     def grids(self) -> Iterator[tuple[Time, Grid | None]]:
         """The grid that name and index select, at each time."""
         for kind, contents in self.kinds:
-            place = kind.answer(_place_of_grid)
+            place: Any = kind.answer(_place_of_grid)
             for sample, _, reading, _ in contents:
-                is_there = place is not None and reading.file is not None
-                yield sample.time, reading.file.grids[place] if is_there else None
+                if place is None or reading.file is None:
+                    yield sample.time, None
+                else:
+                    yield sample.time, reading.file.grids[place]
 
     @property
     def select_grids(self) -> bool:
@@ -218,13 +221,18 @@ class ContentReader:
         self._kinds: dict[Hashable, Kind] = {}
 
     def read(
-        self, samples: AssetSamples, claims: FieldClaims, schemas: frozenset[str]
-    ) -> FieldContents:
-        """The contents of the files in the samples of a field's `filePath`.
+        self,
+        samples: Iterable[AssetSamples],
+        claims: Iterable[FieldClaims],
+        authored: Iterable[Authored],
+    ) -> list[FieldContents]:
+        """The contents of the files in the samples of many fields' `filePath`."""
+        return [self._read(*each) for each in zip(samples, claims, authored, strict=True)]
 
-        `schemas` are those that the field answers to.
-        """
-        wanted = self._wanted(schemas)
+    def _read(
+        self, samples: AssetSamples, claims: FieldClaims, authored: Authored
+    ) -> FieldContents:
+        wanted = self._wanted(authored.schemas)
         if not wanted or self._extent == "off" or AssetState.FILE not in samples.states:
             return FieldContents(samples.attribute, (), 0)
         if len(samples.samples) == 1 and not claims.times:

@@ -6,7 +6,8 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, NamedTuple
+from math import inf
+from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.facts.assets import AssetSamples
 from usdvol_lint.facts.contents import FieldContents
@@ -154,6 +155,10 @@ class Hull(NamedTuple):
     magnitude: float
 
 
+Standing: TypeAlias = tuple[Any, Limits, Sequence[tuple[Target, AssetSamples, FieldContents]]]
+"""A Volume with its extent, and those fields whose files have the grids that they name."""
+
+
 class Enclosure:
     """Holds extents against grids; the box around each grid is found once.
 
@@ -163,48 +168,34 @@ class Enclosure:
     def __init__(self) -> None:
         self._boxes: dict[tuple[int, Matrix | None], Bounds | None] = {}
 
-    def shortfall(
-        self,
-        volume: Any,
-        limits: Limits,
-        fields: Iterable[tuple[Target, AssetSamples, FieldContents]],
-        relative_slack: float,
-    ) -> Shortfall | None:
+    def overhang(self, standing: Standing) -> float:
+        """How far any grid may reach out of the extent, in relation to its largest coordinate.
+
+        Infinite where each time has to be looked at to tell.
+        """
+        _, limits, fields = standing
+        if not fields:
+            return 0.0
+        limit = limits.at(None)
+        if limit is None or limits.times:
+            return inf
+        most = 0.0
+        for placed in _placed(standing):
+            hull = placed.hull(self)
+            if hull is None:
+                return inf
+            most = max(most, _overhang(limit, hull))
+        return most
+
+    def shortfall(self, standing: Standing, relative_slack: float) -> Shortfall | None:
         """Holds an extent against every grid at every time at which one of them changes.
 
         A box may stick out by `relative_slack` of its largest coordinate.
         Once the centre of a voxel lies outside, halves of voxels elsewhere are not worth a word.
         """
-        placed = [
-            PlacedField(target, paths, contents, read_placement(volume, target.prim))
-            for target, paths, contents in fields
-        ]
-        if not limits.times and self._are_inside(placed, limits.at(None), relative_slack):
+        limits, fields = standing[1], list(_placed(standing))
+        if not limits.are_authored or not fields:
             return None
-        return self._find_shortfall(limits, placed, relative_slack)
-
-    def whole(self, grid: Grid, matrix: Matrix) -> Bounds | None:
-        """The box around the whole voxels of a grid, carried into the space of a Volume."""
-        key = (id(grid), None if matrix is IDENTITY else matrix)
-        if key not in self._boxes:
-            self._boxes[key] = _carried(grid, matrix, _HALF_VOXEL)
-        return self._boxes[key]
-
-    def _are_inside(
-        self, fields: Iterable[PlacedField], limit: Bounds | None, relative_slack: float
-    ) -> bool:
-        """Whether one extent has all that there ever is inside it: then no time needs a look."""
-        if limit is None:
-            return False
-        for placed in fields:
-            hull = placed.hull(self)
-            if hull is None or not _encloses(limit, hull.box, relative_slack * hull.magnitude):
-                return False
-        return True
-
-    def _find_shortfall(
-        self, limits: Limits, fields: Sequence[PlacedField], relative_slack: float
-    ) -> Shortfall | None:
         centres, halves = _Tally(), _Tally()
         checked = set()
         for placed in fields:
@@ -242,6 +233,30 @@ class Enclosure:
                 _as_text(filter(None, (self.whole(grid, matrix) for _, grid, matrix in moments)))
             ),
         )
+
+    def whole(self, grid: Grid, matrix: Matrix) -> Bounds | None:
+        """The box around the whole voxels of a grid, carried into the space of a Volume."""
+        key = (id(grid), None if matrix is IDENTITY else matrix)
+        if key not in self._boxes:
+            self._boxes[key] = _carried(grid, matrix, _HALF_VOXEL)
+        return self._boxes[key]
+
+
+def _placed(standing: Standing) -> Iterator[PlacedField]:
+    volume, _, fields = standing
+    for target, paths, contents in fields:
+        placement = read_placement(volume, target.prim)
+        yield PlacedField(target, paths, contents, placement)
+
+
+def _overhang(limit: Bounds, hull: Hull) -> float:
+    """How far a hull sticks out at most, in relation to its magnitude."""
+    (a, b, c), (d, e, f) = limit
+    (x, y, z), (u, v, w) = hull.box
+    if a <= x and b <= y and c <= z and u <= d and v <= e and w <= f:
+        return 0.0
+    most = max(a - x, b - y, c - z, u - d, v - e, w - f)
+    return most / hull.magnitude if hull.magnitude else inf
 
 
 def _hull(boxes: Sequence[Bounds | None]) -> Hull | None:

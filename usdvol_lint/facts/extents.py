@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import inf
 from typing import Any, NamedTuple, TypeAlias
 
@@ -50,6 +51,11 @@ class Limits:
         if time is None or self._get is None:
             return self._values.get(None)
         return self._values[time] if time in self._values else _bounds(self._get(time))
+
+
+def read_limits(prims: Sequence[Any]) -> list[Limits]:
+    """Every `extent` of many prims as boxes."""
+    return [Limits(_attribute(prim, "extent")) for prim in prims]
 
 
 def _bounds(value: Any) -> Bounds | None:

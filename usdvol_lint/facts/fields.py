@@ -26,6 +26,7 @@ _stage = Usd.Object.GetStage
 _targets = Usd.Relationship.GetForwardedTargets
 _prim_at = Usd.Stage.GetPrimAtPath
 _path = Usd.Object.GetPath
+_is_proxy = Usd.Prim.IsInstanceProxy
 _has_prefix = Sdf.Path.HasPrefix
 _prim_path = Sdf.Path.GetPrimPath
 
@@ -151,11 +152,14 @@ class BindingReader:
     def __init__(self, kinds: Kinds) -> None:
         self._kinds = kinds
 
-    def read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
-        """What the authored properties of a Volume bind.
+    def read(self, volumes: Iterable[Any], may_lack: MayLack) -> list[FieldBindings]:
+        """What the authored properties of many Volumes bind.
 
         `may_lack` is asked whether opinions about a prim may lie in a layer that does not open.
         """
+        return [self._read(volume, may_lack) for volume in volumes]
+
+    def _read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
         bindings, others = [], []
         for prop in _properties(volume):
             name = _name(prop)
@@ -202,6 +206,8 @@ def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:
 def field_paths(bindings: FieldBindings) -> set[Any]:
     """The paths of every prim that a relationship of the Volume targets, as the walk met them."""
     prims = [target.prim for binding in bindings.bindings for target in binding.targets]
+    if len(prims) == 1 and prims[0] and not bindings.strays and not _is_proxy(prims[0]):
+        return {_path(prims[0])}  # so it is nearly always
     for stray in bindings.strays:
         stage = stray.GetStage()
         prims += [stage.GetPrimAtPath(path.GetPrimPath()) for path in stray.GetForwardedTargets()]

@@ -11,6 +11,10 @@ from usdvol_lint import schema
 from usdvol_lint.facts.kinds import Kinds
 
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()
+_UNKNOWN = object()
+# To look a method up on an object of USD's takes as long as what most methods do.
+_parent = Usd.Prim.GetParent
+_children = Usd.Prim.GetFilteredChildren
 
 
 class Nested(NamedTuple):
@@ -29,10 +33,15 @@ class Nesting:
 
     def above(self, prim: Any) -> Any | None:
         """The nearest Gprim among the ancestors, those of the instances of a prototype too."""
-        parent = prim.GetParent()
-        if parent not in self._at_or_above:
-            self._at_or_above[parent] = self._find_at_or_above(parent)
-        return self._at_or_above[parent]
+        parent = _parent(prim)
+        found = self._at_or_above.get(parent, _UNKNOWN)
+        if found is _UNKNOWN:
+            found = self._at_or_above[parent] = self._find_at_or_above(parent)
+        return found
+
+    def is_likely(self, prim: Any) -> bool:
+        """Whether there is a Gprim above, or below, if only one that speaks for itself."""
+        return bool(self.above(prim)) or any(self._topmost_gprims(prim))
 
     def below(self, prim: Any) -> Iterator[Nested]:
         """The topmost Gprims below, one for each instance; Volumes and particle fields speak for
@@ -50,7 +59,7 @@ class Nesting:
 
     def _topmost_gprims(self, prim: Any) -> Iterator[Any]:
         # The end of a PrimRange takes longer than to look at a Volume with its fields.
-        for child in prim.GetFilteredChildren(_WITH_INSTANCES):
+        for child in _children(prim, _WITH_INSTANCES):
             if self._kinds.is_a(child, schema.GPRIM):
                 yield child
             else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from enum import Enum
 
 from usdvol_lint.facts.assets import AssetSamples, Sample
@@ -25,16 +26,21 @@ class PathMarks:
         self._has_packages = has_packages
         self._known: dict[tuple[str, str, Authored], frozenset[Enum]] = {}
 
-    def of(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
-        """The states of the values, and the marks; `authored` is what their prim is."""
+    def of(
+        self, paths: Iterable[AssetSamples], authored: Iterable[Authored]
+    ) -> list[frozenset[Enum]]:
+        """The states and the marks of many prims' values; `authored` is what is on the prims."""
+        return [self._of(*each) for each in zip(paths, authored, strict=True)]
+
+    def _of(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
         samples = paths.samples
-        if len(samples) == 1 and samples[0].state is AssetState.FILE:
-            key = (samples[0].path, samples[0].resolved, authored)
-            found = self._known.get(key)
-            if found is None:
-                found = self._known[key] = self._look(paths, authored)
-            return found
-        return self._look(paths, authored)
+        if len(samples) != 1 or samples[0].state is not AssetState.FILE:
+            return self._look(paths, authored)
+        key = (samples[0].path, samples[0].resolved, authored)
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = self._look(paths, authored)
+        return found
 
     def _look(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
         found: set[Enum] = set(paths.states)
