@@ -85,7 +85,7 @@ class Engine:
             clock.lap("open")
             return report_trouble(path, trouble, seconds=clock.seconds)
         clock.lap("open")
-        kinds = Kinds()
+        kinds = Kinds(stage.GetMetadata("fallbackPrimTypes"))
         walked = walk(stage, self._rules, kinds)
         clock.lap("walk")
         facts = Facts(

@@ -14,8 +14,11 @@ def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5
         grid = found.worst.shown
         reach = f"{grid} reaches out of the extent"
         cut = f"the extent encloses the voxel centres of {grid} and cuts voxels off"
+        nothing = f"the extent is the empty range, and {grid} has voxels"
+        missed = cut if found.only_half_voxels else reach
         yield Problem(
-            f"{cut if found.only_half_voxels else reach} by {found.worst.amounts}{found.count}",
+            (nothing if found.is_of_empty_extent else f"{missed} by {found.worst.amounts}")
+            + found.count,
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,

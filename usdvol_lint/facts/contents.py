@@ -194,6 +194,14 @@ class FieldContents(NamedTuple):
         return any(kind.answer(_place_of_grid) is not None for kind, _ in self.kinds)
 
     @property
+    def have_no_data_type(self) -> bool:
+        """Whether the grids were found, and no `fieldDataType` stands for what they hold."""
+        contents = [kind.content for kind, _ in self.kinds]
+        return bool(contents) and all(
+            content.grid is not None and not content.data_types for content in contents
+        )
+
+    @property
     def single_grid(self) -> bool:
         """Whether files were looked into, and each holds exactly one grid."""
         files = [kind.content.file for kind, _ in self.kinds]

@@ -134,6 +134,11 @@ class Shortfall:
     fitting: str
 
     @property
+    def is_of_empty_extent(self) -> bool:
+        """Whether the extent is USD's empty range, out of which everything sticks."""
+        return self.worst.most > 1e38
+
+    @property
     def count(self) -> str:
         """Which of several times and fields are concerned; empty where there is one of each."""
         words = []

@@ -58,13 +58,19 @@ def read_limits(prims: Sequence[Any]) -> list[Limits]:
     return [Limits(_attribute(prim, "extent")) for prim in prims]
 
 
+_LARGEST = 3.4028234663852886e38
+EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
+"""What USD writes for an extent with nothing in it: no box, but not malformed."""
+
+
 def _bounds(value: Any) -> Bounds | None:
     if not isinstance(value, Vt.Vec3fArray) or len(value) != 2:
         return None
     corners: Any = memoryview(value).tolist()  # a tenth of the time that USD's own vectors take
     (a, b, c), (x, y, z) = corners
     ordered = -inf < a <= x < inf and -inf < b <= y < inf and -inf < c <= z < inf
-    return ((a, b, c), (x, y, z)) if ordered else None
+    box = (a, b, c), (x, y, z)
+    return box if ordered or box == EMPTY_RANGE else None
 
 
 def read_extents(attribute: Any) -> Values:

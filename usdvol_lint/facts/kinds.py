@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 from pxr import Usd
@@ -14,10 +14,14 @@ Key: TypeAlias = tuple[str, ...]
 
 
 class Kinds:
-    """The schema names of each kind of prim: its type and bases, and its applied APIs."""
+    """The schema names of each kind of prim: its type and bases, and its applied APIs.
 
-    def __init__(self) -> None:
+    `fallbacks` are the types that the stage names for types which nobody registers.
+    """
+
+    def __init__(self, fallbacks: Mapping[str, Sequence[str]] | None = None) -> None:
         self.knows_particle_fields = is_registered(schema.PARTICLE_FIELD)
+        self._fallbacks = fallbacks or {}
         self._names: dict[Key, frozenset[str]] = {}
 
     def key(self, prim: Any) -> Key:
@@ -44,8 +48,15 @@ class Kinds:
     def names(self, key: Key) -> frozenset[str]:
         """The schema names that prims of this kind answer to, UNKNOWN_TYPE or ABSTRACT_TYPE too."""
         if key not in self._names:
-            self._names[key] = frozenset(key[1:]) | type_names(key[0])
+            self._names[key] = frozenset(key[1:]) | type_names(self._known_type(key[0]))
         return self._names[key]
+
+    def _known_type(self, type_name: str) -> str:
+        """The type that USD takes a prim for."""
+        if is_registered(type_name):
+            return type_name
+        fallbacks = self._fallbacks.get(type_name, ())
+        return next(filter(is_concrete, fallbacks), type_name)
 
     def is_a(self, prim: Any, name: str) -> bool:
         """Whether the prim answers to the schema of that name."""

@@ -167,8 +167,8 @@ class ParticleArrays:
         return self._misfits(array, each, lambda size, wanted: size < wanted)
 
     def long(self, array: ParticleArray, each: int = 1) -> Misfits | None:
-        """When an array has more elements than so many for each particle."""
-        return self._misfits(array, each, lambda size, wanted: size > wanted)
+        """When an array has more elements than so many for each particle, if there are any."""
+        return self._misfits(array, each, lambda size, wanted: size > wanted > 0)
 
     @property
     def fitting_degree(self) -> int | None:
