@@ -1,4 +1,7 @@
-"""The report for grep and editors: `path: CODE severity <prim.property> [frames] message`."""
+"""The report for grep and editors, with a line for each finding.
+
+`path: CODE severity <prim.property> [frames] (variant) message`
+"""
 
 from __future__ import annotations
 
@@ -29,6 +32,8 @@ def _parts(finding: Finding, stage: StageReport, options: Options) -> Iterator[s
         yield f"<{printable(_object_path(site))}>"
     if site.frames:
         yield f"[{site.frames}]"
+    if site.variant:
+        yield f"(variant {printable(site.variant)})"
     yield printable(finding.message)
     if not _same_file(site.layer, stage.path):
         yield f"(in {printable(stage.path)})"
