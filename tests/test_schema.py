@@ -314,6 +314,7 @@ def test_misspelt_attribute_of_a_splat(name: str, meant: str) -> None:
         "primvars:radiance:sphericalHarmonicsCoefficients",
         "xformOp:scale",
         "scales2",
+        "opacitiesMax",
         "velocities",
         "widths",
         "visible",

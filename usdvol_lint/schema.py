@@ -310,7 +310,8 @@ def misspelt_api(name: str) -> str | None:
 def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
     """The candidate that an attribute which no schema declares was probably meant to be.
 
-    A name in a namespace is somebody's own, unless it is in one of ours.
+    A name in a namespace is somebody's own, unless it is in one of ours; and one with a word more
+    than ours has, `opacitiesMax`, is no slip.
     """
     names = frozenset(candidates)
     folded = _fold(name)
@@ -321,7 +322,8 @@ def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
         return None
     if ":" in name:
         names = frozenset(candidate for candidate in names if ":" in candidate)
-    return nearest(name, names, cutoff=0.81)
+    longer = (other for other in names if name.startswith(other) and name[len(other) :][:1].isupper())
+    return nearest(name, names.difference(longer), cutoff=0.81)
 
 
 def is_alike(one: str, other: str) -> bool:
