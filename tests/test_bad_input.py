@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import pytest
 from process import ROOT, ROUGH, STUDIO, Ran, environment, run, volume, write
@@ -26,6 +27,9 @@ ROUGH_ONLY = ("--isolated", "--pack", ROUGH, "--select", "RGH", "--output-format
 GOOD = "name 'fog', wanted smoke, fire"
 KINDS = "USD files end in .usd, .usda, .usdc, .usdz"
 AGAIN = "copy or export it again"
+NO_DIRECTORY = (
+    "a truncated or corrupt package: the directory of its files, which ends it, is missing"
+)
 
 
 def crate() -> bytes:
@@ -146,6 +150,8 @@ def test_crates_and_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     (tmp_path / "crate.usd").write_bytes(data)
     (tmp_path / "zip.usd").write_bytes(b"PK\x03\x04" + bytes(60))
     (tmp_path / "zip.usdz").write_bytes(b"PK\x03\x04" + bytes(60))
+    with ZipFile(tmp_path / "alien.usdz", "w") as archive:
+        archive.writestr("a.txt", "")
     ran = run(*STUDIO_ONLY, ".", cwd=tmp_path)
     said = {path: (trouble[0], trouble[3]) for path, trouble in troubles(ran).items()}
     table = "a truncated or corrupt crate file: its table of contents should be at byte "
@@ -165,9 +171,55 @@ def test_crates_and_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
         ),
         "crate.usda": ("a crate file under the name of a .usda", "rename it to .usdc or .usd"),
         "zip.usd": ("a zip file under the name of a .usd", "rename it to .usdz"),
-        "zip.usdz": ("a package in which USD finds no layer to open", "package it again"),
+        "zip.usdz": (NO_DIRECTORY, "copy or package it again"),
+        "alien.usdz": ("a package in which USD finds no layer to open", "package it again"),
     }
     assert statuses(ran)["crate.usd"] == "checked"
+
+
+def packaged(path: Path, comment: bytes = b"", **others: bytes) -> bytes:
+    """A package with the fog as its first layer, which USD opens whatever becomes of its end."""
+    write(path.parent / "loose", fog=volume("fog"))
+    with Sdf.ZipFileWriter.CreateNew(str(path)) as writer:
+        writer.AddFile(str(path.parent / "loose" / "fog.usda"), "fog.usda")
+        for name, data in others.items():
+            (path.parent / "loose" / name).write_bytes(data)
+            writer.AddFile(str(path.parent / "loose" / name), f"{name}.usdz")
+    if comment:
+        with ZipFile(path, "a") as archive:
+            archive.comment = comment
+    return path.read_bytes()
+
+
+def test_packages_that_are_cut_off(tmp_path: Path) -> None:
+    folder = tmp_path / "stages"
+    folder.mkdir()
+    inner = packaged(tmp_path / "inner.usdz")
+    nested = packaged(tmp_path / "nested.usdz", inner=inner)
+    empty_record = b"PK\x05\x06" + bytes(18)
+    whole = {
+        "plain": inner,
+        "nested": nested,
+        "longest_comment": packaged(tmp_path / "long.usdz", b"x" * 0xFFFF),
+        "record_in_comment": packaged(tmp_path / "record.usdz", empty_record + b"PK\x05\x06"),
+        "zip64": inner[:-6] + b"\xff" * 4 + inner[-2:],
+    }
+    directory = int.from_bytes(inner[-6:-2], "little")
+    cut = {
+        "in_record": inner[:-1],
+        "before_record": inner[:-22],
+        "before_directory": inner[:directory],
+        "after_inner": nested[: nested.index(b"PK\x05\x06") + 22],
+        "middle_gone": inner[: directory - 8] + inner[directory:],
+    }
+    for name, data in (whole | cut).items():
+        (folder / f"{name}.usdz").write_bytes(data)
+    ran = run(*STUDIO_ONLY, "stages", cwd=tmp_path)
+    said = {name: (trouble[0], trouble[3]) for name, trouble in troubles(ran).items()}
+    assert said == {
+        **{f"stages/{name}.usdz": (GOOD, None) for name in whole},
+        **{f"stages/{name}.usdz": (NO_DIRECTORY, "copy or package it again") for name in cut},
+    }
 
 
 def test_a_layer_that_the_stage_names_is_no_reason_not_to_check_it(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import stat
-from typing import Any
+from typing import Any, BinaryIO
 
 from pxr import Sdf, Tf, Usd
 
@@ -15,6 +15,11 @@ from usdvol_lint.trouble import Unreadable
 
 _CRATE = b"PXR-USDC"
 _ZIP = b"PK\x03\x04"
+_ZIP_ENTRY = b"PK\x01\x02"
+_ZIP_END = b"PK\x05\x06"
+_ZIP_END_SIZE = 22
+_ZIP_END_LONGEST = _ZIP_END_SIZE + 0xFFFF
+_ZIP64 = 0xFFFFFFFF
 _TEXT = (b"#usda", b"#sdf", b"#usd ")
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _CRATE_HEADER = 88
@@ -76,9 +81,15 @@ def _diagnose(path: str) -> bytes:
     try:
         with open(path, "rb") as file:
             head = file.read(64)
+            is_whole = not head.startswith(_ZIP) or _has_directory(file)
     except OSError as error:
         raise Unreadable(f"can't be read: {error.strerror or error}") from error
     _diagnose_head(head, status.st_size, suffix)
+    if not is_whole:
+        raise Unreadable(
+            "a truncated or corrupt package: the directory of its files, which ends it, is missing",
+            "copy or package it again",
+        )
     return head
 
 
@@ -120,6 +131,31 @@ def _diagnose_head(head: bytes, size: int, suffix: str) -> None:
                 f"{contents}, the file has {size} bytes",
                 _EXPORT_AGAIN,
             )
+
+
+def _has_directory(package: BinaryIO) -> bool:
+    """Whether a zip file names its directory at its end, and has it where it says.
+
+    USD may open one without, because it goes from file to file; hardly anything else does.
+    """
+    size = package.seek(0, os.SEEK_END)
+    start = max(size - _ZIP_END_LONGEST, 0)
+    package.seek(start)
+    tail = package.read(_ZIP_END_LONGEST)
+    at = len(tail)
+    # What looks like the record may be part of a comment, or of a package inside of this one.
+    while (at := tail.rfind(_ZIP_END, 0, at)) >= 0:
+        record = tail[at : at + _ZIP_END_SIZE]
+        length, offset = (int.from_bytes(record[i : i + 4], "little") for i in (12, 16))
+        if len(record) < _ZIP_END_SIZE:
+            continue
+        if _ZIP64 in (length, offset):
+            return True
+        if offset + length <= start + at:
+            package.seek(offset)
+            if package.read(4) == _ZIP_ENTRY:
+                return True
+    return False
 
 
 def _explain(path: str, errors: list[str], head: bytes) -> Unreadable:
