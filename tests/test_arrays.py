@@ -22,8 +22,9 @@ from pxr import Sdf, Usd, Vt
 from usdvol_lint.catalog import Catalog
 from usdvol_lint.config import Config, activate
 from usdvol_lint.engine import Engine
-from usdvol_lint.facts.arrays import chosen, memory
+from usdvol_lint.facts.arrays import Misfits, chosen, memory
 from usdvol_lint.facts.kinds import Kinds
+from usdvol_lint.facts.values import Value, Values
 from usdvol_lint.model import Finding, StageReport
 
 SH = "radiance:sphericalHarmonicsCoefficients"
@@ -356,6 +357,26 @@ def {SPLAT} "Splats"
     (finding,) = found(report)
     assert (finding.code, finding.site.frames) == ("ARR002", "4")
     assert finding.message == "2 opacities for 3 particles (1 of 5 samples)"
+
+
+@pytest.mark.parametrize(
+    ("name", "sizes", "expected"),
+    [
+        ("opacities", (1, 2), "1 opacity for 2 particles"),
+        ("opacities", (2, 1), "2 opacities for 1 particle"),
+        ("opacities", (0, 1), "0 opacities for 1 particle"),
+        ("scales", (1, 2), "1 scale for 2 particles"),
+        ("orientations", (1, 1000), "1 orientation for 1,000 particles"),
+        ("coefficients", (1, 1), "1 coefficient for 1 particle"),
+    ],
+)
+def test_one_of_a_kind_is_named_in_the_singular(
+    name: str, sizes: tuple[int, int], expected: str
+) -> None:
+    stage = Usd.Stage.CreateInMemory()
+    attribute = stage.DefinePrim("/Splats").CreateAttribute(name, Sdf.ValueTypeNames.FloatArray)
+    misfits = Misfits(Values(attribute, (Value(None, sizes),), 0), name)
+    assert misfits.words == expected
 
 
 def test_value_clips_are_samples(tmp_path: Path, engine: Engine) -> None:

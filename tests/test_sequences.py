@@ -272,8 +272,8 @@ def test_names_that_linux_alone_can_have(lint_text: Lint, tmp_path: Path) -> Non
     [
         (
             "C:\\x\\a.vdb ",
-            "begins with a drive letter, which only Windows has and has backslashes, which "
-            "separate names on Windows alone and begins or ends with a blank",
+            "begins with a drive letter, which only Windows has, and has backslashes, which "
+            "separate names on Windows alone, and begins or ends with a blank",
             "name it in relation to the layer, with '/' between names",
         ),
         (
@@ -288,7 +288,7 @@ def test_names_that_linux_alone_can_have(lint_text: Lint, tmp_path: Path) -> Non
         ),
         (
             " x\\a.vdb",
-            "has backslashes, which separate names on Windows alone and begins or ends with a "
+            "has backslashes, which separate names on Windows alone, and begins or ends with a "
             "blank",
             "write it as 'x/a.vdb'",
         ),

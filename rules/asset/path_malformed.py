@@ -37,7 +37,7 @@ def path_malformed(field: Prim, facts: Facts) -> Problems:
         path = malformed.first.path
         defects = _defects(path, malformed.first.state is AssetState.FILE)
         yield Problem(
-            f"{malformed.shown} {' and '.join(defects)}{malformed.count}",
+            f"{malformed.shown} {', and '.join(defects)}{malformed.count}",
             at=malformed.attribute,
             times=malformed.times,
             at_default=malformed.at_default,

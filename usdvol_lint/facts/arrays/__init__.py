@@ -61,7 +61,8 @@ class Misfits:
     def words(self) -> str:
         """`12 opacities for 16 particles (4 of 240 samples)`."""
         size, particles = next(iter(self.sizes))
-        return f"{size:,} {self.noun} for {particles:,} particles{self.sizes.count}"
+        elements, owners = _counted(size, self.noun), _counted(particles, "particles")
+        return f"{elements} for {owners}{self.sizes.count}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,6 +228,13 @@ def read_particle_arrays(
     pairs = {name: _pair(name, arrays) for name in _PAIRS}
     degree = _read_degree(prim, authored, mistyped)
     return ParticleArrays(pairs, degree, tuple(compared), schemas)
+
+
+def _counted(number: int, noun: str) -> str:
+    """`1 opacity`, `2 opacities`."""
+    if number == 1:
+        noun = f"{noun[:-3]}y" if noun.endswith("ies") else noun.removesuffix("s")
+    return f"{number:,} {noun}"
 
 
 def chosen(times: Sequence[float], policy: Times) -> Sequence[float]:
