@@ -9,6 +9,7 @@ from typing import Any, BinaryIO
 
 from pxr import Sdf, Tf, Usd
 
+from usdvol_lint.facts.clips import raw_words
 from usdvol_lint.facts.files import LFS_SIGNATURE
 from usdvol_lint.paths import SUFFIXES, display
 from usdvol_lint.trouble import Unreadable
@@ -193,13 +194,8 @@ def in_usds_words(error: Any) -> list[str]:
 
 
 def _commentary(error: Any) -> str:
-    """It need not be text, because it quotes the file; files are named as findings name them."""
-    try:
-        text = str(error.commentary)
-    except UnicodeDecodeError as undecodable:
-        text = undecodable.object.decode("utf-8", "backslashreplace")
-    text = re.sub(_SESSION, "", text)
-    return re.sub(_MENTION, _shown, text)
+    """Files are named as findings name them."""
+    return re.sub(_MENTION, _shown, re.sub(_SESSION, "", raw_words(error)))
 
 
 def _shown(mention: re.Match[str]) -> str:

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 from pxr import Pcp, Sdf, Tf, Usd
 
 from usdvol_lint.facts.assets import is_uri
-from usdvol_lint.facts.clips import ClipSet, authored_path
-from usdvol_lint.facts.files import file_fault
+from usdvol_lint.facts.clips import ClipSet, authored_path, open_layer, raw_words
+from usdvol_lint.facts.files import file_fault, is_packaged
 from usdvol_lint.facts.instances import in_prototype
 from usdvol_lint.paths import display
 
@@ -102,6 +102,7 @@ def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
     An error of a layer that many prims compose is one error: it is known by its place.
     """
     missing: dict[_Arc, list[Any]] = defaultdict(list)
+    said: dict[str, set[str]] = defaultdict(set)
     errors: dict[tuple[str, Any], list[Any]] = defaultdict(list)
     for arc, prim in _missing_clips(clip_sets):
         missing[arc].append(prim)
@@ -113,10 +114,15 @@ def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
         unopened = _missing_arc(text) if error.errorType in _ASSET_ERRORS else None
         if unopened:
             missing[unopened].append(prim)
+            said[unopened.path].add(_reason_in(text, unopened.path))
         else:
             errors[_as_sentence(text), _blamed_spec(text)].append(prim)
+    reasons = {path: _reason(path, said[path]) for path in {arc.path for arc in missing}}
+    layers = (
+        MissingLayer(*arc, reasons[arc.path], _sorted(prims)) for arc, prims in missing.items()
+    )
     return Composition(
-        tuple(sorted((_missing_layer(*item) for item in missing.items()), key=_missing_order)),
+        tuple(sorted(layers, key=_missing_order)),
         tuple(
             sorted(
                 (CompositionError(*error, _sorted(prims)) for error, prims in errors.items()),
@@ -141,12 +147,19 @@ class _Arc(NamedTuple):
     asset: str
     path: str
     spec: Any
-    said: str
 
 
-def _missing_layer(arc: _Arc, prims: list[Any]) -> MissingLayer:
-    fault = file_fault(arc.path) if os.path.exists(arc.path) else None
-    return MissingLayer(*arc[:4], f"it is {fault}" if fault else arc.said, _sorted(prims))
+def _reason(path: str, said: set[str]) -> str:
+    """What is wrong with a layer that is there, in the same words in every run.
+
+    USD tells it with only some of the arcs that name the layer, now these and now those.
+    """
+    fault = file_fault(path)
+    if os.path.exists(path):
+        reason = f"it is {fault}" if fault else _why_not_open(path)
+    else:
+        reason = _why_not_open(path) if is_packaged(path) and not fault else ""
+    return reason or min(filter(None, said), default="")
 
 
 def _missing_order(missing: MissingLayer) -> tuple[str, ...]:
@@ -163,11 +176,20 @@ def _missing_arc(text: str) -> _Arc | None:
     spec = _spec(identifier, place)
     if spec is None:
         return None
-    words, reason, *_ = [*text.partition(" -- ")[::2], ""]
+    words = text.partition(" -- ")[0]
     arc = next(arc for arc in _ARCS if f" {arc} " in _QUOTED.sub("", words))
-    reason = reason.removesuffix("; skipping.").replace(f"<{resolved}>", "it")
-    reason = reason.replace(resolved, display(resolved))
-    return _Arc(arc, _authored(spec, resolved), resolved, spec, _one_line(reason).rstrip("."))
+    return _Arc(arc, _authored(spec, resolved), resolved, spec)
+
+
+def _reason_in(text: str, resolved: str) -> str:
+    """Why a layer does not open, if the text of an error tells it."""
+    reason = text.partition(" -- ")[2].removesuffix("; skipping.")
+    return _as_reason(reason, resolved)
+
+
+def _as_reason(text: str, resolved: str) -> str:
+    text = text.replace(f"<{resolved}>", "it").replace(resolved, display(resolved))
+    return _one_line(text).rstrip(". ")
 
 
 def _spec(identifier: str, place: str) -> Any | None:
@@ -208,11 +230,10 @@ def _assets_named(spec: Any) -> Iterator[str]:
 def _missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[_Arc, Any]]:
     for clip_set in clip_sets:
         for arc, key, asset in _clip_assets(clip_set):
-            said = _why_not_open(asset.resolvedPath) if asset.resolvedPath else ""
-            if not asset.resolvedPath or said:
+            if not open_layer(asset):
                 spec = clip_set.spec_with(key)
                 path = asset.resolvedPath or spec.layer.ComputeAbsolutePath(asset.path)
-                yield _Arc(arc, authored_path(asset) or asset.path, path, spec, said), clip_set.prim
+                yield _Arc(arc, authored_path(asset) or asset.path, path, spec), clip_set.prim
 
 
 def _clip_assets(clip_set: ClipSet) -> Iterator[tuple[str, str, Any]]:
@@ -229,8 +250,9 @@ def _why_not_open(resolved: str) -> str:
     """Why USD can't open a layer that is there, or "" if it can."""
     try:
         return "" if Sdf.Layer.FindOrOpen(resolved) else "it is not a valid layer"
-    except Tf.ErrorException:
-        return "it is not a valid layer"
+    except Tf.ErrorException as error:
+        words = "; ".join(dict.fromkeys(map(raw_words, error.args)))
+        return _as_reason(words, resolved) or "it is not a valid layer"
 
 
 def _as_walked(missing_layers: Iterable[MissingLayer]) -> frozenset[Any]:

@@ -1,0 +1,54 @@
+"""A layer that is there and does not open is told with the reason, and the rest is checked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from process import run, write
+
+ONLY = ("--isolated", "--select", "STG001,AST002,LNT", "--output-format", "json")
+UNFINISHED = '#usda 1.0\ndef "X" { nonsense\n'
+EXPECTED = "can't be read: broken.usda:2:11: Expected } at 'nonsense' in </X>; what it holds was"
+CLIPPED = """#usda 1.0
+def Volume "cloud" (
+    clips = {
+        dictionary default = {
+            string primPath = "/X"
+            asset[] assetPaths = [@broken.usda@]
+            double2[] active = [(1, 0)]
+            double2[] times = [(1, 1)]
+            %s
+        }
+    }
+)
+{
+    rel field:density = <density>
+
+    def OpenVDBAsset "density"
+    {
+        asset filePath = @gone.vdb@
+    }
+}
+"""
+
+
+def messages(folder: Path, name: str, *arguments: str) -> list[tuple[str, str]]:
+    ran = run(*ONLY, *arguments, name, cwd=folder)
+    (stage,) = ran.json["stages"]
+    return [(finding["code"], finding["message"]) for finding in stage["findings"]]
+
+
+def test_each_arc_to_a_broken_layer_has_the_reason(tmp_path: Path) -> None:
+    arcs = [f'def "R{i}" (references = @broken.usda@) {{}}' for i in range(6)]
+    arcs += [f'def "P{i}" (payload = @broken.usda@) {{}}' for i in range(6)]
+    write(tmp_path, broken=UNFINISHED, stage="\n".join(["#usda 1.0", *arcs]))
+    found = messages(tmp_path, "stage.usda")
+    assert len(found) == len(arcs)
+    assert {code for code, _ in found} == {"STG001"}
+    assert all(EXPECTED in message for _, message in found), found
+
+
+def test_a_broken_clip_has_the_reason(tmp_path: Path) -> None:
+    manifest = "asset manifestAssetPath = @manifest.usda@"
+    write(tmp_path, broken=UNFINISHED, manifest="#usda 1.0\n", stage=CLIPPED % manifest)
+    assert any(EXPECTED in message for _, message in messages(tmp_path, "stage.usda"))
