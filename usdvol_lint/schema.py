@@ -322,8 +322,9 @@ def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
         return None
     if ":" in name:
         names = frozenset(candidate for candidate in names if ":" in candidate)
-    longer = (other for other in names if name.startswith(other) and name[len(other) :][:1].isupper())
-    return nearest(name, names.difference(longer), cutoff=0.81)
+    if any(name.startswith(other) and name[len(other) :][:1].isupper() for other in names):
+        return None
+    return nearest(name, names, cutoff=0.81)
 
 
 def is_alike(one: str, other: str) -> bool:

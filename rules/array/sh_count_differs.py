@@ -20,7 +20,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
                     times=misfits.times,
                     at_default=misfits.at_default,
                     severity=severity,
-                    suggestion=f"author {each:,} coefficients for each position"
+                    suggestion=f"author {each:,} coefficient{'s' * (each > 1)} for each position"
                     if fitting is None
                     else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits",
                 )
