@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import re
 import stat
+from itertools import chain
 from typing import Any, BinaryIO
 
 from pxr import Sdf, Tf, Usd
 
-from usdvol_lint.facts.clips import raw_words
+from usdvol_lint.facts.clips import clip_sets_on, raw_words
 from usdvol_lint.facts.files import LFS_SIGNATURE
 from usdvol_lint.paths import SUFFIXES, display
 from usdvol_lint.trouble import Unreadable
@@ -45,7 +46,7 @@ def open_stage(path: str, load: str, session: Any | None = None) -> Any:
     policy = Usd.Stage.LoadNone if load == "none" else Usd.Stage.LoadAll
     try:
         layer = Sdf.Layer.FindOrOpen(os.path.abspath(path))
-        stage = Usd.Stage.Open(layer, session, policy) if layer else None
+        stage = _open(layer, session, policy) if layer else None
     except Tf.ErrorException as error:
         raise _explain(path, in_usds_words(error), head) from error
     if stage is None and head.startswith(_ZIP):
@@ -53,6 +54,40 @@ def open_stage(path: str, load: str, session: Any | None = None) -> Any:
     if stage is None:
         raise Unreadable("USD can't open this layer and does not say why")
     return stage
+
+
+def _open(layer: Any, session: Any | None, policy: Any) -> Any:
+    """The stage of a root layer, also where USD raises for value clips that do not open.
+
+    It makes a manifest for clips without one, and so opens them with the stage: the stage is whole
+    then, but only to be had from the cache.
+    """
+    cache = Usd.StageCache()
+    try:
+        with Usd.StageCacheContext(cache):
+            return Usd.Stage.Open(layer, session, policy)
+    except Tf.ErrorException as error:
+        stage = next(iter(cache.GetAllStages()), None)
+        if stage is None or not set(map(raw_words, error.args)) <= _words_of_clips(stage):
+            raise
+        return stage
+
+
+def _words_of_clips(stage: Any) -> set[str]:
+    """What USD says of the value clips of a stage that do not open."""
+    words: set[str] = set()
+    with_clips = (
+        prim
+        for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies())
+        if prim.HasAuthoredMetadata("clips")
+    )
+    for clip_set in chain.from_iterable(map(clip_sets_on, with_clips)):
+        for clip in filter(None, (asset.resolvedPath for asset in clip_set.clips)):
+            try:
+                Sdf.Layer.FindOrOpen(clip)
+            except Tf.ErrorException as error:
+                words.update(map(raw_words, error.args))
+    return words
 
 
 def _diagnose(path: str) -> bytes:
