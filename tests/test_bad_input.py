@@ -21,6 +21,9 @@ from usdvol_lint.paths import discover, display
 from usdvol_lint.pool import Worker
 from usdvol_lint.protocol import Setup
 
+ZIP_WRITER: Any = getattr(Sdf, "ZipFileWriter", None) or Usd.ZipFileWriter
+"""Where USD's own writer of packages is depends on its version."""
+
 POSIX = os.name == "posix"
 STUDIO_ONLY = ("--isolated", "--pack", STUDIO, "--select", "STU001", "--output-format", "json")
 ROUGH_ONLY = ("--isolated", "--pack", ROUGH, "--select", "RGH", "--output-format", "json")
@@ -180,7 +183,7 @@ def test_crates_and_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 def packaged(path: Path, comment: bytes = b"", **others: bytes) -> bytes:
     """A package with the fog as its first layer, which USD opens whatever becomes of its end."""
     write(path.parent / "loose", fog=volume("fog"))
-    with Sdf.ZipFileWriter.CreateNew(str(path)) as writer:
+    with ZIP_WRITER.CreateNew(str(path)) as writer:
         writer.AddFile(str(path.parent / "loose" / "fog.usda"), "fog.usda")
         for name, data in others.items():
             (path.parent / "loose" / name).write_bytes(data)

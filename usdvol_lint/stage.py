@@ -10,8 +10,9 @@ from typing import Any, BinaryIO
 
 from pxr import Sdf, Tf, Usd
 
-from usdvol_lint.facts.clips import clip_sets_on, raw_words
+from usdvol_lint.facts.clips import clip_sets_on
 from usdvol_lint.facts.files import LFS_SIGNATURE
+from usdvol_lint.facts.usd_errors import raw_words, without_grammar
 from usdvol_lint.paths import SUFFIXES, display
 from usdvol_lint.trouble import Unreadable
 
@@ -32,7 +33,6 @@ _HOLDS = (
 )
 """What a file can begin with, what it is then, and the names under which USD reads that."""
 # Few stages fail, so what takes their errors apart is compiled only then.
-_UNEXPECTED = r"(?s)parse error matching .*? at '(?P<text>.*)'(?= in <)"
 _SESSION = r", sessionLayer @anon:[^@]*@"
 _MENTION = r"[@<]([^@<>]+)[@>]"
 _PLACE = r"(?s)(?P<path>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:\s*(?P<what>.*)"
@@ -216,11 +216,7 @@ def _in_one_line(path: str, error: str) -> str:
     """An error of USD's without the path that the finding names anyway, and without C++."""
     for mention in (f", while reading {display(path)}", "Encountered: "):
         error = error.replace(mention, "")
-    return re.sub(_UNEXPECTED, _unexpected, " ".join(error.split()))
-
-
-def _unexpected(match: re.Match[str]) -> str:
-    return f"unexpected '{match['text']}'" if match["text"] else "unexpected end of text"
+    return without_grammar(error)
 
 
 def in_usds_words(error: Any) -> list[str]:

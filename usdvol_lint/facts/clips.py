@@ -76,14 +76,6 @@ def open_layer(asset: Any) -> Any | None:
         return None
 
 
-def raw_words(error: Any) -> str:
-    """What one of USD's errors says, which need not be text, because it quotes the file."""
-    try:
-        return str(error.commentary)
-    except UnicodeDecodeError as undecodable:
-        return str(undecodable.object.decode("utf-8", "backslashreplace"))
-
-
 def authored_path(asset: Any) -> str:
     """An asset path as written; empty in a USD that forgets what it was evaluated from."""
     return str(getattr(asset, "authoredPath", ""))

@@ -13,9 +13,10 @@ from typing import Any, NamedTuple
 from pxr import Pcp, Sdf, Tf, Usd
 
 from usdvol_lint.facts.assets import is_uri
-from usdvol_lint.facts.clips import ClipSet, authored_path, open_layer, raw_words
+from usdvol_lint.facts.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.files import file_fault, is_packaged
 from usdvol_lint.facts.instances import in_prototype
+from usdvol_lint.facts.usd_errors import raw_words, without_grammar
 from usdvol_lint.paths import display
 
 _QUOTED = re.compile(r"@(.+?)@(?:<([^>]*)>)?")
@@ -251,7 +252,7 @@ def _why_not_open(resolved: str) -> str:
     try:
         return "" if Sdf.Layer.FindOrOpen(resolved) else "it is not a valid layer"
     except Tf.ErrorException as error:
-        words = "; ".join(dict.fromkeys(map(raw_words, error.args)))
+        words = "; ".join(dict.fromkeys(map(without_grammar, map(raw_words, error.args))))
         return _as_reason(words, resolved) or "it is not a valid layer"
 
 
