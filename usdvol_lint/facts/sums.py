@@ -75,7 +75,7 @@ class Sums:
     def overhang(self, volumes: Sequence[Any]) -> Iterable[float]:
         """How far grids may reach out of the extent, in relation to their largest coordinate."""
         facts = self._facts
-        facts.each(volumes, ":fields")
+        facts.each(volumes, ":fields")  # in one go, before each Volume is asked for its own
         enclosure = facts.enclosure
         return [
             enclosure.overhang(facts.standing(volume)) if limits.are_authored else 0.0
