@@ -16,6 +16,7 @@ from usdvol_lint.facts.states import (
     PathMark,
     TargetState,
 )
+from usdvol_lint.facts.sums import Sums
 from usdvol_lint.model import Severity, format_time, frame_ranges
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
 
@@ -104,8 +105,9 @@ Check: TypeAlias = Callable[..., Problems]
 class When(NamedTuple):
     """What must hold for a rule to be handed a prim, so that it costs nothing on all others.
 
-    `fact` is a method of `Facts` that sums a prim up; prims that have a lot in common share what
-    it gives, and `holds` is asked once for each such sum. It is given the rule's options too.
+    `fact` is a method of `usdvol_lint.facts.sums.Sums`, which sums prims up; those that have a lot
+    in common share what it gives, and `holds` is asked once for each such sum. It is given the
+    rule's options too.
     """
 
     fact: str
@@ -168,6 +170,9 @@ def rule(
     when: When | None = None,
 ) -> Callable[[Check], Rule]:
     """Makes the decorated generator a rule, named after it: `file_missing` is `file-missing`."""
+
+    if when and not hasattr(Sums, when.fact):
+        raise ValueError(f"{code}: there is no fact {when.fact!r} that `when` could go by")
 
     def decorate(check: Check) -> Rule:
         return Rule(

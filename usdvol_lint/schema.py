@@ -26,6 +26,9 @@ UNKNOWN_TYPE = "<unknown type>"
 ABSTRACT_TYPE = "<abstract type>"
 """Not schemas, but subscribed to like schemas: see `usdvol_lint.rule`."""
 
+FILE_EXTENSIONS = {"OpenVDBAsset": ".vdb", "Field3DAsset": ".f3d"}
+"""What the names of the files of each type end in."""
+
 PARTICLE_FIELD_SINCE = (0, 26, 3)
 """The first USD whose UsdVol declares particle fields."""
 

@@ -13,8 +13,9 @@ from usdvol_lint.rule import (
     file_paths,
     rule,
 )
+from usdvol_lint.schema import FILE_EXTENSIONS
 
-_TYPES = {".vdb": "OpenVDBAsset", ".f3d": "Field3DAsset"}
+_TYPES = {extension: name for name, extension in FILE_EXTENSIONS.items()}
 _WITHOUT = {
     extension: re.compile(rf"(?is)(?!.*\{extension}(?:\]*\Z|:SDF_FORMAT_ARGS:))")
     for extension in _TYPES

@@ -6,8 +6,6 @@ from typing import Any
 
 from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, When, rule
 
-_LARGEST = 3.4028234663852886e38
-_NOTHING = (2, (_LARGEST,) * 3, (-_LARGEST,) * 3)
 """USD's empty range: what it computes as the extent of no points."""
 
 
@@ -37,6 +35,6 @@ def _fault(extent: Any) -> str | None:
         return f"has {size} {'element' if size == 1 else 'elements'}, not two"
     if not all(map(isfinite, low + high)):
         return "is not finite"
-    if all(map(le, low, high)) or extent == _NOTHING:
+    if all(map(le, low, high)) or extent.is_empty_range:
         return None
     return "has a minimum above its maximum"

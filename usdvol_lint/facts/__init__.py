@@ -349,7 +349,7 @@ class Facts:
         fields = []
         for _, target in self._bound_assets(volume):
             field = in_prototype(target.prim)
-            contents: FieldContents = self._one(field, ":contents")
+            contents = self.contents(field)
             if contents.select_grids:
                 fields.append((target, self.assets(field, "filePath"), contents))
         return volume, self.limits(volume), fields

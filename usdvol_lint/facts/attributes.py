@@ -156,10 +156,7 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
 def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
     """The tokens that the schema does not allow; an empty one is as good as none."""
     for name, allowed in authored.tokens:
-        attribute = _attribute(prim, name)
-        if _get(attribute) in allowed and not _count_samples(attribute):
-            continue
-        for token, values in values_of(attribute).apart(_token):
+        for token, values in values_of(_attribute(prim, name)).apart(_token):
             if token not in allowed:
                 yield Unlisted(name, token, allowed, values)
 

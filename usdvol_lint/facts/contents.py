@@ -243,8 +243,6 @@ class ContentReader:
         wanted = self._wanted(authored.schemas)
         if not wanted or self._extent == "off" or AssetState.FILE not in samples.states:
             return FieldContents(samples.attribute, (), 0)
-        if len(samples.samples) == 1 and not claims.times:
-            return self._read_one(samples, claims.default, wanted)
         kinds: dict[Kind, list[Content]] = {}
         total = read = 0
         for sample, claim in _moments(samples, claims):
@@ -266,12 +264,6 @@ class ContentReader:
             named = (format for name, format in _FORMATS.items() if name in schemas)
             self._formats[schemas] = next(named, None)
         return self._formats[schemas]
-
-    def _read_one(self, samples: AssetSamples, claim: Claim, wanted: Format) -> FieldContents:
-        sample = samples.samples[0]
-        content = Content(sample, claim, self._reading(sample.resolved), wanted)
-        timed = int(sample.time is not None)
-        return FieldContents(samples.attribute, ((self._kind(content), [content]),), timed)
 
     def _kind(self, content: Content) -> Kind:
         _, claim, reading, wanted = content

@@ -22,6 +22,11 @@ class Extent(NamedTuple):
     low: Corner
     high: Corner
 
+    @property
+    def is_empty_range(self) -> bool:
+        """Whether it is what USD writes for nothing at all."""
+        return self.size == 2 and (self.low, self.high) == EMPTY_RANGE
+
 
 _ORIGIN = (0.0, 0.0, 0.0)
 # To look a method up on an object of USD's takes as long as what most methods do.

@@ -10,8 +10,8 @@ from usdvol_lint.facts.assets import AssetSamples, Sample
 from usdvol_lint.facts.attributes import Authored
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.states import AssetState, PathMark
+from usdvol_lint.schema import FILE_EXTENSIONS
 
-_EXTENSIONS = {"OpenVDBAsset": ".vdb", "Field3DAsset": ".f3d"}
 _UNPLAIN = re.compile(r"(?s)/|.*[\\:~\s]")
 
 
@@ -48,8 +48,8 @@ class PathMarks:
             found.add(PathMark.NONE)
         if len(paths.samples) > 1:
             found.add(PathMark.SEVERAL)
-        extensions = (end for name, end in _EXTENSIONS.items() if name in authored.schemas)
-        extension = next(extensions, "")
+        wanted = (end for name, end in FILE_EXTENSIONS.items() if name in authored.schemas)
+        extension = next(wanted, "")
         if any(not sample.path.endswith(extension) for sample in paths.samples):
             found.add(PathMark.FOREIGN)
         if any(map(_UNPLAIN.match, (sample.path for sample in paths.samples))):
