@@ -161,6 +161,19 @@ def test_packs_with_modules_of_the_same_name(tmp_path: Path) -> None:
         assert [rule.since for rule in rules] == expected
 
 
+def test_a_condition_on_no_fact(tmp_path: Path) -> None:
+    rule = """
+from usdvol_lint.rule import INFO, When, rule
+
+@rule("STU009", on="Volume", when=When("has_odd_extend", bool), severity=INFO, since="1")
+def odd(volume, facts):
+    yield from ()
+"""
+    (tmp_path / "odd.py").write_text(rule, encoding="utf-8")
+    with pytest.raises(PackError, match=r"odd\.py: .*STU009: there is no fact 'has_odd_extend'"):
+        load([str(tmp_path)])
+
+
 def test_a_page_that_can_not_be_read(tmp_path: Path) -> None:
     shutil.copytree(STUDIO, tmp_path / "pack")
     page = tmp_path / "pack" / "house" / "volume_name.md"

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
 from collections import Counter
 from pathlib import Path
 
 import pytest
+from process import ROOT
 from pxr import Usd
 
+from usdvol_lint.catalog import Catalog
 from usdvol_lint.engine import Engine
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Kinds
@@ -163,6 +166,32 @@ def Sphere "ball"
         for code, names in [*asked, ("TWO001", "ball volume")]
         for name in names.split()
     )
+
+
+def test_a_prim_that_nothing_is_remarkable_about_is_handed_to_no_rule_with_a_condition(
+    tmp_path: Path, catalog: Catalog
+) -> None:
+    shutil.copy(ROOT / "rules" / "assets" / "cloud.vdb", tmp_path)
+    field = """
+    def OpenVDBAsset "density"
+    {
+        asset filePath = @./cloud.vdb@
+        token fieldName = "density"
+        token fieldDataType = "float"
+    }
+"""
+    cloud = """
+def Volume "cloud"
+{
+    float3[] extent = [(0, 0, 0), (1, 1, 1)]
+    rel field:density = </cloud/density>
+"""
+    stage = Usd.Stage.Open(write_stage(tmp_path, f"{cloud}{field}}}\n"))
+    kinds = Kinds()
+    rules = list(catalog.rules.values())
+    found = walk(stage, rules, kinds)
+    pairs = assign(found, rules, Facts(stage, kinds, found.kept), {})
+    assert [rule.code for rule, _ in pairs if rule.when] == []
 
 
 def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:

@@ -6,8 +6,6 @@ from typing import Any
 
 from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, When, rule
 
-"""USD's empty range: what it computes as the extent of no points."""
-
 
 @rule(
     "SCH008",

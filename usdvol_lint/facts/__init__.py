@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
 from usdvol_lint.facts.instances import in_prototype, shown, shown_path
+from usdvol_lint.facts.records import Records
 from usdvol_lint.facts.states import TargetState
 
 if TYPE_CHECKING:
@@ -83,12 +84,7 @@ class Facts:
         self._times = times
         self._statistics = statistics
         self._ever_used: set[Any] = set()
-        self._known: dict[Any, dict[str, Any]] = {}
-        self._prim: Any = None
-        self._of_prim: dict[str, Any] = {}
-        self._prims: Sequence[Any] = ()
-        self._of_prims: list[dict[str, Any]] = []
-        self._columns: dict[str, list[Any]] = {}
+        self._records = Records()
 
     def composed_anew(self, kept: Mapping[Key, Sequence[Any]]) -> Facts:
         """The facts of the same stage under another variant selection.
@@ -141,7 +137,7 @@ class Facts:
         """The time samples of an asset attribute as a sequence, or None if there are not two."""
         if len(self.assets(prim, name).samples) < 2:
             return None
-        known = self._known_of(prim)
+        known = self._records.of(prim)
         key = f":sequence of {name}"
         if key not in known:
             from usdvol_lint.facts.sequences import read_sequence
@@ -177,7 +173,7 @@ class Facts:
 
     def apis(self, prim: Any) -> ParticleApis:
         """The applied APIs of a prim, those that nobody registers among them."""
-        known = self._known_of(prim)
+        known = self._records.of(prim)
         if ":apis" not in known:
             from usdvol_lint.facts.particles import read_particle_apis
 
@@ -187,7 +183,7 @@ class Facts:
 
     def encoding(self, prim: Any) -> Encoding | None:
         """The encoding from before the schema that a prim is in, if it is in one."""
-        known = self._known_of(prim)
+        known = self._records.of(prim)
         if ":encoding" not in known:
             from usdvol_lint.facts.encodings import recognise
 
@@ -197,7 +193,7 @@ class Facts:
 
     def arrays(self, prim: Any) -> ParticleArrays:
         """The arrays of a particle field: empty where SCH011 says that it is no UsdVol."""
-        known = self._known_of(prim)
+        known = self._records.of(prim)
         if ":arrays" not in known:
             from usdvol_lint.facts.arrays import read_particle_arrays
 
@@ -487,27 +483,11 @@ class Facts:
         return any(map(package_of, self.stage.GetUsedLayers()))
 
     def each(self, prims: Sequence[Any], name: str) -> list[Any]:
-        """A fact of each of many prims of one kind, by the name that it is kept under.
-
-        To find it in one go takes half the time that one by one would take.
-        """
-        if prims is not self._prims:
-            self._prims, self._of_prims = prims, [self._known_of(prim) for prim in prims]
-            self._columns = {}
-        column = self._columns.get(name)
-        if column is None:
-            records = self._of_prims
-            if not all(name in record for record in records):
-                for record, found in zip(records, self._read(name, prims), strict=True):
-                    record.setdefault(name, found)
-            column = self._columns[name] = [record[name] for record in records]
-        return column
+        """A fact of each of many prims of one kind, by the name that it is kept under."""
+        return self._records.each(prims, name, self._read)
 
     def _one(self, prim: Any, name: str) -> Any:
-        known = self._known_of(prim)
-        if name not in known:
-            (known[name],) = self._read(name, (prim,))
-        return known[name]
+        return self._records.one(prim, name, self._read)
 
     def _read(self, name: str, prims: Sequence[Any]) -> Sequence[Any]:
         """Finds what is kept under a name for each of many prims."""
@@ -528,15 +508,6 @@ class Facts:
 
             return read_limits(prims)
         return self._asset_reader.read(prims, name)
-
-    def _known_of(self, prim: Any) -> dict[str, Any]:
-        """What was found of one prim, by name; hashing a prim is dear, and rules ask in a row."""
-        if prim is not self._prim:
-            known = self._known.get(prim)
-            if known is None:
-                known = self._known[prim] = {}
-            self._prim, self._of_prim = prim, known
-        return self._of_prim
 
     def _may_lack(self, prim: Any) -> bool:
         return self.composition.may_lack(prim)

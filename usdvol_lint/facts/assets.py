@@ -19,6 +19,7 @@ from usdvol_lint.facts.instances import shown
 from usdvol_lint.facts.opinions import is_from_clips, opinion
 from usdvol_lint.facts.patterns import find_pattern
 from usdvol_lint.facts.states import AssetState, FileFault
+from usdvol_lint.facts.usd_calls import count_samples, get_attribute, get_value
 from usdvol_lint.facts.values import read_values
 from usdvol_lint.model import frame_ranges
 
@@ -29,10 +30,6 @@ _LAYERS_NAMED = 3
 _READ_TOGETHER = 1024
 _FILE = frozenset({AssetState.FILE})
 _PATH_OF = attrgetter("path")
-# To look a method up on an object of USD's takes as long as what most methods do.
-_get = Usd.Attribute.Get
-_count_samples = Usd.Attribute.GetNumTimeSamples
-_attribute = Usd.Prim.GetAttribute
 
 
 class Sample(NamedTuple):
@@ -189,9 +186,9 @@ class AssetReader:
 
     def read(self, prims: Sequence[Any], name: str) -> list[AssetSamples]:
         """The values of an attribute of that name on each of many prims."""
-        attributes = list(map(_attribute, prims, repeat(name)))
-        counts = map(_count_samples, attributes)
-        values = map(_get, attributes)
+        attributes = list(map(get_attribute, prims, repeat(name)))
+        counts = map(count_samples, attributes)
+        values = map(get_value, attributes)
         known = self._alone
         return [
             AssetSamples(attribute, known[value], _FILE)

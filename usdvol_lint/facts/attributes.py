@@ -6,24 +6,24 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from pxr import Sdf, Usd
+from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.facts.clips import Clips
 from usdvol_lint.facts.kinds import Key, Kinds
+from usdvol_lint.facts.usd_calls import (
+    attribute_at,
+    count_samples,
+    get_attribute,
+    get_prim_stack,
+    get_property_names,
+    get_value,
+    layer_of_spec,
+    path_of_spec,
+    property_path,
+    type_of_spec,
+)
 from usdvol_lint.facts.values import Values, values_of
-
-# To look a method up on an object of USD's takes as long as what most methods do.
-_names = Usd.Prim.GetAuthoredPropertyNames
-_stack = Usd.Prim.GetPrimStack
-_attribute = Usd.Prim.GetAttribute
-_get = Usd.Attribute.Get
-_count_samples = Usd.Attribute.GetNumTimeSamples
-_property_of = Sdf.Path.AppendProperty
-_attribute_at = Sdf.Layer.GetAttributeAtPath
-_type_of = Sdf.AttributeSpec.typeName.fget
-_layer = Sdf.Spec.layer.fget
-_path = Sdf.Spec.path.fget
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,8 +89,8 @@ class AuthoredReader:
         """What is authored on each of many prims of one kind."""
         found = []
         key = self._kinds.key(prims[0])
-        names = map(tuple, map(_names, prims))
-        layers = map(len, map(_stack, prims))
+        names = map(tuple, map(get_property_names, prims))
+        layers = map(len, map(get_prim_stack, prims))
         columns = zip(prims, names, layers, self._clips.reach(prims), strict=True)
         for prim, own, count, is_clipped in columns:
             if is_clipped:
@@ -108,13 +108,13 @@ class AuthoredReader:
 def may_be_mistyped(prims: Sequence[Any], authored: Sequence[Authored]) -> list[bool]:
     """Whether `mistyped` may find anything, for each of many prims."""
     found = []
-    for own, stack in zip(authored, map(_stack, prims), strict=True):
+    for own, stack in zip(authored, map(get_prim_stack, prims), strict=True):
         is_odd = False
         for holder in stack:
-            layer, path = _layer(holder), _path(holder)
+            layer, path = layer_of_spec(holder), path_of_spec(holder)
             for name, wanted in own.types:
-                spec = _attribute_at(layer, _property_of(path, name))
-                is_odd = is_odd or spec is None or _type_of(spec) != wanted
+                spec = attribute_at(layer, property_path(path, name))
+                is_odd = is_odd or spec is None or type_of_spec(spec) != wanted
         found.append(is_odd)
     return found
 
@@ -122,19 +122,19 @@ def may_be_mistyped(prims: Sequence[Any], authored: Sequence[Authored]) -> list[
 def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
     """The specs, in every layer, whose type is not the one that the schema declares."""
     types = authored.types
-    stack = _stack(prim) if types else ()
+    stack = get_prim_stack(prim) if types else ()
     for holder in stack:
         layer, path = holder.layer, holder.path
         for name, wanted in types:
-            place = _property_of(path, name)
-            spec = _attribute_at(layer, place)
+            place = property_path(path, name)
+            spec = attribute_at(layer, place)
             if spec is None:
                 spec = layer.GetRelationshipAtPath(place)
                 if spec:
-                    yield Mistyped(_attribute(prim, name), spec, "rel", str(wanted), False)
-            elif (found := _type_of(spec)) != wanted:
+                    yield Mistyped(get_attribute(prim, name), spec, "rel", str(wanted), False)
+            elif (found := type_of_spec(spec)) != wanted:
                 same_values = found.type == wanted.type
-                attribute = _attribute(prim, name)
+                attribute = get_attribute(prim, name)
                 yield Mistyped(attribute, spec, str(found), str(wanted), same_values)
 
 
@@ -156,7 +156,7 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
 def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
     """The tokens that the schema does not allow; an empty one is as good as none."""
     for name, allowed in authored.tokens:
-        for token, values in values_of(_attribute(prim, name)).apart(_token):
+        for token, values in values_of(get_attribute(prim, name)).apart(_token):
             if token not in allowed:
                 yield Unlisted(name, token, allowed, values)
 
@@ -165,7 +165,8 @@ def may_have_unlisted(prims: Sequence[Any], authored: Sequence[Authored]) -> lis
     """Whether `unlisted_tokens` may find anything, for each of many prims."""
     return [
         any(
-            _get(attribute := _attribute(prim, name)) not in allowed or _count_samples(attribute)
+            get_value(attribute := get_attribute(prim, name)) not in allowed
+            or count_samples(attribute)
             for name, allowed in own.tokens
         )
         for prim, own in zip(prims, authored, strict=True)

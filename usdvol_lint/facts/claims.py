@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pxr import Usd
-
 from usdvol_lint.facts.attributes import Authored
 from usdvol_lint.facts.held import Held, Time
+from usdvol_lint.facts.usd_calls import count_samples, get_attribute, get_value
 from usdvol_lint.facts.values import read_values
 
 _ATTRIBUTES = {
@@ -21,10 +20,6 @@ _ATTRIBUTES = {
     "vectorDataRoleHint": "role_hint",
 }
 _TYPES = {name: int if name == "index" else str for name in _ATTRIBUTES.values()}
-# To look a method up on an object of USD's takes as long as what most methods do.
-_attribute = Usd.Prim.GetAttribute
-_get = Usd.Attribute.Get
-_count_samples = Usd.Attribute.GetNumTimeSamples
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,10 +75,10 @@ class ClaimReader:
         return names
 
     def _read(self, field: Any, names: tuple[str, ...]) -> FieldClaims:
-        attributes = [_attribute(field, name) for name in names]
-        if any(map(_count_samples, attributes)):
+        attributes = [get_attribute(field, name) for name in names]
+        if any(map(count_samples, attributes)):
             return self._read_changing(attributes)
-        key = (names, *map(_get, attributes))
+        key = (names, *map(get_value, attributes))
         found = self._unchanging.get(key)
         if found is None:
             said = {_ATTRIBUTES[name]: value for name, value in zip(names, key[1:], strict=True)}
@@ -95,10 +90,10 @@ class ClaimReader:
         animated: dict[str, Held[Any]] = {}
         for attribute in attributes:
             name = _ATTRIBUTES[attribute.GetName()]
-            if _count_samples(attribute):
+            if count_samples(attribute):
                 animated[name] = Held(read_values(attribute))
             else:
-                constant[name] = _get(attribute)
+                constant[name] = get_value(attribute)
 
         def at(time: Time) -> Claim:
             return self._claim(constant | {name: held.at(time) for name, held in animated.items()})

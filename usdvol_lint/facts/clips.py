@@ -8,10 +8,9 @@ from typing import Any
 
 from pxr import Sdf, Tf, Usd
 
+from usdvol_lint.facts.usd_calls import get_parent, has_metadata
+
 _CLIPS_LOOKED_AT = 4
-# To look a method up on an object of USD's takes as long as what most methods do.
-_has_metadata = Usd.Prim.HasAuthoredMetadata
-_parent = Usd.Prim.GetParent
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,11 +122,11 @@ class Clips:
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets on the prim and its ancestors, nearest first."""
         above = self.above(prim)
-        return clip_sets_on(prim) + above if _has_metadata(prim, "clips") else above
+        return clip_sets_on(prim) + above if has_metadata(prim, "clips") else above
 
     def above(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets on the ancestors of a prim, nearest first."""
-        parent = _parent(prim)
+        parent = get_parent(prim)
         found = self._reaching.get(parent)
         if found is None:
             found = () if parent.IsPseudoRoot() else self.reaching(parent)

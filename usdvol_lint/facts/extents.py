@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Usd, Vt
 
 from usdvol_lint.facts.held import Time
+from usdvol_lint.facts.usd_calls import get_attribute, has_value
 from usdvol_lint.facts.values import Value, Values, all_values, values_of
 from usdvol_lint.volumefile import Bounds
 
@@ -29,9 +30,6 @@ class Extent(NamedTuple):
 
 
 _ORIGIN = (0.0, 0.0, 0.0)
-# To look a method up on an object of USD's takes as long as what most methods do.
-_attribute = Usd.Prim.GetAttribute
-_has_value = Usd.Attribute.HasAuthoredValue
 
 
 class Limits:
@@ -42,7 +40,7 @@ class Limits:
         self._values: dict[Time, Bounds | None] = {}
         self.are_odd = False
         for time, value in all_values(attribute):
-            box = self._values[time] = _bounds(value)
+            box = self._values[time] = box_of(value)
             self.are_odd = self.are_odd or (box is None and value is not None)
         self.times = [time for time in self._values if time is not None]
         self._get = Usd.AttributeQuery(attribute).Get if self.times else None
@@ -55,12 +53,12 @@ class Limits:
         """The value as USD gives it: samples hide a default, and are interpolated between."""
         if time is None or self._get is None:
             return self._values.get(None)
-        return self._values[time] if time in self._values else _bounds(self._get(time))
+        return self._values[time] if time in self._values else box_of(self._get(time))
 
 
 def read_limits(prims: Sequence[Any]) -> list[Limits]:
     """Every `extent` of many prims as boxes."""
-    return [Limits(_attribute(prim, "extent")) for prim in prims]
+    return [Limits(get_attribute(prim, "extent")) for prim in prims]
 
 
 _LARGEST = 3.4028234663852886e38
@@ -68,7 +66,8 @@ EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
 """What USD writes for an extent with nothing in it: no box, but not malformed."""
 
 
-def _bounds(value: Any) -> Bounds | None:
+def box_of(value: Any) -> Bounds | None:
+    """The corners of an extent, if it is one or the empty range."""
     if not isinstance(value, Vt.Vec3fArray) or len(value) != 2:
         return None
     corners: Any = memoryview(value).tolist()  # a tenth of the time that USD's own vectors take
@@ -99,7 +98,7 @@ def _extent(value: Any) -> Extent:
 
 def has_bounds(prim: Any) -> bool:
     """Whether USD can tell the bounds of a prim: by its extent, a model's hint or a plugin."""
-    if _has_value(_attribute(prim, "extent")) or _is_hinted(prim):
+    if has_value(get_attribute(prim, "extent")) or _is_hinted(prim):
         return True
     from pxr import UsdGeom  # costs start-up time, and extents are rarely missing
 

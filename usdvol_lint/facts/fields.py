@@ -9,26 +9,27 @@ from collections.abc import Callable, Iterable, Iterator
 from enum import Enum
 from typing import Any, NamedTuple, TypeAlias
 
-from pxr import Sdf, Usd
+from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.instances import in_prototype, shown, shown_path
 from usdvol_lint.facts.kinds import Kinds
 from usdvol_lint.facts.states import BindingMark, Emptiness, TargetState
+from usdvol_lint.facts.usd_calls import (
+    get_name,
+    get_path,
+    get_properties,
+    get_stage,
+    get_targets,
+    has_prefix,
+    is_proxy,
+    prim_at,
+    prim_path,
+)
 from usdvol_lint.nearest import nearest_word
 
 _BARE_NAMESPACE = schema.FIELD_NAMESPACE.rstrip(":")
 _LIVE = Usd.PrimDefaultPredicate
-# To look a method up on an object of USD's takes as long as what most methods do.
-_properties = Usd.Prim.GetAuthoredProperties
-_name = Usd.Object.GetName
-_stage = Usd.Object.GetStage
-_targets = Usd.Relationship.GetForwardedTargets
-_prim_at = Usd.Stage.GetPrimAtPath
-_path = Usd.Object.GetPath
-_is_proxy = Usd.Prim.IsInstanceProxy
-_has_prefix = Sdf.Path.HasPrefix
-_prim_path = Sdf.Path.GetPrimPath
 
 
 MayLack: TypeAlias = Callable[[Any], bool]
@@ -130,7 +131,7 @@ class FieldBindings(NamedTuple):
                 found.add(BindingMark.SEVERAL_TARGETS)
             else:
                 found.add(targets[0].state)
-                if not _has_prefix(targets[0].path, _path(volume)):
+                if not has_prefix(targets[0].path, get_path(volume)):
                     found.add(BindingMark.OUTSIDE)
             if ":" in name:
                 found.add(BindingMark.NESTED)
@@ -161,8 +162,8 @@ class BindingReader:
 
     def _read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
         bindings, others = [], []
-        for prop in _properties(volume):
-            name = _name(prop)
+        for prop in get_properties(volume):
+            name = get_name(prop)
             if name.startswith(schema.FIELD_NAMESPACE):
                 bindings.append(self._binding(prop, name[len(schema.FIELD_NAMESPACE) :], may_lack))
             elif isinstance(prop, Usd.Relationship):
@@ -173,8 +174,8 @@ class BindingReader:
     def _binding(self, prop: Any, name: str, may_lack: MayLack) -> Binding:
         if not isinstance(prop, Usd.Relationship):
             return Binding(prop, name, False)
-        stage = _stage(prop)
-        paths = _targets(prop)
+        stage = get_stage(prop)
+        paths = get_targets(prop)
         if paths:
             targets = tuple([self._target(stage, path, may_lack) for path in paths])
             return Binding(prop, name, True, targets)
@@ -183,7 +184,7 @@ class BindingReader:
         return Binding(prop, name, True, (), emptiness, lost, forwards_to)
 
     def _target(self, stage: Any, path: Any, may_lack: MayLack) -> Target:
-        prim = _prim_at(stage, _prim_path(path))
+        prim = prim_at(stage, prim_path(path))
         if not prim:
             nearest = _nearest_prim(stage, path)
             state = _told(_missing_state(nearest), nearest, may_lack)
@@ -206,8 +207,8 @@ def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:
 def field_paths(bindings: FieldBindings) -> set[Any]:
     """The paths of every prim that a relationship of the Volume targets, as the walk met them."""
     prims = [target.prim for binding in bindings.bindings for target in binding.targets]
-    if len(prims) == 1 and prims[0] and not bindings.strays and not _is_proxy(prims[0]):
-        return {_path(prims[0])}  # so it is nearly always
+    if len(prims) == 1 and prims[0] and not bindings.strays and not is_proxy(prims[0]):
+        return {get_path(prims[0])}  # so it is nearly always
     for stray in bindings.strays:
         stage = stray.GetStage()
         prims += [stage.GetPrimAtPath(path.GetPrimPath()) for path in stray.GetForwardedTargets()]

@@ -9,12 +9,10 @@ from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.kinds import Kinds
+from usdvol_lint.facts.usd_calls import get_children, get_parent
 
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()
 _UNKNOWN = object()
-# To look a method up on an object of USD's takes as long as what most methods do.
-_parent = Usd.Prim.GetParent
-_children = Usd.Prim.GetFilteredChildren
 
 
 class Nested(NamedTuple):
@@ -33,7 +31,7 @@ class Nesting:
 
     def above(self, prim: Any) -> Any | None:
         """The nearest Gprim among the ancestors, those of the instances of a prototype too."""
-        parent = _parent(prim)
+        parent = get_parent(prim)
         found = self._at_or_above.get(parent, _UNKNOWN)
         if found is _UNKNOWN:
             found = self._at_or_above[parent] = self._find_at_or_above(parent)
@@ -59,7 +57,7 @@ class Nesting:
 
     def _topmost_gprims(self, prim: Any) -> Iterator[Any]:
         # The end of a PrimRange takes longer than to look at a Volume with its fields.
-        for child in _children(prim, _WITH_INSTANCES):
+        for child in get_children(prim, _WITH_INSTANCES):
             if self._kinds.is_a(child, schema.GPRIM):
                 yield child
             else:

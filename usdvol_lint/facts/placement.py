@@ -9,15 +9,11 @@ from pxr import Gf, Usd
 
 from usdvol_lint.facts.held import Time
 from usdvol_lint.facts.instances import shown
+from usdvol_lint.facts.usd_calls import get_attribute, get_parent, get_value, is_in_prototype
 from usdvol_lint.volumefile.transform import Matrix, finite, rows, scale_translate
 
 IDENTITY: Matrix = scale_translate((1, 1, 1))
 _ROUNDING = 1e-6
-# To look a method up on an object of USD's takes as long as what most methods do.
-_is_in_prototype = Usd.Prim.IsInPrototype
-_parent = Usd.Prim.GetParent
-_attribute = Usd.Prim.GetAttribute
-_get = Usd.Attribute.Get
 
 
 class Displacement(NamedTuple):
@@ -86,7 +82,7 @@ _AT_REST = Placement((), (), ())
 
 def read_placement(volume: Any, field: Any) -> Placement:
     """Reads the transforms between a field and a Volume that binds it."""
-    if _is_in_prototype(volume) and not _is_in_prototype(field):
+    if is_in_prototype(volume) and not is_in_prototype(field):
         volume = volume.GetStage().GetPrimAtPath(shown(volume).path)
     up_count, down_count = _counts(volume, field)
     up, up_resets = _transformed(field, up_count)
@@ -103,7 +99,7 @@ def read_placement(volume: Any, field: Any) -> Placement:
 
 def _counts(volume: Any, field: Any) -> tuple[int, int]:
     """How many prims there are from the field, and from the Volume, up to what they share."""
-    if _parent(field) == volume:  # so it is nearly always
+    if get_parent(field) == volume:  # so it is nearly always
         return 1, 0
     from_field, from_volume = field.GetPath(), volume.GetPath()
     shared = from_field.GetCommonPrefix(from_volume).pathElementCount
@@ -122,7 +118,7 @@ def _transformed(prim: Any, count: int) -> tuple[tuple[Any, ...], bool]:
     """The transformed ones of so many prims from one upward; whether the last of them resets."""
     found = []
     for _ in range(count):
-        if _get(_attribute(prim, "xformOpOrder")):  # most have none, and this costs least
+        if get_value(get_attribute(prim, "xformOpOrder")):  # most have none, and this costs least
             from pxr import UsdGeom  # costs start-up time
 
             xformable = UsdGeom.Xformable(prim)
@@ -130,5 +126,5 @@ def _transformed(prim: Any, count: int) -> tuple[tuple[Any, ...], bool]:
                 found.append(xformable)
                 if xformable.GetResetXformStack():
                     return tuple(found), True
-        prim = _parent(prim)
+        prim = get_parent(prim)
     return tuple(found), False

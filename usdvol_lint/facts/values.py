@@ -10,9 +10,7 @@ from typing import Any, NamedTuple
 
 from pxr import Usd
 
-# To look a method up on an object of USD's takes as long as what most methods do.
-_get = Usd.Attribute.Get
-_count_samples = Usd.Attribute.GetNumTimeSamples
+from usdvol_lint.facts.usd_calls import count_samples, get_value
 
 
 class Value(NamedTuple):
@@ -74,14 +72,14 @@ def values_of(attribute: Any) -> Values:
 
 def all_values(attribute: Any) -> tuple[Value, ...]:
     """The default and the samples; the default is None where there is nothing at all."""
-    if _count_samples(attribute):
+    if count_samples(attribute):
         return tuple(read_values(attribute))
-    return (Value(None, _get(attribute)),)
+    return (Value(None, get_value(attribute)),)
 
 
 def read_values(attribute: Any) -> Iterator[Value]:
     """Reads the default and the samples; the default is None where there is nothing at all."""
-    default = _get(attribute)
+    default = get_value(attribute)
     times = sample_times(attribute)
     if default is not None or not times:
         yield Value(None, default)
@@ -94,7 +92,7 @@ def read_values(attribute: Any) -> Iterator[Value]:
 
 def sample_times(attribute: Any) -> list[float]:
     """The times at which an attribute has samples."""
-    if not _count_samples(attribute):
+    if not count_samples(attribute):
         return []
     times: list[float] = attribute.GetTimeSamples()
     # Where a clip begins, USD adds a sample a hair before it that repeats the last value.

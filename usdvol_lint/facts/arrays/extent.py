@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import isfinite
 from typing import Any, TypeAlias
-
-from pxr import Vt
 
 from usdvol_lint.facts.arrays import memory
 from usdvol_lint.facts.arrays.array import Found, ParticleArray, Sample, written
 from usdvol_lint.facts.arrays.memory import Mask, Row
+from usdvol_lint.facts.extents import box_of
 from usdvol_lint.facts.held import Time
 from usdvol_lint.facts.values import sample_times
 
 Box: TypeAlias = tuple[Row, Row]
 
 _INFINITY = float("inf")
-_EMPTY = 1e38
-"""Beyond it lie the corners of USD's empty range, the lower one above."""
 _HALF_STEP = 2.0**-24
 """Between halfs next to zero, where their error is not relative any more."""
 
@@ -66,7 +62,7 @@ def stray_positions(
     masks: dict[Time, Mask] = {}
     for sample, found in positions.ranges:
         for time in _times_of_extent(positions, sample, extent):
-            box = _box(extent.Get() if time is None else extent.Get(time))
+            box = box_of(extent.Get() if time is None else extent.Get(time))
             if not box or not found.low or not found.high:
                 continue
             limits = _limits(box, slack, clamp, positions.is_half)
@@ -84,16 +80,6 @@ def stray_positions(
 def _times_of_extent(positions: ParticleArray, sample: Sample, extent: Any) -> Iterable[Time]:
     """When the extent has to hold a sample: positions that stand still meet all of its samples."""
     return (positions.total < 2 and sample_times(extent)) or [sample.time]
-
-
-def _box(value: Any) -> Box | None:
-    """The corners of an extent, if it is one."""
-    if not isinstance(value, Vt.Vec3fArray) or len(value) != 2:
-        return None
-    low, high = tuple(value[0]), tuple(value[1])
-    is_empty = low[0] > _EMPTY
-    is_inverted = any(least > most for least, most in zip(low, high, strict=True))
-    return (low, high) if all(map(isfinite, (*low, *high))) and is_empty >= is_inverted else None
 
 
 def _limits(box: Box, slack: float, clamp: float, is_half: bool) -> Box:

@@ -1,0 +1,40 @@
+"""USD's methods, looked up once: to do so on an object takes as long as what most of them do."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pxr import Sdf, Usd
+
+type_of_spec: Any = Sdf.AttributeSpec.typeName.fget
+
+attribute_at: Any = Sdf.Layer.GetAttributeAtPath
+
+has_prefix: Any = Sdf.Path.HasPrefix
+prim_path: Any = Sdf.Path.GetPrimPath
+property_path: Any = Sdf.Path.AppendProperty
+
+layer_of_spec: Any = Sdf.Spec.layer.fget
+path_of_spec: Any = Sdf.Spec.path.fget
+
+count_samples: Any = Usd.Attribute.GetNumTimeSamples
+get_value: Any = Usd.Attribute.Get
+has_value: Any = Usd.Attribute.HasAuthoredValue
+
+get_name: Any = Usd.Object.GetName
+get_path: Any = Usd.Object.GetPath
+get_stage: Any = Usd.Object.GetStage
+
+get_attribute: Any = Usd.Prim.GetAttribute
+get_children: Any = Usd.Prim.GetFilteredChildren
+get_parent: Any = Usd.Prim.GetParent
+get_prim_stack: Any = Usd.Prim.GetPrimStack
+get_properties: Any = Usd.Prim.GetAuthoredProperties
+get_property_names: Any = Usd.Prim.GetAuthoredPropertyNames
+has_metadata: Any = Usd.Prim.HasAuthoredMetadata
+is_in_prototype: Any = Usd.Prim.IsInPrototype
+is_proxy: Any = Usd.Prim.IsInstanceProxy
+
+get_targets: Any = Usd.Relationship.GetForwardedTargets
+
+prim_at: Any = Usd.Stage.GetPrimAtPath
