@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from bench.case import Case, Make
-from bench.measure import gauged, linter, python
+from bench.measure import Command, gauged, linter, python
 
 _SPLATS = 5_000_000
-_FRAMES = 20
+_FRAMES = 100
 _DEGREE = 3
 _CHUNK = 1 << 20
 
@@ -53,8 +53,18 @@ def broken_splats(folder: Path, scale: float) -> Path:
 
 
 def animated_splats(folder: Path, scale: float) -> Path:
-    """20 frames of a tenth of the splats."""
-    return _write(folder, _SPLATS * scale / 10, times=range(_FRAMES))
+    """100 frames of a fiftieth of the splats; ten times as many make frames of a million."""
+    return _write(folder, _SPLATS * scale / 50, times=range(_FRAMES))
+
+
+def one_frame(folder: Path, scale: float) -> Path:
+    """A fiftieth of the splats."""
+    return splats(folder, scale / 50)
+
+
+def a_million(folder: Path, scale: float) -> Path:
+    """A fifth of the splats."""
+    return splats(folder, scale / 5)
 
 
 def _write(
@@ -114,6 +124,9 @@ def _grown(name: str, make: Make, make_floor: Make, wanted: float) -> Case:
     return Case(name, command, command, wanted, make, make_floor)
 
 
+_PEER = Command(("omni_asset_validate", "--no-init-rules", "--requirement", "VG.035"), exit_code=1)
+"""omniverse-asset-validator, which finds fault with these splats."""
+
 CASES = (
     Case("splats", linter(), _SUM_EACH, 1.6, splats),
     Case("splats-rules", gauged("check", linter()), _TIME_SUMS, 2.5, splats),
@@ -121,5 +134,6 @@ CASES = (
     Case("splats-half", linter(), _SUM_EACH, 2.0, half_splats),
     Case("splats-broken", linter(exit_code=1), linter(), 2.0, broken_splats, splats),
     _grown("splats-growth", splats, tenth, 10.0),
-    _grown("splats-frames", animated_splats, tenth, _FRAMES),
+    _grown("splats-frames", animated_splats, one_frame, _FRAMES),
+    Case("splats-peer", linter(), _PEER, 0.25, a_million, needs=_PEER.words[0]),
 )
