@@ -127,7 +127,38 @@ def _grown(name: str, make: Make, make_floor: Make, wanted: float) -> Case:
 _PEER = Command(("omni_asset_validate", "--no-init-rules", "--requirement", "VG.035"), exit_code=1)
 """omniverse-asset-validator, which finds fault with these splats."""
 
+_PEER_ALONE = f"""
+import subprocess, sys, tempfile
+from time import perf_counter
+def seconds(path):
+    began = perf_counter()
+    subprocess.run([*{_PEER.words!r}, path], capture_output=True)
+    return perf_counter() - began
+with tempfile.NamedTemporaryFile("w", suffix=".usda") as empty:
+    empty.write("#usda 1.0\\n")
+    empty.flush()
+    print(seconds(sys.argv[1]) - seconds(empty.name))
+"""
+_LINT_AGAIN = """
+import sys
+from usdvol_lint.catalog import load
+from usdvol_lint.config import Config, activate
+from usdvol_lint.engine import Engine
+catalog = load()
+engine = Engine(catalog.rules, activate(Config(), catalog))
+engine.lint(sys.argv[1])
+print(sum(engine.lint(sys.argv[1]).seconds.values()))
+"""
+
 CASES = (
+    Case(
+        "splats-peer-warm",
+        python(_LINT_AGAIN, prints=True),
+        python(_PEER_ALONE, prints=True),
+        1 / 30,
+        a_million,
+        needs=_PEER.words[0],
+    ),
     Case("splats", linter(), _SUM_EACH, 1.6, splats),
     Case("splats-rules", gauged("check", linter()), _TIME_SUMS, 2.5, splats),
     Case("splats-memory", gauged("memory", linter()), None, 250, splats, unit="MB"),
