@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
+from operator import itemgetter
 from typing import Any, TypeAlias
 
 from pxr import Usd
@@ -14,10 +15,9 @@ from usdvol_lint import schema
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Key, Kinds
 from usdvol_lint.facts.sums import Sums
+from usdvol_lint.facts.tables import Chunk, Table
 from usdvol_lint.rule import Rule
 
-_CHUNK = 1024
-"""So many prims are asked one question after the other: then what is found of them is cached."""
 _BATCH = 256
 """Small enough that its objects are gone before the garbage collector looks at them."""
 Options: TypeAlias = Mapping[str, Mapping[str, Any]]
@@ -64,19 +64,32 @@ def assign(
     """
     rules = list(rules)
     sums = Sums(facts)
-    for names, prims in _fields_first(walked, facts):
-        asked = [rule for rule in rules if not names.isdisjoint(rule.on)]
-        always = [rule for rule in asked if rule.when is None]
-        triages = _triages(asked, sums, options)
-        for start in range(0, len(prims), _CHUNK):
-            chunk = prims[start : start + _CHUNK]
-            for prim in chunk:
-                for rule in always:
-                    yield rule, prim
-            for triage in triages:
-                for prim, chosen in zip(chunk, triage.rules_for(chunk), strict=True):
-                    for rule in chosen:
-                        yield rule, prim
+    asked = {
+        key: _Asked([rule for rule in rules if not names.isdisjoint(rule.on)], sums, options)
+        for key in walked.kept
+        if (names := facts.kinds.names(key))
+    }
+    for key, chunk in _fields_first(walked, facts):
+        for prim in chunk.prims:
+            for rule in asked[key].always:
+                yield rule, prim
+        if asked[key].triages:
+            for table in facts.tables(chunk):
+                for triage in asked[key].triages:
+                    yield from triage.chosen(table)
+
+
+class _Asked:
+    """The rules that ask for prims of a kind: for all of them, or for those that they choose."""
+
+    def __init__(self, rules: Sequence[Rule], sums: Sums, options: Options) -> None:
+        by_fact: dict[str, list[Rule]] = defaultdict(list)
+        self.always: list[Rule] = []
+        for rule in rules:
+            (by_fact[rule.when.fact] if rule.when else self.always).append(rule)
+        self.triages = [
+            _Triage(getattr(sums, fact), chosen, options) for fact, chosen in by_fact.items()
+        ]
 
 
 class _Triage:
@@ -84,29 +97,36 @@ class _Triage:
 
     def __init__(
         self,
-        sum_up: Callable[[Sequence[Any]], Iterable[Any]],
+        sum_up: Callable[[Table], Iterable[Any]],
         rules: list[Rule],
         options: Options,
     ) -> None:
         self._sum_up = sum_up
         self._rules = rules
         self._options = options
-        self._chosen: dict[Any, list[Rule]] = {}
+        self._known: dict[Any, list[Rule]] = {}
 
-    def rules_for(self, prims: Sequence[Any]) -> list[list[Rule]]:
-        """The rules that each prim is handed; what can't be told here, they find out themselves."""
+    def chosen(self, table: Table) -> Iterator[tuple[Rule, Any]]:
+        """The prims, each with its rules; what can't be told here, they find out themselves."""
         try:
-            sums = self._sum_up(prims)
+            sums = list(self._sum_up(table))
         except Exception:
-            if len(prims) == 1:
-                return [self._rules]
-            return [chosen for prim in prims for chosen in self.rules_for([prim])]
-        known = self._chosen
-        return [known[found] if found in known else self._choose(found) for found in sums]
+            if len(table.prims) == 1:
+                yield from ((rule, table.prims[0]) for rule in self._rules)
+                return
+            for row in range(len(table.prims)):
+                yield from self.chosen(table.alone(row))
+            return
+        chosen = {found: self._rules_for(found) for found in set(sums)}
+        if any(chosen.values()):
+            for prim, found in zip(table.prims, sums, strict=True):
+                for rule in chosen[found]:
+                    yield rule, prim
 
-    def _choose(self, found: Any) -> list[Rule]:
-        self._chosen[found] = [rule for rule in self._rules if self._holds(rule, found)]
-        return self._chosen[found]
+    def _rules_for(self, found: Any) -> list[Rule]:
+        if found not in self._known:
+            self._known[found] = [rule for rule in self._rules if self._holds(rule, found)]
+        return self._known[found]
 
     def _holds(self, rule: Rule, found: Any) -> bool:
         try:
@@ -116,21 +136,18 @@ class _Triage:
             return True
 
 
-def _fields_first(walked: Walk, facts: Facts) -> list[tuple[frozenset[str], list[Any]]]:
-    """The kept prims of each kind, with its schemas.
+def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[Key, Chunk]]:
+    """The kept prims by kind, some at a time, roughly in the order of the walk.
 
-    What Volumes are asked needs what fields hold: so those are read many at once as well.
+    What Volumes are asked needs what their fields hold: of prims that the walk met together, so
+    that what is found of them is cached, fields come first.
     """
-    kinds = [(facts.kinds.names(key), prims) for key, prims in walked.kept.items()]
-    return sorted(kinds, key=lambda kind: schema.FIELD not in kind[0])
-
-
-def _triages(rules: Iterable[Rule], sums: Sums, options: Options) -> list[_Triage]:
-    by_fact: dict[str, list[Rule]] = defaultdict(list)
-    for rule in rules:
-        if rule.when:
-            by_fact[rule.when.fact].append(rule)
-    return [_Triage(getattr(sums, fact), chosen, options) for fact, chosen in by_fact.items()]
+    order = []
+    for key in walked.kept:
+        later = schema.FIELD not in facts.kinds.names(key)
+        chunks = facts.chunks(key)
+        order += [((n / len(chunks), later, key), chunk) for n, chunk in enumerate(chunks, 1)]
+    yield from ((key, chunk) for (_, _, key), chunk in sorted(order, key=itemgetter(0)))
 
 
 def _batches(stage: Any) -> Iterator[list[Any]]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
 from usdvol_lint.facts.instances import in_prototype, shown, shown_path
-from usdvol_lint.facts.records import Records
 from usdvol_lint.facts.states import TargetState
 
 if TYPE_CHECKING:
@@ -28,13 +28,14 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.clips import Clips, ClipSet
     from usdvol_lint.facts.colour_spaces import ColourSpace
     from usdvol_lint.facts.composition import Composition
-    from usdvol_lint.facts.contents import ContentReader, FieldContents
+    from usdvol_lint.facts.contents import ContentReader, Contents, FieldContents
     from usdvol_lint.facts.enclosure import Enclosure, Shortfall, Standing
     from usdvol_lint.facts.encodings import Encoding
     from usdvol_lint.facts.extents import Limits
     from usdvol_lint.facts.fields import (
         Binding,
         BindingReader,
+        Bound,
         FieldBindings,
         FieldNames,
         Target,
@@ -45,9 +46,10 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.nesting import Nested, Nesting
     from usdvol_lint.facts.particles import ParticleApis
     from usdvol_lint.facts.path_marks import PathMarks
-    from usdvol_lint.facts.placement import Displacement
+    from usdvol_lint.facts.placement import Displacement, Placement
     from usdvol_lint.facts.places import Recased
     from usdvol_lint.facts.sequences import SampleSequence
+    from usdvol_lint.facts.tables import Chunk, Table, Tables
     from usdvol_lint.facts.values import Values
     from usdvol_lint.model import ParticleFieldStats
     from usdvol_lint.volumefile.cache import VolumeFiles
@@ -84,7 +86,7 @@ class Facts:
         self._times = times
         self._statistics = statistics
         self._ever_used: set[Any] = set()
-        self._records = Records()
+        self._found: dict[Any, dict[str, Any]] = defaultdict(dict)
 
     def composed_anew(self, kept: Mapping[Key, Sequence[Any]]) -> Facts:
         """The facts of the same stage under another variant selection.
@@ -130,14 +132,16 @@ class Facts:
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""
-        contents: FieldContents = self._one(field, ":contents")
-        return contents
+        from usdvol_lint.facts.contents import FieldContents
+
+        attribute = self.assets(field, "filePath").attribute
+        return FieldContents(attribute, self._one(field, ":contents"))
 
     def sequence(self, prim: Any, name: str) -> SampleSequence | None:
         """The time samples of an asset attribute as a sequence, or None if there are not two."""
         if len(self.assets(prim, name).samples) < 2:
             return None
-        known = self._records.of(prim)
+        known = self._found[prim]
         key = f":sequence of {name}"
         if key not in known:
             from usdvol_lint.facts.sequences import read_sequence
@@ -168,12 +172,15 @@ class Facts:
 
     def fields(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
-        bindings: FieldBindings = self._one(volume, ":fields")
+        known = self._found[volume]
+        if ":fields" not in known:
+            known[":fields"] = self._binding_reader.read(volume, self._may_lack)
+        bindings: FieldBindings = known[":fields"]
         return bindings
 
     def apis(self, prim: Any) -> ParticleApis:
         """The applied APIs of a prim, those that nobody registers among them."""
-        known = self._records.of(prim)
+        known = self._found[prim]
         if ":apis" not in known:
             from usdvol_lint.facts.particles import read_particle_apis
 
@@ -183,7 +190,7 @@ class Facts:
 
     def encoding(self, prim: Any) -> Encoding | None:
         """The encoding from before the schema that a prim is in, if it is in one."""
-        known = self._records.of(prim)
+        known = self._found[prim]
         if ":encoding" not in known:
             from usdvol_lint.facts.encodings import recognise
 
@@ -193,7 +200,7 @@ class Facts:
 
     def arrays(self, prim: Any) -> ParticleArrays:
         """The arrays of a particle field: empty where SCH011 says that it is no UsdVol."""
-        known = self._records.of(prim)
+        known = self._found[prim]
         if ":arrays" not in known:
             from usdvol_lint.facts.arrays import read_particle_arrays
 
@@ -238,8 +245,7 @@ class Facts:
 
     def authored(self, prim: Any) -> Authored:
         """The authored attributes of a prim, by what the schemas declare of them."""
-        authored: Authored = self._one(prim, ":authored")
-        return authored
+        return self._tables.find(prim)[0].authored
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
@@ -345,10 +351,24 @@ class Facts:
         fields = []
         for _, target in self._bound_assets(volume):
             field = in_prototype(target.prim)
-            contents = self.contents(field)
+            contents = self.contents(field).all
             if contents.select_grids:
                 fields.append((target, self.assets(field, "filePath"), contents))
         return volume, self.limits(volume), fields
+
+    def stands(self, volume: Any, bound: Bound) -> Iterator[tuple[Contents, Placement]]:
+        """The contents of the files that a Volume gets, and where their fields stand."""
+        from usdvol_lint.facts.placement import AT_REST, read_placement
+
+        if not bound.is_plain:
+            for target, _, contents in self.standing(volume)[2]:
+                yield contents, read_placement(volume, target.prim)
+            return
+        for path in bound.paths:
+            table, row = self._tables.field_at(path)
+            moves = "xformOpOrder" in table.authored.declared
+            placement = read_placement(volume, table.prims[row]) if moves else AT_REST
+            yield table.cell(row, ":contents", self._read), placement
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:
         """The different files that the fields of a Volume name at one time, if they do."""
@@ -394,15 +414,14 @@ class Facts:
         """The Volumes and particle fields that have no bounds to USD, by their paths."""
         from usdvol_lint.facts.extents import has_bounds
 
-        return sorted(
-            (
-                prim
-                for name in (schema.VOLUME, schema.PARTICLE_FIELD)
-                for prim in self.of(name)
-                if not has_bounds(prim) and not self.composition.may_lack_values(prim)
-            ),
-            key=self.shown_path,
-        )
+        bare = [
+            prim
+            for table in self._tables.of(schema.VOLUME, schema.PARTICLE_FIELD)
+            for prim, limits in zip(table.prims, self.each(table, ":limits"), strict=True)
+            if not limits.are_authored and not has_bounds(prim)
+        ]
+        bare = [prim for prim in bare if not self.composition.may_lack_values(prim)]
+        return sorted(bare, key=self.shown_path)
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:
@@ -417,10 +436,10 @@ class Facts:
         """What USD could not compose."""
         from usdvol_lint.facts.composition import read_composition
 
-        names = (schema.FIELD, schema.VOLUME, schema.PARTICLE_FIELD)
-        subjects = [prim for name in names for prim in self.of(name)]
-        clipped = [prim for prim in subjects if self.authored(prim).is_clipped]
-        clip_sets = dict.fromkeys(found for prim in clipped for found in self.clip_sets(prim))
+        clipped = [table for table in self._tables.of(*schema.OURS) if table.authored.is_clipped]
+        clip_sets = dict.fromkeys(
+            found for table in clipped for prim in table.prims for found in self.clip_sets(prim)
+        )
         return read_composition(self.stage, clip_sets)
 
     def grid_changes(self, field: Any) -> GridChanges | None:
@@ -429,13 +448,13 @@ class Facts:
         Of the fields that share a sequence, the first one is told.
         """
         contents = self.contents(field)
-        if len(contents.kinds) < 2:
+        if len(contents.all.kinds) < 2:
             return None
         from usdvol_lint.facts.changes import find_grid_changes
 
         others = map(self.contents, self.of(schema.FIELD_ASSET))
-        sharing = [other for other in others if other.files == contents.files]
-        return find_grid_changes(sharing) if sharing[0] is contents else None
+        sharing = [other for other in others if other.all.files == contents.all.files]
+        return find_grid_changes(sharing) if sharing[0] == contents else None
 
     @cached_property
     def _asset_reader(self) -> AssetReader:
@@ -482,32 +501,43 @@ class Facts:
 
         return any(map(package_of, self.stage.GetUsedLayers()))
 
-    def each(self, prims: Sequence[Any], name: str) -> list[Any]:
-        """A fact of each of many prims of one kind, by the name that it is kept under."""
-        return self._records.each(prims, name, self._read)
+    def chunks(self, key: Key) -> Sequence[Chunk]:
+        """The live prims of a kind, some at a time, in the order of the walk."""
+        return self._tables.chunks(key)
+
+    def tables(self, chunk: Chunk) -> Sequence[Table]:
+        """The prims of a chunk, those together that are alike."""
+        return self._tables.tables(chunk)
+
+    def each(self, table: Table, name: str) -> Sequence[Any]:
+        """A fact of each prim of a table, by the name that it is kept under."""
+        return table.column(name, self._read)
 
     def _one(self, prim: Any, name: str) -> Any:
-        return self._records.one(prim, name, self._read)
+        table, row = self._tables.find(prim)
+        return table.cell(row, name, self._read)
 
-    def _read(self, name: str, prims: Sequence[Any]) -> Sequence[Any]:
-        """Finds what is kept under a name for each of many prims."""
-        if name == ":authored":
-            return self._authored_reader.read(prims)
+    @cached_property
+    def _tables(self) -> Tables:
+        from usdvol_lint.facts.tables import Tables
+
+        return Tables(self._kept, self.kinds, self._authored_reader)
+
+    def _read(self, name: str, table: Table) -> Sequence[Any]:
+        """Finds what is kept under a name for each prim of a table."""
         if name == ":claims":
-            return self._claim_reader.read(prims, self.each(prims, ":authored"))
+            return self._claim_reader.read(table.usd, table.authored)
         if name == ":contents":
-            return self._content_reader.read(
-                self.each(prims, "filePath"),
-                self.each(prims, ":claims"),
-                self.each(prims, ":authored"),
-            )
-        if name == ":fields":
-            return self._binding_reader.read(prims, self._may_lack)
+            paths, claims = self.each(table, "filePath"), self.each(table, ":claims")
+            return self._content_reader.read(paths, claims, table.authored)
+        if name == ":bound":
+            live = self._tables.fields
+            return self._binding_reader.read_many(table.usd, table.authored, live, self._may_lack)
         if name == ":limits":
             from usdvol_lint.facts.extents import read_limits
 
-            return read_limits(prims)
-        return self._asset_reader.read(prims, name)
+            return read_limits(table.usd)
+        return self._asset_reader.read(table.usd, name)
 
     def _may_lack(self, prim: Any) -> bool:
         return self.composition.may_lack(prim)
@@ -532,11 +562,12 @@ class Facts:
 
     @cached_property
     def _field_users(self) -> Counter[Any]:
-        """How many Volumes target each field, by its path."""
-        from usdvol_lint.facts.fields import field_paths
+        """How many Volumes target each prim that one does, by its path."""
+        bound = (each for table in self._tables.of(schema.VOLUME) for each in self._bound(table))
+        return Counter(chain.from_iterable(each.paths for each in bound))
 
-        volumes = self.of(schema.VOLUME)
-        return Counter(path for volume in volumes for path in field_paths(self.fields(volume)))
+    def _bound(self, table: Table) -> Sequence[Bound]:
+        return self.each(table, ":bound")
 
     @cached_property
     def _field_names(self) -> FieldNames:

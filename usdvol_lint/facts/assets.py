@@ -5,21 +5,20 @@ from __future__ import annotations
 import os
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import repeat
 from operator import attrgetter
 from typing import Any, NamedTuple
 
 from pxr import Ar, Sdf, Usd
 
+from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.instances import shown
 from usdvol_lint.facts.opinions import is_from_clips, opinion
 from usdvol_lint.facts.patterns import find_pattern
 from usdvol_lint.facts.states import AssetState, FileFault
-from usdvol_lint.facts.usd_calls import count_samples, get_attribute, get_value
 from usdvol_lint.facts.values import read_values
 from usdvol_lint.model import frame_ranges
 
@@ -184,17 +183,16 @@ class AssetReader:
         self._alone: dict[Any, tuple[Sample]] = {}
         """Defaults that name files, which are the same wherever they are authored."""
 
-    def read(self, prims: Sequence[Any], name: str) -> list[AssetSamples]:
+    def read(self, usd: Answers, name: str) -> list[AssetSamples]:
         """The values of an attribute of that name on each of many prims."""
-        attributes = list(map(get_attribute, prims, repeat(name)))
-        counts = map(count_samples, attributes)
-        values = map(get_value, attributes)
         known = self._alone
         return [
             AssetSamples(attribute, known[value], _FILE)
             if not count and isinstance(value, Sdf.AssetPath) and value in known
             else self._read(attribute, count, value)
-            for attribute, count, value in zip(attributes, counts, values, strict=True)
+            for attribute, count, value in zip(
+                usd.attributes(name), usd.counts(name), usd.values(name), strict=True
+            )
         ]
 
     def _read(self, attribute: Any, count: int, value: Any) -> AssetSamples:

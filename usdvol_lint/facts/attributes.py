@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from itertools import repeat
+from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Sdf
 
 from usdvol_lint import schema
+from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.clips import Clips
 from usdvol_lint.facts.kinds import Key, Kinds
 from usdvol_lint.facts.usd_calls import (
     attribute_at,
-    count_samples,
     get_attribute,
     get_prim_stack,
-    get_property_names,
-    get_value,
     layer_of_spec,
     path_of_spec,
     property_path,
     type_of_spec,
 )
 from usdvol_lint.facts.values import Values, values_of
+
+Shape: TypeAlias = tuple[tuple[str, ...], bool, bool]
+"""The names of authored properties; whether there are several specs; whether there are clips."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,6 +35,7 @@ class Authored:
     `schemas` are those that they answer to.
     `declared` are those that UsdVol's schemas, or the ones they derive from, declare, with those
     that have values in clips alone; `types` are theirs, `tokens` and `uniform` are some of them.
+    `bound` are the names of a Volume's `field:` namespace.
     `strange` are names that no schema declares, `meant` is what some of these may be slips of.
     `is_layered` says that several specs have a say, `is_clipped` that value clips may.
     """
@@ -42,6 +45,7 @@ class Authored:
     types: tuple[tuple[str, Any], ...]
     tokens: tuple[tuple[str, tuple[str, ...]], ...]
     uniform: tuple[str, ...]
+    bound: tuple[str, ...]
     strange: frozenset[str]
     meant: tuple[tuple[str, str, str], ...]
     is_layered: bool
@@ -83,39 +87,44 @@ class AuthoredReader:
     def __init__(self, kinds: Kinds, clips: Clips) -> None:
         self._kinds = kinds
         self._clips = clips
-        self._shared: dict[tuple[Key, tuple[str, ...], bool, bool], Authored] = {}
+        self._shared: dict[tuple[Key, Shape], Authored] = {}
 
-    def read(self, prims: Sequence[Any]) -> list[Authored]:
-        """What is authored on each of many prims of one kind."""
-        found = []
-        key = self._kinds.key(prims[0])
-        names = map(tuple, map(get_property_names, prims))
-        layers = map(len, map(get_prim_stack, prims))
-        columns = zip(prims, names, layers, self._clips.reach(prims), strict=True)
-        for prim, own, count, is_clipped in columns:
-            if is_clipped:
-                known = schema.attributes_of(self._kinds.names(key))
-                own += tuple(name for name in known if prim.GetAttribute(name).HasAuthoredValue())
-            shape = (key, own, count > 1, is_clipped)
-            authored = self._shared.get(shape)
-            if authored is None:
-                authored = _compare(prim, own, self._kinds.names(key), count > 1, is_clipped)
-                self._shared[shape] = authored
-            found.append(authored)
+    def shapes(self, usd: Answers, key: Key) -> list[Shape]:
+        """What makes prims of one kind alike: names, and who else may have a say in the values."""
+        are_clipped = self._clips.reach(usd)
+        are_layered = [len(stack) > 1 for stack in usd.stacks]
+        shapes = list(zip(usd.names, are_layered, are_clipped, strict=True))
+        if any(are_clipped):
+            known = schema.attributes_of(self._kinds.names(key))
+            for row, prim in enumerate(usd.prims):
+                if are_clipped[row]:
+                    also = (name for name in known if prim.GetAttribute(name).HasAuthoredValue())
+                    shapes[row] = ((*usd.names[row], *also), are_layered[row], True)
+        return shapes
+
+    def read(self, prim: Any, key: Key, shape: Shape) -> Authored:
+        """What is authored on all prims of a kind that are of a shape; `prim` is one of them."""
+        found = self._shared.get((key, shape))
+        if found is None:
+            found = self._shared[key, shape] = _compare(prim, self._kinds.names(key), *shape)
         return found
 
 
-def may_be_mistyped(prims: Sequence[Any], authored: Sequence[Authored]) -> list[bool]:
-    """Whether `mistyped` may find anything, for each of many prims."""
-    found = []
-    for own, stack in zip(authored, map(get_prim_stack, prims), strict=True):
-        is_odd = False
-        for holder in stack:
-            layer, path = layer_of_spec(holder), path_of_spec(holder)
-            for name, wanted in own.types:
-                spec = attribute_at(layer, property_path(path, name))
-                is_odd = is_odd or spec is None or type_of_spec(spec) != wanted
-        found.append(is_odd)
+def may_be_mistyped(usd: Answers, authored: Authored) -> list[bool]:
+    """Whether `mistyped` may find anything, for each of many prims that are alike."""
+    if authored.is_layered:
+        return [any(mistyped(prim, authored)) for prim in usd.prims]
+    specs = [stack[0] for stack in usd.stacks]
+    layers, paths = list(map(layer_of_spec, specs)), list(map(path_of_spec, specs))
+    found = [False] * len(specs)
+    for name, wanted in authored.types:
+        places = map(property_path, paths, repeat(name))
+        types = [
+            None if spec is None else type_of_spec(spec)
+            for spec in map(attribute_at, layers, places)
+        ]
+        if types.count(wanted) < len(types):
+            found = [odd or own != wanted for odd, own in zip(found, types, strict=True)]
     return found
 
 
@@ -161,20 +170,17 @@ def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
                 yield Unlisted(name, token, allowed, values)
 
 
-def may_have_unlisted(prims: Sequence[Any], authored: Sequence[Authored]) -> list[bool]:
-    """Whether `unlisted_tokens` may find anything, for each of many prims."""
-    return [
-        any(
-            get_value(attribute := get_attribute(prim, name)) not in allowed
-            or count_samples(attribute)
-            for name, allowed in own.tokens
-        )
-        for prim, own in zip(prims, authored, strict=True)
-    ]
+def may_have_unlisted(usd: Answers, authored: Authored) -> list[bool]:
+    """Whether `unlisted_tokens` may find anything, for each of many prims that are alike."""
+    found = [False] * len(usd.prims)
+    for name, allowed in authored.tokens:
+        columns = zip(found, usd.values(name), usd.counts(name), strict=True)
+        found = [odd or value not in allowed or count > 0 for odd, value, count in columns]
+    return found
 
 
 def _compare(
-    prim: Any, names: Iterable[str], schemas: frozenset[str], is_layered: bool, is_clipped: bool
+    prim: Any, schemas: frozenset[str], names: Iterable[str], is_layered: bool, is_clipped: bool
 ) -> Authored:
     known = schema.attributes_of(schemas)
     candidates = dict(known)
@@ -183,8 +189,10 @@ def _compare(
     registered = prim.GetPrimDefinition().GetPropertyNames()
     declared = {name: known[name] for name in names if name in known}
     strange = frozenset(names).difference(candidates, registered)
+    bound: tuple[str, ...] = ()
     if schema.VOLUME in schemas:
-        strange = frozenset(name for name in strange if not name.startswith(schema.FIELD_NAMESPACE))
+        bound = tuple(name for name in names if name.startswith(schema.FIELD_NAMESPACE))
+        strange = strange.difference(bound)
     return Authored(
         schemas=schemas,
         declared=declared,
@@ -194,6 +202,7 @@ def _compare(
         ),
         tokens=tuple((name, known.tokens) for name, known in declared.items() if known.tokens),
         uniform=tuple(name for name, known in declared.items() if known.uniform),
+        bound=bound,
         strange=strange,
         meant=tuple(
             (name, meant, candidates[meant].type_name)

@@ -34,7 +34,7 @@ def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
     first, fits, grids_of = fields[0], _by_kind(_fits), _by_kind(_grids)
     frames = [
         (contents[0].sample, grids_of(contents[0]))
-        for contents in zip(*(field.contents for field in fields), strict=True)
+        for contents in zip(*(field.all.contents for field in fields), strict=True)
         if contents[0].sample.time is not None and all(map(fits, contents))
     ]
     kinds = Counter(tuple(sorted(grids.items())) for _, grids in frames)
@@ -43,7 +43,7 @@ def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
         return None
     usual = dict(commonest)
     differing = [(sample, grids) for sample, grids in frames if grids != usual]
-    found = Affected(first.attribute, tuple(sample for sample, _ in differing), first.total)
+    found = Affected(first.attribute, tuple(sample for sample, _ in differing), first.all.total)
     return GridChanges(found, _difference(differing[0][1], usual))
 
 

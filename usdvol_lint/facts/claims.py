@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.attributes import Authored
 from usdvol_lint.facts.held import Held, Time
-from usdvol_lint.facts.usd_calls import count_samples, get_attribute, get_value
+from usdvol_lint.facts.usd_calls import count_samples, get_value
 from usdvol_lint.facts.values import read_values
 
 _ATTRIBUTES = {
@@ -60,29 +61,28 @@ class ClaimReader:
     def __init__(self) -> None:
         self._claims: dict[tuple[Any, ...], Claim] = {}
         self._unchanging: dict[tuple[Any, ...], FieldClaims] = {}
-        self._names: dict[Authored, tuple[str, ...]] = {}
 
-    def read(self, fields: Sequence[Any], authored: Sequence[Authored]) -> list[FieldClaims]:
-        """What each of many fields says; `authored` is what is authored on them."""
-        return [self._read(*each) for each in zip(fields, map(self._said, authored), strict=True)]
+    def read(self, usd: Answers, authored: Authored) -> list[FieldClaims]:
+        """What many fields say that are alike."""
+        names = [name for name in _ATTRIBUTES if name in authored.declared]
+        if not names:
+            return [self._constant(())] * len(usd.prims)
+        values = zip(*map(usd.values, names), strict=True)
+        counts = zip(*map(usd.counts, names), strict=True)
+        found = []
+        for field, said, are_animated in zip(usd.prims, values, counts, strict=True):
+            if any(are_animated):
+                found.append(self._read_changing([field.GetAttribute(name) for name in names]))
+            else:
+                found.append(self._constant(zip(names, said, strict=True)))
+        return found
 
-    def _said(self, authored: Authored) -> tuple[str, ...]:
-        """The names of the attributes that say something."""
-        names = self._names.get(authored)
-        if names is None:
-            names = tuple(name for name in _ATTRIBUTES if name in authored.declared)
-            self._names[authored] = names
-        return names
-
-    def _read(self, field: Any, names: tuple[str, ...]) -> FieldClaims:
-        attributes = [get_attribute(field, name) for name in names]
-        if any(map(count_samples, attributes)):
-            return self._read_changing(attributes)
-        key = (names, *map(get_value, attributes))
+    def _constant(self, said: Iterable[tuple[str, Any]]) -> FieldClaims:
+        key = tuple(said)
         found = self._unchanging.get(key)
         if found is None:
-            said = {_ATTRIBUTES[name]: value for name, value in zip(names, key[1:], strict=True)}
-            found = self._unchanging[key] = FieldClaims(self._claim(said))
+            claim = self._claim({_ATTRIBUTES[name]: value for name, value in key})
+            found = self._unchanging[key] = FieldClaims(claim)
         return found
 
     def _read_changing(self, attributes: Sequence[Any]) -> FieldClaims:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from pxr import Sdf, Tf, Usd
 
+from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.usd_calls import get_parent, has_metadata
 
 _CLIPS_LOOKED_AT = 4
@@ -111,12 +111,13 @@ class Clips:
     def __init__(self) -> None:
         self._reaching: dict[Any, tuple[ClipSet, ...]] = {}
 
-    def reach(self, prims: Sequence[Any]) -> list[bool]:
+    def reach(self, usd: Answers) -> list[bool]:
         """Whether there are clip sets for each of many prims."""
-        known = map(self._reaching.get, prims)
+        above = map(self._reaching.get, usd.parents)
+        own = usd.have_metadata("clips")
         return [
-            bool(self.reaching(prim) if found is None else found)
-            for found, prim in zip(known, prims, strict=True)
+            bool(self.reaching(prim)) if found is None or has_own else bool(found)
+            for found, has_own, prim in zip(above, own, usd.prims, strict=True)
         ]
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:

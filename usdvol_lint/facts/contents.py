@@ -144,35 +144,15 @@ class Kind:
         return answers[key]
 
 
-class FieldContents(NamedTuple):
+class Contents(NamedTuple):
     """The contents of all files that a field names, by kind, in ascending time, the default first.
 
-    `total` is at how many times it was looked for them.
+    `total` is at how many times it was looked for them.  Fields that name the same single file and
+    say the same of it share one.
     """
 
-    attribute: Any
     kinds: tuple[tuple[Kind, list[Content]], ...]
     total: int
-
-    def grouped(self, key: Key) -> Iterable[tuple[Content, Affected]]:
-        """The first content and all samples of each key that the contents have, None aside.
-
-        The key is asked for once among contents of one kind: it can't depend on bounds,
-        transforms and the numbers in messages, nor on the sample.
-        """
-        found: dict[Hashable, list[list[Content]]] = {}
-        for kind, contents in self.kinds:
-            value = kind.answer(key)
-            if value is not None:
-                found.setdefault(value, []).append(contents)
-        return [self._affected(groups) for groups in found.values()] if found else ()
-
-    def _affected(self, groups: list[list[Content]]) -> tuple[Content, Affected]:
-        together = [content for contents in groups for content in contents]
-        if len(groups) > 1:
-            together.sort(key=_order)
-        samples = tuple(content.sample for content in together)
-        return together[0], Affected(self.attribute, samples, self.total)
 
     @property
     def contents(self) -> list[Content]:
@@ -215,6 +195,36 @@ class FieldContents(NamedTuple):
         return [(sample.time, sample.resolved) for sample, *_ in self.contents]
 
 
+_NOTHING = Contents((), 0)
+
+
+class FieldContents(NamedTuple):
+    """The contents of a field's files, and the attribute that names them."""
+
+    attribute: Any
+    all: Contents
+
+    def grouped(self, key: Key) -> Iterable[tuple[Content, Affected]]:
+        """The first content and all samples of each key that the contents have, None aside.
+
+        The key is asked for once among contents of one kind: it can't depend on bounds,
+        transforms and the numbers in messages, nor on the sample.
+        """
+        found: dict[Hashable, list[list[Content]]] = {}
+        for kind, contents in self.all.kinds:
+            value = kind.answer(key)
+            if value is not None:
+                found.setdefault(value, []).append(contents)
+        return [self._affected(groups) for groups in found.values()] if found else ()
+
+    def _affected(self, groups: list[list[Content]]) -> tuple[Content, Affected]:
+        together = [content for contents in groups for content in contents]
+        if len(groups) > 1:
+            together.sort(key=_order)
+        samples = tuple(content.sample for content in together)
+        return together[0], Affected(self.attribute, samples, self.all.total)
+
+
 class ContentReader:
     """Reads the files of a stage's fields, each once."""
 
@@ -227,22 +237,32 @@ class ContentReader:
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
         self._kinds: dict[Hashable, Kind] = {}
+        self._alone: dict[tuple[Sample, FieldClaims, Format], Contents] = {}
 
     def read(
         self,
         samples: Iterable[AssetSamples],
         claims: Iterable[FieldClaims],
-        authored: Iterable[Authored],
-    ) -> list[FieldContents]:
-        """The contents of the files in the samples of many fields' `filePath`."""
-        return [self._read(*each) for each in zip(samples, claims, authored, strict=True)]
-
-    def _read(
-        self, samples: AssetSamples, claims: FieldClaims, authored: Authored
-    ) -> FieldContents:
+        authored: Authored,
+    ) -> list[Contents]:
+        """The contents of the files in the samples of `filePath` of many fields that are alike."""
         wanted = self._wanted(authored.schemas)
-        if not wanted or self._extent == "off" or AssetState.FILE not in samples.states:
-            return FieldContents(samples.attribute, (), 0)
+        if not wanted or self._extent == "off":
+            return [_NOTHING for _ in samples]
+        return [self._contents(*each, wanted) for each in zip(samples, claims, strict=True)]
+
+    def _contents(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Contents:
+        if AssetState.FILE not in samples.states:
+            return _NOTHING
+        if claims.times or len(samples.samples) > 1:
+            return self._read(samples, claims, wanted)
+        key = (samples.samples[0], claims, wanted)
+        found = self._alone.get(key)
+        if found is None:
+            found = self._alone[key] = self._read(samples, claims, wanted)
+        return found
+
+    def _read(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Contents:
         kinds: dict[Kind, list[Content]] = {}
         total = read = 0
         for sample, claim in _moments(samples, claims):
@@ -256,7 +276,7 @@ class ContentReader:
                     break
                 if read % _READ_TOGETHER == 0:
                     self._advance(_READ_TOGETHER)
-        return FieldContents(samples.attribute, tuple(kinds.items()), total)
+        return Contents(tuple(kinds.items()), total)
 
     def _wanted(self, schemas: frozenset[str]) -> Format | None:
         """The format of files that fields of these schemas ask for."""

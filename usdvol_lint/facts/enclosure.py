@@ -10,7 +10,7 @@ from math import inf
 from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.facts.assets import AssetSamples
-from usdvol_lint.facts.contents import FieldContents
+from usdvol_lint.facts.contents import Contents
 from usdvol_lint.facts.extents import Limits
 from usdvol_lint.facts.fields import Target
 from usdvol_lint.facts.held import Held, Time
@@ -36,7 +36,7 @@ class PlacedField:
     """A field of a Volume: the grids that its files hold, and where it stands."""
 
     def __init__(
-        self, target: Target, paths: AssetSamples, contents: FieldContents, placement: Placement
+        self, target: Target, paths: AssetSamples, contents: Contents, placement: Placement
     ) -> None:
         self._target = target
         self._paths = paths
@@ -48,15 +48,6 @@ class PlacedField:
     def shown(self) -> str:
         """The path of the field as the stage shows it."""
         return self._target.shown
-
-    def hull(self, enclosure: Enclosure) -> Hull | None:
-        """The box around all grids at all times; None where that can't be told, or moves."""
-        if self._moved_at:
-            return None
-        matrix = self._placement.matrix(None)
-        grids = [grid for _, grid in self._contents.grids() if grid]
-        found = [enclosure.whole(grid, matrix) for grid in grids] if matrix else [None]
-        return _hull(found)
 
     def moments(self, more_times: Iterable[float]) -> Iterator[Moment]:
         """Each time at which grid or placement change, and these others, where both are known.
@@ -160,37 +151,51 @@ class Hull(NamedTuple):
     magnitude: float
 
 
-Standing: TypeAlias = tuple[Any, Limits, Sequence[tuple[Target, AssetSamples, FieldContents]]]
+Standing: TypeAlias = tuple[Any, Limits, Sequence[tuple[Target, AssetSamples, Contents]]]
 """A Volume with its extent, and those fields whose files have the grids that they name."""
 
 
 class Enclosure:
     """Holds extents against grids; the box around each grid is found once.
 
-    It is good for as long as the grids are kept.
+    It is good for as long as contents and grids are kept.
     """
 
     def __init__(self) -> None:
         self._boxes: dict[tuple[int, Matrix | None], Bounds | None] = {}
+        self._hulls: dict[int, Hull | None] = {}
 
-    def overhang(self, standing: Standing) -> float:
+    def overhang(self, limits: Limits, stands: Iterable[tuple[Contents, Placement]]) -> float:
         """How far any grid may reach out of the extent, in relation to its largest coordinate.
 
+        `stands` are the contents of the fields' files, and where the fields stand.
         Infinite where each time has to be looked at to tell.
         """
-        _, limits, fields = standing
-        if not fields:
-            return 0.0
-        limit = limits.at(None)
-        if limit is None or limits.times:
-            return inf
+        limit = None if limits.times else limits.at(None)
         most = 0.0
-        for placed in _placed(standing):
-            hull = placed.hull(self)
-            if hull is None:
-                return inf
-            most = max(most, _overhang(limit, hull))
+        for contents, placement in stands:
+            if contents.select_grids:
+                hull = self._hull(contents, placement)
+                if limit is None or hull is None:
+                    return inf
+                most = max(most, _overhang(limit, hull))
         return most
+
+    def _hull(self, contents: Contents, placement: Placement) -> Hull | None:
+        """The box around all grids at all times; None where that can't be told, or moves."""
+        if placement.times:
+            return None
+        matrix = placement.matrix(None)
+        if matrix is not IDENTITY:
+            return self._hull_of(contents, matrix)
+        key = id(contents)
+        if key not in self._hulls:
+            self._hulls[key] = self._hull_of(contents, matrix)
+        return self._hulls[key]
+
+    def _hull_of(self, contents: Contents, matrix: Matrix | None) -> Hull | None:
+        grids = [grid for _, grid in contents.grids() if grid]
+        return _joined([self.whole(grid, matrix) for grid in grids]) if matrix else None
 
     def shortfall(self, standing: Standing, relative_slack: float) -> Shortfall | None:
         """Holds an extent against every grid at every time at which one of them changes.
@@ -264,7 +269,7 @@ def _overhang(limit: Bounds, hull: Hull) -> float:
     return most / hull.magnitude if hull.magnitude else inf
 
 
-def _hull(boxes: Sequence[Bounds | None]) -> Hull | None:
+def _joined(boxes: Sequence[Bounds | None]) -> Hull | None:
     known = [box for box in boxes if box]
     if not known or len(known) < len(boxes):
         return None

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from math import inf
 from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Usd, Vt
 
+from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.held import Time
 from usdvol_lint.facts.usd_calls import get_attribute, has_value
-from usdvol_lint.facts.values import Value, Values, all_values, values_of
+from usdvol_lint.facts.values import Value, Values, read_values, values_of
 from usdvol_lint.volumefile import Bounds
 
 Corner: TypeAlias = tuple[float, float, float]
@@ -35,30 +36,44 @@ _ORIGIN = (0.0, 0.0, 0.0)
 class Limits:
     """The authored values of an extent, as boxes; one that is malformed counts as none."""
 
-    def __init__(self, attribute: Any) -> None:
+    __slots__ = ("_default", "_get", "_samples", "are_odd", "attribute")
+
+    def __init__(self, attribute: Any, values: Iterable[tuple[Time, Any]]) -> None:
         self.attribute = attribute
-        self._values: dict[Time, Bounds | None] = {}
         self.are_odd = False
-        for time, value in all_values(attribute):
-            box = self._values[time] = box_of(value)
+        self._default: Bounds | None = None
+        self._samples: dict[float, Bounds | None] = {}
+        for time, value in values:
+            box = box_of(value)
             self.are_odd = self.are_odd or (box is None and value is not None)
-        self.times = [time for time in self._values if time is not None]
-        self._get = Usd.AttributeQuery(attribute).Get if self.times else None
+            if time is None:
+                self._default = box
+            else:
+                self._samples[time] = box
+        self._get = Usd.AttributeQuery(attribute).Get if self._samples else None
+
+    @property
+    def times(self) -> Iterable[float]:
+        return self._samples.keys()
 
     @property
     def are_authored(self) -> bool:
-        return any(self._values.values())
+        return self._default is not None or any(self._samples.values())
 
     def at(self, time: Time) -> Bounds | None:
         """The value as USD gives it: samples hide a default, and are interpolated between."""
         if time is None or self._get is None:
-            return self._values.get(None)
-        return self._values[time] if time in self._values else box_of(self._get(time))
+            return self._default
+        return self._samples[time] if time in self._samples else box_of(self._get(time))
 
 
-def read_limits(prims: Sequence[Any]) -> list[Limits]:
+def read_limits(usd: Answers) -> list[Limits]:
     """Every `extent` of many prims as boxes."""
-    return [Limits(get_attribute(prim, "extent")) for prim in prims]
+    attributes, counts = usd.attributes("extent"), usd.counts("extent")
+    return [
+        Limits(attribute, read_values(attribute) if count else ((None, value),))
+        for attribute, count, value in zip(attributes, counts, usd.values("extent"), strict=True)
+    ]
 
 
 _LARGEST = 3.4028234663852886e38

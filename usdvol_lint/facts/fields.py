@@ -5,13 +5,16 @@ from __future__ import annotations
 import builtins
 from bisect import bisect
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from enum import Enum
+from itertools import chain
 from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Usd
 
 from usdvol_lint import schema
+from usdvol_lint.facts.answers import Answers
+from usdvol_lint.facts.attributes import Authored
 from usdvol_lint.facts.instances import in_prototype, shown, shown_path
 from usdvol_lint.facts.kinds import Kinds
 from usdvol_lint.facts.states import BindingMark, Emptiness, TargetState
@@ -22,7 +25,7 @@ from usdvol_lint.facts.usd_calls import (
     get_stage,
     get_targets,
     has_prefix,
-    is_proxy,
+    parent_path,
     prim_at,
     prim_path,
 )
@@ -147,20 +150,61 @@ class FieldBindings(NamedTuple):
         return bool(self.bindings) and all(binding.is_bound for binding in self.bindings)
 
 
+class Bound(NamedTuple):
+    """What there is to know of the bindings of a Volume that have no faults.
+
+    `marks` say what is remarkable about them, `paths` are those of the prims that they target.
+    `is_plain` says that each is one field, right below the Volume.
+    """
+
+    marks: frozenset[Enum]
+    paths: tuple[Any, ...]
+    is_plain: bool
+
+
 class BindingReader:
-    """Reads what Volumes bind."""
+    """Reads what Volumes bind.
+
+    `may_lack` is asked whether opinions about a prim may lie in a layer that does not open.
+    """
 
     def __init__(self, kinds: Kinds) -> None:
         self._kinds = kinds
 
-    def read(self, volumes: Iterable[Any], may_lack: MayLack) -> list[FieldBindings]:
-        """What the authored properties of many Volumes bind.
+    def read_many(
+        self, usd: Answers, authored: Authored, fields: Container[Any], may_lack: MayLack
+    ) -> list[Bound]:
+        """What many Volumes bind that are alike; `fields` are the paths of live fields.
 
-        `may_lack` is asked whether opinions about a prim may lie in a layer that does not open.
+        Bindings are looked at one by one only where they are not plain.
         """
-        return [self._read(volume, may_lack) for volume in volumes]
+        marks: set[Enum] = {TargetState.FIELD}
+        if len(authored.bound) > 1:
+            marks.add(BindingMark.SEVERAL)
+        if any(name.count(":") > 1 for name in authored.bound):
+            marks.add(BindingMark.NESTED)
+        plain = frozenset(marks)
+        targets = [map(_targets, usd.relationships(name)) for name in authored.bound]
+        others = [map(bool, usd.relationships(name)) for name in authored.strange]
+        found = []
+        for volume, path, paths, are_others in zip(
+            usd.prims, usd.paths, _rows(targets, usd), _rows(others, usd), strict=True
+        ):
+            own = tuple(chain.from_iterable(paths))
+            if (
+                len(own) == len(paths) > 0
+                and all(len(each) == 1 for each in paths)
+                and all(each in fields and parent_path(each) == path for each in own)
+                and not any(are_others)
+            ):
+                found.append(Bound(plain, own, True))
+            else:
+                bindings = self.read(volume, may_lack)
+                found.append(Bound(bindings.marks(volume), tuple(field_paths(bindings)), False))
+        return found
 
-    def _read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
+    def read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
+        """What the authored properties of a Volume bind."""
         bindings, others = [], []
         for prop in get_properties(volume):
             name = get_name(prop)
@@ -198,6 +242,15 @@ class BindingReader:
         return Target(path, stage, state, prim, culprit, schemas)
 
 
+def _targets(relationship: Any) -> Sequence[Any]:
+    return get_targets(relationship) if relationship else ()
+
+
+def _rows(columns: Sequence[Iterable[Any]], usd: Answers) -> Iterable[tuple[Any, ...]]:
+    """What stands in columns that are as long as there are prims, prim by prim."""
+    return zip(*columns, strict=True) if columns else [()] * len(usd.prims)
+
+
 def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:
     """The state of what lacks something, unless a layer that does not open may have it."""
     vague = state in (TargetState.MISSING, TargetState.OVER, TargetState.NOT_A_FIELD)
@@ -207,8 +260,6 @@ def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:
 def field_paths(bindings: FieldBindings) -> set[Any]:
     """The paths of every prim that a relationship of the Volume targets, as the walk met them."""
     prims = [target.prim for binding in bindings.bindings for target in binding.targets]
-    if len(prims) == 1 and prims[0] and not bindings.strays and not is_proxy(prims[0]):
-        return {get_path(prims[0])}  # so it is nearly always
     for stray in bindings.strays:
         stage = stray.GetStage()
         prims += [stage.GetPrimAtPath(path.GetPrimPath()) for path in stray.GetForwardedTargets()]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import repeat
 from typing import Any, NamedTuple
 
 from pxr import Usd
 
 from usdvol_lint import schema
+from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.kinds import Kinds
-from usdvol_lint.facts.usd_calls import get_children, get_parent
+from usdvol_lint.facts.usd_calls import get_children, get_parent, get_type
 
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()
 _UNKNOWN = object()
@@ -28,6 +30,7 @@ class Nesting:
     def __init__(self, kinds: Kinds) -> None:
         self._kinds = kinds
         self._at_or_above: dict[Any, Any | None] = {}
+        self._gprims: dict[str, bool] = {}
 
     def above(self, prim: Any) -> Any | None:
         """The nearest Gprim among the ancestors, those of the instances of a prototype too."""
@@ -37,9 +40,13 @@ class Nesting:
             found = self._at_or_above[parent] = self._find_at_or_above(parent)
         return found
 
-    def is_likely(self, prim: Any) -> bool:
+    def are_likely(self, usd: Answers) -> list[bool]:
         """Whether there is a Gprim above, or below, if only one that speaks for itself."""
-        return bool(self.above(prim)) or any(self._topmost_gprims(prim))
+        above = map(self._at_or_above.get, usd.parents, repeat(_UNKNOWN))
+        return [
+            bool(self.above(prim) if found is _UNKNOWN else found) or self._hold_gprims(children)
+            for prim, found, children in zip(usd.prims, above, usd.children, strict=True)
+        ]
 
     def below(self, prim: Any) -> Iterator[Nested]:
         """The topmost Gprims below, one for each instance; Volumes and particle fields speak for
@@ -58,13 +65,27 @@ class Nesting:
     def _topmost_gprims(self, prim: Any) -> Iterator[Any]:
         # The end of a PrimRange takes longer than to look at a Volume with its fields.
         for child in get_children(prim, _WITH_INSTANCES):
-            if self._kinds.is_a(child, schema.GPRIM):
+            if self._is_gprim(child):
                 yield child
             else:
                 yield from self._topmost_gprims(child)
 
+    def _hold_gprims(self, prims: Sequence[Any]) -> bool:
+        return any(
+            self._is_gprim(prim) or self._hold_gprims(get_children(prim, _WITH_INSTANCES))
+            for prim in prims
+        )
+
+    def _is_gprim(self, prim: Any) -> bool:
+        """By the type alone: no applied schema makes a Gprim."""
+        type_name = get_type(prim)
+        found = self._gprims.get(type_name)
+        if found is None:
+            found = self._gprims[type_name] = schema.GPRIM in self._kinds.names((type_name,))
+        return found
+
     def _find_at_or_above(self, prim: Any) -> Any | None:
-        if prim.IsPseudoRoot() or self._kinds.is_a(prim, schema.GPRIM):
+        if prim.IsPseudoRoot() or self._is_gprim(prim):
             return None if prim.IsPseudoRoot() else prim
         if prim.IsPrototype():
             found = map(self._find_at_or_above, prim.GetInstances())

@@ -26,11 +26,9 @@ class PathMarks:
         self._has_packages = has_packages
         self._known: dict[tuple[str, str, Authored], frozenset[Enum]] = {}
 
-    def of(
-        self, paths: Iterable[AssetSamples], authored: Iterable[Authored]
-    ) -> list[frozenset[Enum]]:
-        """The states and the marks of many prims' values; `authored` is what is on the prims."""
-        return [self._of(*each) for each in zip(paths, authored, strict=True)]
+    def of(self, paths: Iterable[AssetSamples], authored: Authored) -> list[frozenset[Enum]]:
+        """The states and the marks of the values of many prims that are alike."""
+        return [self._of(each, authored) for each in paths]
 
     def _of(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
         samples = paths.samples

@@ -77,7 +77,7 @@ class Placement(NamedTuple):
         return " and ".join(filter(None, ("rotated or scaled" if turned else "", movement)))
 
 
-_AT_REST = Placement((), (), ())
+AT_REST = Placement((), (), ())
 
 
 def read_placement(volume: Any, field: Any) -> Placement:
@@ -88,7 +88,7 @@ def read_placement(volume: Any, field: Any) -> Placement:
     up, up_resets = _transformed(field, up_count)
     down, down_resets = _transformed(volume, down_count)
     if not up and not down:
-        return _AT_REST
+        return AT_REST
     if up_resets and not down_resets:  # what is above both moves the Volume alone
         down, _ = _transformed(volume, volume.GetPath().pathElementCount)
     elif down_resets and not up_resets:

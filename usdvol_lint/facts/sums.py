@@ -2,82 +2,77 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Hashable, Iterable
+from typing import TYPE_CHECKING
 
 from usdvol_lint import schema
 
 if TYPE_CHECKING:
     from usdvol_lint.facts import Facts
+    from usdvol_lint.facts.tables import Table
 
 
 class Sums:
-    """One method for each fact that rules go by: what it gives for each of many prims, in order.
-
-    Prims of one kind are taken many at once, since USD answers one question about many prims in
-    half the time of many questions about each.
-    """
+    """One method for each fact that rules go by: what it gives for each prim of a table."""
 
     def __init__(self, facts: Facts) -> None:
         self._facts = facts
 
-    def authored(self, prims: Sequence[Any]) -> Iterable[Hashable]:
+    def authored(self, table: Table) -> Iterable[Hashable]:
         """What is authored, and what the schemas declare of it."""
-        return self._facts.each(prims, ":authored")
+        return [table.authored] * len(table.prims)
 
-    def is_mistyped(self, prims: Sequence[Any]) -> Iterable[bool]:
+    def is_mistyped(self, table: Table) -> Iterable[bool]:
         """Whether some spec may have another type than the schema declares."""
         from usdvol_lint.facts.attributes import may_be_mistyped
 
-        return may_be_mistyped(prims, self._facts.each(prims, ":authored"))
+        return may_be_mistyped(table.usd, table.authored)
 
-    def has_odd_tokens(self, prims: Sequence[Any]) -> Iterable[bool]:
+    def has_odd_tokens(self, table: Table) -> Iterable[bool]:
         """Whether some token may be one that the schema does not allow."""
         from usdvol_lint.facts.attributes import may_have_unlisted
 
-        return may_have_unlisted(prims, self._facts.each(prims, ":authored"))
+        return may_have_unlisted(table.usd, table.authored)
 
-    def is_strange(self, prims: Sequence[Any]) -> Iterable[bool]:
+    def is_strange(self, table: Table) -> Iterable[bool]:
         """Whether a prim has properties that no schema declares, or is of no type of ours."""
-        kinds = self._facts.kinds
-        if schema.OURS.isdisjoint(kinds.names(kinds.key(prims[0]))):
-            return [True] * len(prims)
-        return [bool(authored.strange) for authored in self._facts.each(prims, ":authored")]
+        authored = table.authored
+        is_foreign = schema.OURS.isdisjoint(authored.schemas)
+        return [is_foreign or bool(authored.strange)] * len(table.prims)
 
-    def file_path_marks(self, fields: Sequence[Any]) -> Iterable[Hashable]:
+    def file_path_marks(self, table: Table) -> Iterable[Hashable]:
         """The states of the values of `filePath`, and what is remarkable about them."""
         facts = self._facts
-        return facts.path_marks.of(facts.each(fields, "filePath"), facts.each(fields, ":authored"))
+        return facts.path_marks.of(facts.each(table, "filePath"), table.authored)
 
-    def claims(self, fields: Sequence[Any]) -> Iterable[Hashable]:
+    def claims(self, table: Table) -> Iterable[Hashable]:
         """What a field says of the content of its files."""
-        return self._facts.each(fields, ":claims")
+        return self._facts.each(table, ":claims")
 
-    def content_kinds(self, fields: Sequence[Any]) -> Iterable[Hashable]:
+    def content_kinds(self, table: Table) -> Iterable[Hashable]:
         """The kinds of what is inside the files that a field names."""
-        contents = self._facts.each(fields, ":contents")
-        return [tuple(kind for kind, _ in held.kinds) for held in contents]
+        contents = self._facts.each(table, ":contents")
+        return [tuple([kind for kind, _ in held.kinds]) for held in contents]
 
-    def binding_marks(self, volumes: Sequence[Any]) -> Iterable[Hashable]:
+    def binding_marks(self, table: Table) -> Iterable[Hashable]:
         """What is remarkable about what the `field:` namespace of a Volume binds."""
-        bindings = self._facts.each(volumes, ":fields")
-        return [each.marks(volume) for each, volume in zip(bindings, volumes, strict=True)]
+        return [bound.marks for bound in self._facts.each(table, ":bound")]
 
-    def has_odd_extent(self, prims: Sequence[Any]) -> Iterable[bool]:
+    def has_odd_extent(self, table: Table) -> Iterable[bool]:
         """Whether some authored `extent` is no box."""
-        return [limits.are_odd for limits in self._facts.each(prims, ":limits")]
+        return [limits.are_odd for limits in self._facts.each(table, ":limits")]
 
-    def is_nested(self, prims: Sequence[Any]) -> Iterable[bool]:
+    def is_nested(self, table: Table) -> Iterable[bool]:
         """Whether there is a Gprim above or below."""
-        nesting = self._facts.nesting
-        return [nesting.is_likely(prim) for prim in prims]
+        return self._facts.nesting.are_likely(table.usd)
 
-    def overhang(self, volumes: Sequence[Any]) -> Iterable[float]:
+    def overhang(self, table: Table) -> Iterable[float]:
         """How far grids may reach out of the extent, in relation to their largest coordinate."""
         facts = self._facts
-        facts.each(volumes, ":fields")  # in one go, before each Volume is asked for its own
-        enclosure = facts.enclosure
+        columns = (table.prims, facts.each(table, ":limits"), facts.each(table, ":bound"))
         return [
-            enclosure.overhang(facts.standing(volume)) if limits.are_authored else 0.0
-            for volume, limits in zip(volumes, facts.each(volumes, ":limits"), strict=True)
+            facts.enclosure.overhang(limits, facts.stands(volume, bound))
+            if limits.are_authored
+            else 0.0
+            for volume, limits, bound in zip(*columns, strict=True)
         ]

@@ -11,6 +11,7 @@ type_of_spec: Any = Sdf.AttributeSpec.typeName.fget
 attribute_at: Any = Sdf.Layer.GetAttributeAtPath
 
 has_prefix: Any = Sdf.Path.HasPrefix
+parent_path: Any = Sdf.Path.GetParentPath
 prim_path: Any = Sdf.Path.GetPrimPath
 property_path: Any = Sdf.Path.AppendProperty
 
@@ -24,6 +25,7 @@ has_value: Any = Usd.Attribute.HasAuthoredValue
 get_name: Any = Usd.Object.GetName
 get_path: Any = Usd.Object.GetPath
 get_stage: Any = Usd.Object.GetStage
+get_type: Any = Usd.Prim.GetTypeName
 
 get_attribute: Any = Usd.Prim.GetAttribute
 get_children: Any = Usd.Prim.GetFilteredChildren
@@ -31,6 +33,7 @@ get_parent: Any = Usd.Prim.GetParent
 get_prim_stack: Any = Usd.Prim.GetPrimStack
 get_properties: Any = Usd.Prim.GetAuthoredProperties
 get_property_names: Any = Usd.Prim.GetAuthoredPropertyNames
+get_relationship: Any = Usd.Prim.GetRelationship
 has_metadata: Any = Usd.Prim.HasAuthoredMetadata
 is_in_prototype: Any = Usd.Prim.IsInPrototype
 is_proxy: Any = Usd.Prim.IsInstanceProxy

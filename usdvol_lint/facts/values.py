@@ -65,16 +65,11 @@ class Values:
 
 
 def values_of(attribute: Any) -> Values:
-    """Every value of an attribute, kept."""
-    values = all_values(attribute)
+    """Every value of an attribute, kept; the default is None where there is nothing at all."""
+    if not count_samples(attribute):
+        return Values(attribute, (Value(None, get_value(attribute)),), 0)
+    values = tuple(read_values(attribute))
     return Values(attribute, values, len(values) - (values[0].time is None))
-
-
-def all_values(attribute: Any) -> tuple[Value, ...]:
-    """The default and the samples; the default is None where there is nothing at all."""
-    if count_samples(attribute):
-        return tuple(read_values(attribute))
-    return (Value(None, get_value(attribute)),)
 
 
 def read_values(attribute: Any) -> Iterator[Value]:

@@ -1,0 +1,191 @@
+"""Prims that are alike, in tables with a column for each fact that is found of many in one go."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import repeat
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from usdvol_lint import schema
+from usdvol_lint.facts.answers import Answers
+from usdvol_lint.facts.kinds import Key, Kinds
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.attributes import Authored, AuthoredReader, Shape
+
+_MOST_PRIMS = 1024
+"""So many are asked one question after the other: then what is found of them is cached."""
+
+
+class Table:
+    """Prims of one kind on which the same properties are authored.
+
+    `usd` gives USD's answers about them; `columns` hold what was found of them, by name.
+    """
+
+    __slots__ = ("_alone", "_authored", "_failed", "columns", "usd")
+
+    def __init__(self, usd: Answers, authored: Authored | Exception) -> None:
+        self.usd = usd
+        self.columns: dict[str, Sequence[Any]] = {}
+        self._authored = authored
+        self._alone: dict[int, Table] = {}
+        self._failed: dict[str, Exception] = {}
+
+    @property
+    def prims(self) -> Sequence[Any]:
+        return self.usd.prims
+
+    @property
+    def authored(self) -> Authored:
+        """What is authored on them; raises what USD raised where it can't be read."""
+        if isinstance(self._authored, Exception):
+            raise self._authored
+        return self._authored
+
+    def column(self, name: str, read: Read) -> Sequence[Any]:
+        """What is kept under a name, of each prim; raises where that of one can't be read."""
+        if name not in self.columns:
+            if name in self._failed:
+                raise self._failed[name]
+            try:
+                self.columns[name] = read(name, self)
+            except Exception as error:
+                self._failed[name] = error
+                raise
+        return self.columns[name]
+
+    def cell(self, row: int, name: str, read: Read) -> Any:
+        """What is kept under a name of one prim, whether or not that of others can be read."""
+        try:
+            return self.column(name, read)[row]
+        except Exception:
+            if len(self.prims) == 1:
+                raise
+            return self.alone(row).column(name, read)[0]
+
+    def alone(self, row: int) -> Table:
+        """A table of one of the prims."""
+        if row not in self._alone:
+            self._alone[row] = Table(self.usd.of((row,)), self._authored)
+        return self._alone[row]
+
+
+Read: TypeAlias = Callable[[str, Table], Sequence[Any]]
+"""Finds what is kept under a name, for each prim of a table."""
+
+
+class Chunk:
+    """Some prims of one kind that the walk met in a row, in tables once these are asked for."""
+
+    __slots__ = ("_rows", "prims", "tables")
+
+    def __init__(self, prims: Sequence[Any]) -> None:
+        self.prims = prims
+        self.tables: list[Table] = []
+        self._rows: dict[Any, tuple[Table, int]] = {}
+
+    def find(self, row: int) -> tuple[Table, int]:
+        """The table of one of the prims, and its row there."""
+        if len(self.tables) == 1:
+            return self.tables[0], row
+        if not self._rows:
+            for table in self.tables:
+                self._rows.update((prim, (table, row)) for row, prim in enumerate(table.prims))
+        return self._rows[self.prims[row]]
+
+
+class Tables:
+    """The prims of a stage in tables, and what was found of them."""
+
+    def __init__(
+        self, kept: Mapping[Key, Sequence[Any]], kinds: Kinds, authored: AuthoredReader
+    ) -> None:
+        self._kinds = kinds
+        self._authored = authored
+        self._chunks = {key: list(_chunks(prims)) for key, prims in kept.items()}
+        self._places: dict[Key, dict[Any, tuple[Chunk, int]]] = {}
+        self._others: dict[Any, Chunk] = {}
+        self._last: list[Table] = []
+
+    def chunks(self, key: Key) -> list[Chunk]:
+        """The prims of a kind, in the order of the walk."""
+        return self._chunks[key]
+
+    def of(self, *schemas: str) -> Iterator[Table]:
+        """The tables of all prims that answer to one of these schemas."""
+        for key, chunks in self._chunks.items():
+            if not self._kinds.names(key).isdisjoint(schemas):
+                for chunk in chunks:
+                    yield from self.tables(chunk)
+
+    def tables(self, chunk: Chunk) -> list[Table]:
+        """The prims of a chunk in tables."""
+        if not chunk.tables:
+            chunk.tables = self._form(chunk.prims)
+        return chunk.tables
+
+    def find(self, prim: Any) -> tuple[Table, int]:
+        """The table of a prim, and its row there; one of its own if the walk did not keep it."""
+        place = self._places_of(self._kinds.key(prim)).get(prim.GetPath())
+        if place is None:
+            if prim not in self._others:
+                self._others[prim] = Chunk((prim,))
+            place = self._others[prim], 0
+        return self._find(*place)
+
+    def field_at(self, path: Any) -> tuple[Table, int]:
+        """The table of the live field at a path, and its row there."""
+        return self._find(*self.fields[path])
+
+    def _find(self, chunk: Chunk, row: int) -> tuple[Table, int]:
+        self.tables(chunk)
+        return chunk.find(row)
+
+    @cached_property
+    def fields(self) -> Mapping[Any, tuple[Chunk, int]]:
+        """The places of all live fields, by their paths."""
+        kinds = [key for key in self._chunks if schema.FIELD in self._kinds.names(key)]
+        if len(kinds) == 1:
+            return self._places_of(kinds[0])  # so it is nearly always
+        return {path: place for key in kinds for path, place in self._places_of(key).items()}
+
+    def _places_of(self, key: Key) -> Mapping[Any, tuple[Chunk, int]]:
+        places = self._places.get(key)
+        if places is None:
+            places = self._places[key] = {}
+            for chunk in self._chunks.get(key, ()):
+                rows = zip(repeat(chunk), range(len(chunk.prims)), strict=False)
+                places.update(zip(Answers(chunk.prims).paths, rows, strict=False))
+        return places
+
+    def _form(self, prims: Sequence[Any]) -> list[Table]:
+        """Puts those together that are alike; one that can't be read does not keep others back."""
+        for table in self._last:
+            table.usd.forget()
+        try:
+            self._last = list(self._alike(Answers(prims)))
+        except Exception as error:
+            if len(prims) == 1:
+                return [Table(Answers(prims), error)]
+            return [table for prim in prims for table in self._form((prim,))]
+        return self._last
+
+    def _alike(self, usd: Answers) -> Iterator[Table]:
+        key = self._kinds.key(usd.prims[0])
+        shapes = self._authored.shapes(usd, key)
+        if shapes.count(shapes[0]) == len(shapes):
+            yield Table(usd, self._authored.read(usd.prims[0], key, shapes[0]))
+            return
+        rows: dict[Shape, list[int]] = defaultdict(list)
+        for row, shape in enumerate(shapes):
+            rows[shape].append(row)
+        for shape, some in rows.items():
+            yield Table(usd.of(some), self._authored.read(usd.prims[some[0]], key, shape))
+
+
+def _chunks(prims: Sequence[Any]) -> Iterator[Chunk]:
+    for start in range(0, len(prims), _MOST_PRIMS):
+        yield Chunk(prims[start : start + _MOST_PRIMS])
