@@ -159,7 +159,7 @@ def Sphere "ball"
     found = walk(stage, rules, kinds)
     pairs = Counter(
         (rule.code, prim.GetName())
-        for rule, prim in assign(found, rules, Facts(stage, kinds, found.kept), {})
+        for rule, prim in assign(found, rules, Facts(stage, kinds, found.kept, found.clipped), {})
     )
     assert pairs == Counter(
         (code, name)
@@ -190,7 +190,7 @@ def Volume "cloud"
     kinds = Kinds()
     rules = list(catalog.rules.values())
     found = walk(stage, rules, kinds)
-    pairs = assign(found, rules, Facts(stage, kinds, found.kept), {})
+    pairs = assign(found, rules, Facts(stage, kinds, found.kept, found.clipped), {})
     assert [rule.code for rule, _ in pairs if rule.when] == []
 
 

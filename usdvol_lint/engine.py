@@ -92,6 +92,7 @@ class Engine:
             stage,
             kinds,
             walked.kept,
+            walked.clipped,
             self._advance,
             self._content,
             self._volume_files,
@@ -135,7 +136,7 @@ class Engine:
         try:
             for selection in others:
                 walked = walk(facts.stage, self._rules, facts.kinds)
-                facts = facts.composed_anew(walked.kept)
+                facts = facts.composed_anew(walked.kept, walked.clipped)
                 for found in self._check(walked, facts, sites):
                     if found.identity not in known:
                         known.add(found.identity)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import islice
+from itertools import compress, islice, repeat
 from operator import itemgetter
 from typing import Any, TypeAlias
 
@@ -16,6 +16,7 @@ from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Key, Kinds
 from usdvol_lint.facts.sums import Sums
 from usdvol_lint.facts.tables import Chunk, Table
+from usdvol_lint.facts.usd_calls import has_metadata
 from usdvol_lint.rule import Rule
 
 _BATCH = 256
@@ -28,9 +29,10 @@ _COUNTED = frozenset({schema.VOLUME, schema.FIELD, schema.PARTICLE_FIELD})
 
 @dataclass(slots=True)
 class Walk:
-    """What the walk saw: how many prims, and those that some rule wants, by kind."""
+    """What the walk saw: how many prims, those that some rule wants by kind, those with clips."""
 
     prims: int = 0
+    clipped: list[Any] = field(default_factory=list)
     kept: dict[Key, list[Any]] = field(default_factory=lambda: defaultdict(list))
 
 
@@ -45,6 +47,7 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: Kinds) -> Walk:
     result = Walk()
     for prims in _batches(stage):
         result.prims += len(prims)
+        result.clipped += compress(prims, map(has_metadata, prims, repeat("clips")))
         for prim, key in zip(prims, kinds.keys(prims), strict=True):
             keep = decided.get(key)
             if keep is None:

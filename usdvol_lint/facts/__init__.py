@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.placement import Displacement, Placement
     from usdvol_lint.facts.places import Recased
     from usdvol_lint.facts.sequences import SampleSequence
-    from usdvol_lint.facts.tables import Chunk, Table, Tables
+    from usdvol_lint.facts.tables import Chunk, Place, Table, Tables
     from usdvol_lint.facts.values import Values
     from usdvol_lint.model import ParticleFieldStats
     from usdvol_lint.volumefile.cache import VolumeFiles
@@ -58,7 +58,8 @@ if TYPE_CHECKING:
 class Facts:
     """The facts of one stage: read-only for rules, each found when first asked for, and kept.
 
-    `stage` is the `Usd.Stage`; `advance` is told of progress in long sequences; `content` says how
+    `stage` is the `Usd.Stage`, `kept` are those of its prims that rules ask for, and on `clipped`
+    value clips are authored; `advance` is told of progress in long sequences; `content` says how
     many of a field's files are looked into, and `volume_files` has those of other stages; `times`
     says which time samples of particles are looked at, `statistics` whether to count in passing
     what `particle_field_stats` tells.
@@ -71,6 +72,7 @@ class Facts:
         stage: Any,
         kinds: Kinds,
         kept: Mapping[Key, Sequence[Any]],
+        clipped: Sequence[Any],
         advance: Callable[[int], None] = lambda count: None,
         content: str = "all",
         volume_files: VolumeFiles | None = None,
@@ -80,6 +82,7 @@ class Facts:
         self.stage = stage
         self.kinds = kinds
         self._kept = kept
+        self._clipped = clipped
         self._advance = advance
         self._content = content
         self._volume_files = volume_files
@@ -88,7 +91,7 @@ class Facts:
         self._ever_used: set[Any] = set()
         self._found: dict[Any, dict[str, Any]] = defaultdict(dict)
 
-    def composed_anew(self, kept: Mapping[Key, Sequence[Any]]) -> Facts:
+    def composed_anew(self, kept: Mapping[Key, Sequence[Any]], clipped: Sequence[Any]) -> Facts:
         """The facts of the same stage under another variant selection.
 
         Files stay known, and a field that was used before is not unused now.
@@ -97,6 +100,7 @@ class Facts:
             self.stage,
             self.kinds,
             kept,
+            clipped,
             self._advance,
             self._content,
             self._volume_files,
@@ -313,9 +317,9 @@ class Facts:
         """The field prims below a Volume that no Volume targets."""
         from usdvol_lint.facts.fields import fields_below
 
+        places, used = self._tables.fields, self._field_users
         below = fields_below(volume, self.kinds)
-        used = self.used_field_paths
-        return [field for field in below if in_prototype(field).GetPath() not in used]
+        return [field for field in below if places[in_prototype(field).GetPath()] not in used]
 
     def hidden_animation(self, prim: Any, name: str) -> str | None:
         """What animates an attribute in vain, in words, because a stronger default hides it."""
@@ -331,7 +335,7 @@ class Facts:
 
     def is_shared(self, volume: Any, field: Any) -> bool:
         """Whether other Volumes target a field of this one too, or instances of this one do."""
-        if self._field_users[in_prototype(field).GetPath()] > 1:
+        if self._field_users[self._tables.fields[in_prototype(field).GetPath()]] > 1:
             return True
         instanced = volume.IsInPrototype() and not field.IsInPrototype()
         return instanced and shown(volume).instances > 1
@@ -364,8 +368,8 @@ class Facts:
             for target, _, contents in self.standing(volume)[2]:
                 yield contents, read_placement(volume, target.prim)
             return
-        for path in bound.paths:
-            table, row = self._tables.field_at(path)
+        for place in bound.fields:
+            table, row = self._tables.find_at(place)
             moves = "xformOpOrder" in table.authored.declared
             placement = read_placement(volume, table.prims[row]) if moves else AT_REST
             yield table.cell(row, ":contents", self._read), placement
@@ -382,11 +386,6 @@ class Facts:
         ]
         return find_mixed_files(named) if len(named) > 1 else None
 
-    @property
-    def used_field_paths(self) -> Set[Any]:
-        """The paths of the prims that some Volume targets."""
-        return self._field_users.keys()
-
     @cached_property
     def unused_fields(self) -> list[Any]:
         """The fields that no Volume targets, on a stage of which all could be seen.
@@ -396,10 +395,10 @@ class Facts:
         """
         from usdvol_lint.facts.fields import fields_below
 
+        places, used = self._tables.fields, self._field_users
+        self._ever_used.update(path for path, place in places.items() if place in used)
+        unused = places.keys() - self._ever_used
         volumes = self.of(schema.VOLUME)
-        self._ever_used |= self.used_field_paths
-        fields = {field.GetPath(): field for field in self.of(schema.FIELD)}
-        unused = fields.keys() - self._ever_used
         if not volumes or not unused or not self.composition.is_whole:
             return []
         for volume in volumes:
@@ -407,7 +406,7 @@ class Facts:
                 below = fields_below(volume, self.kinds)
                 unused.difference_update(in_prototype(field).GetPath() for field in below)
                 unused.difference_update(map(self._meant_path, self.fields(volume).bindings))
-        return [fields[path] for path in sorted(unused)]
+        return [self.stage.GetPrimAtPath(path) for path in sorted(unused)]
 
     @cached_property
     def without_extent(self) -> list[Any]:
@@ -561,13 +560,11 @@ class Facts:
                 yield binding, target
 
     @cached_property
-    def _field_users(self) -> Counter[Any]:
-        """How many Volumes target each prim that one does, by its path."""
-        bound = (each for table in self._tables.of(schema.VOLUME) for each in self._bound(table))
-        return Counter(chain.from_iterable(each.paths for each in bound))
-
-    def _bound(self, table: Table) -> Sequence[Bound]:
-        return self.each(table, ":bound")
+    def _field_users(self) -> Counter[Place]:
+        """How many Volumes target each live field that one does, by its place."""
+        volumes = self._tables.of(schema.VOLUME)
+        columns = [self.each(table, ":bound") for table in volumes]
+        return Counter(place for bound in chain(*columns) for place in bound.fields)
 
     @cached_property
     def _field_names(self) -> FieldNames:
@@ -591,4 +588,4 @@ class Facts:
     def _clips(self) -> Clips:
         from usdvol_lint.facts.clips import Clips
 
-        return Clips()
+        return Clips(self._clipped)

@@ -18,7 +18,6 @@ from usdvol_lint.facts.usd_calls import (
     get_property_names,
     get_relationship,
     get_value,
-    has_metadata,
 )
 
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()
@@ -70,10 +69,6 @@ class Answers:
     def children(self) -> list[Any]:
         """The live children, those of an instance too."""
         return self._ask("children", lambda: map(get_children, self.prims, repeat(_WITH_INSTANCES)))
-
-    def have_metadata(self, key: str) -> list[bool]:
-        """Whether some spec of the prim has metadata of that name."""
-        return self._ask(("metadata", key), lambda: map(has_metadata, self.prims, repeat(key)))
 
     def relationships(self, name: str) -> list[Any]:
         """The relationships of that name, invalid where it is none."""

@@ -17,8 +17,7 @@ from usdvol_lint.facts.usd_calls import (
     attribute_at,
     get_attribute,
     get_prim_stack,
-    layer_of_spec,
-    path_of_spec,
+    own_attribute,
     property_path,
     type_of_spec,
 )
@@ -114,15 +113,11 @@ def may_be_mistyped(usd: Answers, authored: Authored) -> list[bool]:
     """Whether `mistyped` may find anything, for each of many prims that are alike."""
     if authored.is_layered:
         return [any(mistyped(prim, authored)) for prim in usd.prims]
-    specs = [stack[0] for stack in usd.stacks]
-    layers, paths = list(map(layer_of_spec, specs)), list(map(path_of_spec, specs))
-    found = [False] * len(specs)
+    holders = [stack[0] for stack in usd.stacks]
+    found = [False] * len(holders)
     for name, wanted in authored.types:
-        places = map(property_path, paths, repeat(name))
-        types = [
-            None if spec is None else type_of_spec(spec)
-            for spec in map(attribute_at, layers, places)
-        ]
+        specs = map(own_attribute, holders, repeat(Sdf.Path(f".{name}")))
+        types = [None if spec is None else type_of_spec(spec) for spec in specs]
         if types.count(wanted) < len(types):
             found = [odd or own != wanted for odd, own in zip(found, types, strict=True)]
     return found

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from pxr import Sdf, Tf, Usd
 
 from usdvol_lint.facts.answers import Answers
-from usdvol_lint.facts.usd_calls import get_parent, has_metadata
 
 _CLIPS_LOOKED_AT = 4
 
@@ -106,30 +106,28 @@ def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
 
 
 class Clips:
-    """Finds clip sets; each ancestor is looked at once."""
+    """Finds clip sets; `prims` are those of the stage on which some are authored."""
 
-    def __init__(self) -> None:
-        self._reaching: dict[Any, tuple[ClipSet, ...]] = {}
+    def __init__(self, prims: Iterable[Any]) -> None:
+        self._prims = frozenset(prims)
+        self._own: dict[Any, tuple[ClipSet, ...]] = {}
 
     def reach(self, usd: Answers) -> list[bool]:
         """Whether there are clip sets for each of many prims."""
-        above = map(self._reaching.get, usd.parents)
-        own = usd.have_metadata("clips")
-        return [
-            bool(self.reaching(prim)) if found is None or has_own else bool(found)
-            for found, has_own, prim in zip(above, own, usd.prims, strict=True)
-        ]
+        if not self._prims:
+            return [False] * len(usd.prims)  # so it is nearly always
+        return [bool(self.reaching(prim)) for prim in usd.prims]
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets on the prim and its ancestors, nearest first."""
-        above = self.above(prim)
-        return clip_sets_on(prim) + above if has_metadata(prim, "clips") else above
-
-    def above(self, prim: Any) -> tuple[ClipSet, ...]:
-        """The clip sets on the ancestors of a prim, nearest first."""
-        parent = get_parent(prim)
-        found = self._reaching.get(parent)
-        if found is None:
-            found = () if parent.IsPseudoRoot() else self.reaching(parent)
-            self._reaching[parent] = found
+        found: tuple[ClipSet, ...] = ()
+        while self._prims and not prim.IsPseudoRoot():
+            if prim in self._prims:
+                found += self._of(prim)
+            prim = prim.GetParent()
         return found
+
+    def _of(self, prim: Any) -> tuple[ClipSet, ...]:
+        if prim not in self._own:
+            self._own[prim] = clip_sets_on(prim)
+        return self._own[prim]

@@ -14,7 +14,7 @@ from usdvol_lint.facts.contents import Contents
 from usdvol_lint.facts.extents import Limits
 from usdvol_lint.facts.fields import Target
 from usdvol_lint.facts.held import Held, Time
-from usdvol_lint.facts.placement import IDENTITY, Placement, read_placement
+from usdvol_lint.facts.placement import AT_REST, IDENTITY, Placement, read_placement
 from usdvol_lint.model import format_time
 from usdvol_lint.volumefile import Bounds, Grid, Matrix
 
@@ -151,6 +151,9 @@ class Hull(NamedTuple):
     magnitude: float
 
 
+_NOTHING = Hull(((0.0,) * 3, (0.0,) * 3), 0.0)
+"""Stands for the hull where there are no grids."""
+
 Standing: TypeAlias = tuple[Any, Limits, Sequence[tuple[Target, AssetSamples, Contents]]]
 """A Volume with its extent, and those fields whose files have the grids that they name."""
 
@@ -174,26 +177,25 @@ class Enclosure:
         limit = None if limits.times else limits.at(None)
         most = 0.0
         for contents, placement in stands:
-            if contents.select_grids:
-                hull = self._hull(contents, placement)
-                if limit is None or hull is None:
-                    return inf
-                most = max(most, _overhang(limit, hull))
+            hull = self._hull_at_rest(contents)
+            if hull is _NOTHING:
+                continue
+            if placement is not AT_REST:
+                hull = None if placement.times else self._hull(contents, placement.matrix(None))
+            if limit is None or hull is None:
+                return inf
+            most = max(most, _overhang(limit, hull))
         return most
 
-    def _hull(self, contents: Contents, placement: Placement) -> Hull | None:
-        """The box around all grids at all times; None where that can't be told, or moves."""
-        if placement.times:
-            return None
-        matrix = placement.matrix(None)
-        if matrix is not IDENTITY:
-            return self._hull_of(contents, matrix)
+    def _hull_at_rest(self, contents: Contents) -> Hull | None:
         key = id(contents)
         if key not in self._hulls:
-            self._hulls[key] = self._hull_of(contents, matrix)
+            found = self._hull(contents, IDENTITY) if contents.select_grids else _NOTHING
+            self._hulls[key] = found
         return self._hulls[key]
 
-    def _hull_of(self, contents: Contents, matrix: Matrix | None) -> Hull | None:
+    def _hull(self, contents: Contents, matrix: Matrix | None) -> Hull | None:
+        """The box around all grids at all times; None where that can't be told."""
         grids = [grid for _, grid in contents.grids() if grid]
         return _joined([self.whole(grid, matrix) for grid in grids]) if matrix else None
 

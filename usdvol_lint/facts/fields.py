@@ -5,10 +5,9 @@ from __future__ import annotations
 import builtins
 from bisect import bisect
 from collections import defaultdict
-from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
-from itertools import chain
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from pxr import Usd
 
@@ -30,6 +29,9 @@ from usdvol_lint.facts.usd_calls import (
     prim_path,
 )
 from usdvol_lint.nearest import nearest_word
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.tables import Place
 
 _BARE_NAMESPACE = schema.FIELD_NAMESPACE.rstrip(":")
 _LIVE = Usd.PrimDefaultPredicate
@@ -153,12 +155,12 @@ class FieldBindings(NamedTuple):
 class Bound(NamedTuple):
     """What there is to know of the bindings of a Volume that have no faults.
 
-    `marks` say what is remarkable about them, `paths` are those of the prims that they target.
-    `is_plain` says that each is one field, right below the Volume.
+    `marks` say what is remarkable about them, `fields` are the places of the live fields that they
+    target.  `is_plain` says that each is one of these, right below the Volume.
     """
 
     marks: frozenset[Enum]
-    paths: tuple[Any, ...]
+    fields: tuple[Place, ...]
     is_plain: bool
 
 
@@ -172,9 +174,9 @@ class BindingReader:
         self._kinds = kinds
 
     def read_many(
-        self, usd: Answers, authored: Authored, fields: Container[Any], may_lack: MayLack
+        self, usd: Answers, authored: Authored, live: Mapping[Any, Place], may_lack: MayLack
     ) -> list[Bound]:
-        """What many Volumes bind that are alike; `fields` are the paths of live fields.
+        """What many Volumes bind that are alike; `live` are the places of live fields, by path.
 
         Bindings are looked at one by one only where they are not plain.
         """
@@ -184,24 +186,22 @@ class BindingReader:
         if any(name.count(":") > 1 for name in authored.bound):
             marks.add(BindingMark.NESTED)
         plain = frozenset(marks)
-        targets = [map(_targets, usd.relationships(name)) for name in authored.bound]
-        others = [map(bool, usd.relationships(name)) for name in authored.strange]
-        found = []
-        for volume, path, paths, are_others in zip(
-            usd.prims, usd.paths, _rows(targets, usd), _rows(others, usd), strict=True
-        ):
-            own = tuple(chain.from_iterable(paths))
-            if (
-                len(own) == len(paths) > 0
-                and all(len(each) == 1 for each in paths)
-                and all(each in fields and parent_path(each) == path for each in own)
-                and not any(are_others)
-            ):
-                found.append(Bound(plain, own, True))
-            else:
-                bindings = self.read(volume, may_lack)
-                found.append(Bound(bindings.marks(volume), tuple(field_paths(bindings)), False))
-        return found
+        columns = [_below(usd.relationships(name), usd.paths, live) for name in authored.bound]
+        fields = list(zip(*columns, strict=True)) if columns else [(None,)] * len(usd.prims)
+        for name in authored.strange:
+            for row, relationship in enumerate(usd.relationships(name)):
+                if relationship:
+                    fields[row] = (None,)
+        return [
+            self._look(volume, live, may_lack) if None in own else Bound(plain, own, True)
+            for volume, own in zip(usd.prims, fields, strict=True)
+        ]
+
+    def _look(self, volume: Any, live: Mapping[Any, Place], may_lack: MayLack) -> Bound:
+        bindings = self.read(volume, may_lack)
+        paths = field_paths(bindings)
+        places = tuple(live[path] for path in sorted(paths) if path in live)
+        return Bound(bindings.marks(volume), places, False)
 
     def read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
         """What the authored properties of a Volume bind."""
@@ -242,13 +242,16 @@ class BindingReader:
         return Target(path, stage, state, prim, culprit, schemas)
 
 
-def _targets(relationship: Any) -> Sequence[Any]:
-    return get_targets(relationship) if relationship else ()
-
-
-def _rows(columns: Sequence[Iterable[Any]], usd: Answers) -> Iterable[tuple[Any, ...]]:
-    """What stands in columns that are as long as there are prims, prim by prim."""
-    return zip(*columns, strict=True) if columns else [()] * len(usd.prims)
+def _below(
+    relationships: Iterable[Any], volumes: Iterable[Any], live: Mapping[Any, Place]
+) -> list[Place | None]:
+    """The places of single targets that are live fields right below their Volumes."""
+    found: list[Place | None] = []
+    for relationship, volume in zip(relationships, volumes, strict=True):
+        paths: Sequence[Any] = get_targets(relationship) if relationship else ()
+        is_below = len(paths) == 1 and parent_path(paths[0]) == volume
+        found.append(live.get(paths[0]) if is_below else None)
+    return found
 
 
 def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:

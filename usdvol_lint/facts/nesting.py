@@ -71,10 +71,13 @@ class Nesting:
                 yield from self._topmost_gprims(child)
 
     def _hold_gprims(self, prims: Sequence[Any]) -> bool:
-        return any(
-            self._is_gprim(prim) or self._hold_gprims(get_children(prim, _WITH_INSTANCES))
-            for prim in prims
-        )
+        for prim in prims:
+            if self._is_gprim(prim):
+                return True
+            below = get_children(prim, _WITH_INSTANCES)
+            if below and self._hold_gprims(below):
+                return True
+        return False
 
     def _is_gprim(self, prim: Any) -> bool:
         """By the type alone: no applied schema makes a Gprim."""

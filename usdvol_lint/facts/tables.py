@@ -97,6 +97,10 @@ class Chunk:
         return self._rows[self.prims[row]]
 
 
+Place: TypeAlias = tuple[Chunk, int]
+"""A chunk, and which of its prims is meant."""
+
+
 class Tables:
     """The prims of a stage in tables, and what was found of them."""
 
@@ -106,7 +110,7 @@ class Tables:
         self._kinds = kinds
         self._authored = authored
         self._chunks = {key: list(_chunks(prims)) for key, prims in kept.items()}
-        self._places: dict[Key, dict[Any, tuple[Chunk, int]]] = {}
+        self._places: dict[Key, dict[Any, Place]] = {}
         self._others: dict[Any, Chunk] = {}
         self._last: list[Table] = []
 
@@ -134,25 +138,24 @@ class Tables:
             if prim not in self._others:
                 self._others[prim] = Chunk((prim,))
             place = self._others[prim], 0
-        return self._find(*place)
+        return self.find_at(place)
 
-    def field_at(self, path: Any) -> tuple[Table, int]:
-        """The table of the live field at a path, and its row there."""
-        return self._find(*self.fields[path])
-
-    def _find(self, chunk: Chunk, row: int) -> tuple[Table, int]:
-        self.tables(chunk)
+    def find_at(self, place: Place) -> tuple[Table, int]:
+        """The table of the prim at a place, and its row there."""
+        chunk, row = place
+        if not chunk.tables:
+            chunk.tables = self._form(chunk.prims)
         return chunk.find(row)
 
     @cached_property
-    def fields(self) -> Mapping[Any, tuple[Chunk, int]]:
+    def fields(self) -> Mapping[Any, Place]:
         """The places of all live fields, by their paths."""
         kinds = [key for key in self._chunks if schema.FIELD in self._kinds.names(key)]
         if len(kinds) == 1:
             return self._places_of(kinds[0])  # so it is nearly always
         return {path: place for key in kinds for path, place in self._places_of(key).items()}
 
-    def _places_of(self, key: Key) -> Mapping[Any, tuple[Chunk, int]]:
+    def _places_of(self, key: Key) -> Mapping[Any, Place]:
         places = self._places.get(key)
         if places is None:
             places = self._places[key] = {}

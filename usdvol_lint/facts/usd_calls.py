@@ -15,8 +15,7 @@ parent_path: Any = Sdf.Path.GetParentPath
 prim_path: Any = Sdf.Path.GetPrimPath
 property_path: Any = Sdf.Path.AppendProperty
 
-layer_of_spec: Any = Sdf.Spec.layer.fget
-path_of_spec: Any = Sdf.Spec.path.fget
+own_attribute: Any = Sdf.PrimSpec.GetAttributeAtPath
 
 count_samples: Any = Usd.Attribute.GetNumTimeSamples
 get_value: Any = Usd.Attribute.Get
