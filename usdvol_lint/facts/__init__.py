@@ -360,19 +360,29 @@ class Facts:
                 fields.append((target, self.assets(field, "filePath"), contents))
         return volume, self.limits(volume), fields
 
-    def stands(self, volume: Any, bound: Bound) -> Iterator[tuple[Contents, Placement]]:
+    def overhangs(self, table: Table) -> Iterator[float]:
+        """How far grids may reach out of each extent, in relation to their largest coordinate."""
+        overhang, stands = self.enclosure.overhang, self._stands
+        columns = (table.prims, self.each(table, ":limits"), self.each(table, ":bound"))
+        for volume, limits, bound in zip(*columns, strict=True):
+            yield overhang(limits, stands(volume, bound)) if limits.are_authored else 0.0
+
+    def _stands(self, volume: Any, bound: Bound) -> list[tuple[Contents, Placement]]:
         """The contents of the files that a Volume gets, and where their fields stand."""
         from usdvol_lint.facts.placement import AT_REST, read_placement
 
         if not bound.is_plain:
-            for target, _, contents in self.standing(volume)[2]:
-                yield contents, read_placement(volume, target.prim)
-            return
+            return [
+                (contents, read_placement(volume, target.prim))
+                for target, _, contents in self.standing(volume)[2]
+            ]
+        found = []
         for place in bound.fields:
             table, row = self._tables.find_at(place)
             moves = "xformOpOrder" in table.authored.declared
             placement = read_placement(volume, table.prims[row]) if moves else AT_REST
-            yield table.cell(row, ":contents", self._read), placement
+            found.append((table.cell(row, ":contents", self._read), placement))
+        return found
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:
         """The different files that the fields of a Volume name at one time, if they do."""

@@ -177,7 +177,8 @@ class Enclosure:
         limit = None if limits.times else limits.at(None)
         most = 0.0
         for contents, placement in stands:
-            hull = self._hull_at_rest(contents)
+            key = id(contents)
+            hull = self._hulls[key] if key in self._hulls else self._hull_at_rest(contents)
             if hull is _NOTHING:
                 continue
             if placement is not AT_REST:
@@ -188,11 +189,9 @@ class Enclosure:
         return most
 
     def _hull_at_rest(self, contents: Contents) -> Hull | None:
-        key = id(contents)
-        if key not in self._hulls:
-            found = self._hull(contents, IDENTITY) if contents.select_grids else _NOTHING
-            self._hulls[key] = found
-        return self._hulls[key]
+        found = self._hull(contents, IDENTITY) if contents.select_grids else _NOTHING
+        self._hulls[id(contents)] = found
+        return found
 
     def _hull(self, contents: Contents, matrix: Matrix | None) -> Hull | None:
         """The box around all grids at all times; None where that can't be told."""

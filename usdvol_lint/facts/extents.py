@@ -58,7 +58,7 @@ class Limits:
 
     @property
     def are_authored(self) -> bool:
-        return self._default is not None or any(self._samples.values())
+        return self._default is not None or (bool(self._samples) and any(self._samples.values()))
 
     def at(self, time: Time) -> Bounds | None:
         """The value as USD gives it: samples hide a default, and are interpolated between."""

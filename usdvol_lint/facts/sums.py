@@ -68,11 +68,4 @@ class Sums:
 
     def overhang(self, table: Table) -> Iterable[float]:
         """How far grids may reach out of the extent, in relation to their largest coordinate."""
-        facts = self._facts
-        columns = (table.prims, facts.each(table, ":limits"), facts.each(table, ":bound"))
-        return [
-            facts.enclosure.overhang(limits, facts.stands(volume, bound))
-            if limits.are_authored
-            else 0.0
-            for volume, limits, bound in zip(*columns, strict=True)
-        ]
+        return self._facts.overhangs(table)
