@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import compress, islice, repeat
+from itertools import chain, islice
 from operator import itemgetter
 from typing import Any, TypeAlias
 
@@ -29,7 +29,11 @@ _COUNTED = frozenset({schema.VOLUME, schema.FIELD, schema.PARTICLE_FIELD})
 
 @dataclass(slots=True)
 class Walk:
-    """What the walk saw: how many prims, those that some rule wants by kind, those with clips."""
+    """What the walk saw: how many prims, and those that some rule wants, by kind.
+
+    `clipped` are those among them and their ancestors on which value clips are authored, and maybe
+    others.
+    """
 
     prims: int = 0
     clipped: list[Any] = field(default_factory=list)
@@ -47,13 +51,17 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: Kinds) -> Walk:
     result = Walk()
     for prims in _batches(stage):
         result.prims += len(prims)
-        result.clipped += compress(prims, map(has_metadata, prims, repeat("clips")))
+        keeps_some = False
         for prim, key in zip(prims, kinds.keys(prims), strict=True):
             keep = decided.get(key)
             if keep is None:
                 keep = decided[key] = not wanted.isdisjoint(kinds.names(key))
             if keep:
                 result.kept[key].append(prim)
+                keeps_some = True
+        if keeps_some:
+            above = _ancestors(prims[0])  # the walk goes down first: those of the others are here
+            result.clipped += filter(_has_clips, chain(above, prims))
     return result
 
 
@@ -137,6 +145,16 @@ class _Triage:
             return not rule.when or rule.when.holds(found, **options)
         except Exception:
             return True
+
+
+def _ancestors(prim: Any) -> Iterator[Any]:
+    while not (prim := prim.GetParent()).IsPseudoRoot():
+        yield prim
+
+
+def _has_clips(prim: Any) -> bool:
+    found: bool = has_metadata(prim, "clips")
+    return found
 
 
 def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[Key, Chunk]]:
