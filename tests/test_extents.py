@@ -7,18 +7,24 @@ import shutil
 from collections.abc import Callable, Iterator
 from itertools import product
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 import vdbwriter
-from pxr import Gf, Sdf, Usd, UsdGeom
+from hypothesis import given
+from hypothesis import strategies as st
+from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from usdvol_lint.catalog import Catalog
 from usdvol_lint.config import Config, activate
 from usdvol_lint.engine import Engine
-from usdvol_lint.facts.placement import IDENTITY, read_placement
+from usdvol_lint.facts.enclosure import Enclosure
+from usdvol_lint.facts.extents import Limits
+from usdvol_lint.facts.placement import AT_REST, IDENTITY, read_placement
 from usdvol_lint.model import Finding
 from usdvol_lint.volumefile import Grid, read_volume_file
+from usdvol_lint.volumefile.transform import Frustum, Transform, rows, scale_translate
 
 ASSETS = Path(__file__).parent.parent / "rules" / "assets"
 SAMPLES = Path(__file__).parent / "samples"
@@ -187,6 +193,48 @@ def test_a_field_stands_where_usd_says(ops: dict[str, str]) -> None:
             found = placement.matrix(time)
             assert found is not None
             assert Gf.IsClose(Gf.Matrix4d(found), wanted, 1e-9)
+
+
+COORDINATES = st.integers(-40, 40)
+BOXES = st.tuples(*[st.tuples(COORDINATES, COORDINATES).map(sorted)] * 3).map(
+    lambda axes: tuple(zip(*axes, strict=True))
+)
+TRANSFORMS = st.sampled_from(
+    [
+        Transform("AffineMap", rows(AFFINE)),
+        Transform("UniformScaleMap", scale_translate((0.1, 0.1, 0.1), (30, 0, -30))),
+        Transform("NonlinearFrustumMap", IDENTITY, Frustum((-50.0,) * 3, (50.0,) * 3, 0.5, 10.0)),
+    ]
+)
+
+
+@given(
+    boxes=st.lists(BOXES, min_size=1, max_size=5),
+    transforms=st.lists(TRANSFORMS, min_size=5, max_size=5),
+    low=st.tuples(*[st.floats(-20, 10)] * 3),
+    size=st.floats(0, 60),
+)
+def test_an_extent_that_frames_stick_out_of_is_never_passed_over(
+    boxes: list[Any], transforms: list[Transform], low: Point, size: float
+) -> None:
+    grids = [
+        Grid("g", "g", 0, "float", "t", index_bounds=box, transform=transform)
+        for box, transform in zip(boxes, transforms, strict=False)
+    ]
+    contents: Any = SimpleNamespace(select_grids=True, grids=lambda: enumerate(grids))
+    extent = Vt.Vec3fArray([low, tuple(number + size for number in low)])
+    limits = Limits(None, [(None, extent)])
+    limit = limits.at(None)
+    assert limit
+    overhang = Enclosure().overhang(limits, [(contents, AT_REST)])
+    for grid in grids:
+        box = grid.world_bounds(0.5)
+        assert box
+        most = max(
+            *(edge - end for edge, end in zip(limit[0], box[0], strict=True)),
+            *(end - edge for edge, end in zip(limit[1], box[1], strict=True)),
+        )
+        assert overhang >= most / max(map(abs, (*box[0], *box[1]))) - 1e-9
 
 
 def test_what_moves_both_costs_nothing() -> None:

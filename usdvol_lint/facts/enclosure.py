@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from math import inf
+from operator import le
 from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.facts.assets import AssetSamples
@@ -16,7 +17,7 @@ from usdvol_lint.facts.fields import Target
 from usdvol_lint.facts.held import Held, Time
 from usdvol_lint.facts.placement import AT_REST, IDENTITY, Placement, read_placement
 from usdvol_lint.model import format_time
-from usdvol_lint.volumefile import Bounds, Grid, Matrix
+from usdvol_lint.volumefile import Bounds, Grid, IndexBounds, Matrix
 
 _AXES = "xyz"
 _HALF_VOXEL = 0.5
@@ -145,7 +146,7 @@ class Shortfall:
 
 
 class Hull(NamedTuple):
-    """A box around others, and the largest coordinate of that one for which it is least."""
+    """A box around others; in none of these is the largest coordinate below `magnitude`."""
 
     box: Bounds
     magnitude: float
@@ -194,9 +195,32 @@ class Enclosure:
         return found
 
     def _hull(self, contents: Contents, matrix: Matrix | None) -> Hull | None:
-        """The box around all grids at all times; None where that can't be told."""
-        grids = [grid for _, grid in contents.grids() if grid]
-        return _joined([self.whole(grid, matrix) for grid in grids]) if matrix else None
+        """The hull of all grids at all times; None where that can't be told.
+
+        Frames mostly share a transform: then it is found in index space, for all of them at once.
+        """
+        frames: dict[int, tuple[Grid, list[IndexBounds]]] = {}
+        for _, grid in contents.grids():
+            if grid and grid.index_bounds and grid.transform:
+                frames.setdefault(id(grid.transform), (grid, []))[1].append(grid.index_bounds)
+        hulls = [self._hull_of(*same, matrix) for same in frames.values()] if matrix else [None]
+        if None in hulls:
+            return None
+        return _joined([hull for hull in hulls if hull]) if hulls else _NOTHING
+
+    def _hull_of(self, grid: Grid, boxes: list[IndexBounds], matrix: Matrix) -> Hull | None:
+        """The hull of boxes in the index space of a grid."""
+        if len(boxes) == 1:
+            whole = self.whole(grid, matrix)
+            return Hull(whole, _magnitude(whole)) if whole else None
+        lows, highs = (list(zip(*corners, strict=True)) for corners in zip(*boxes, strict=True))
+        outer: Any = tuple(map(min, lows)), tuple(map(max, highs))
+        inner: Any = tuple(map(max, lows)), tuple(map(min, highs))
+        whole = _carried(grid._replace(index_bounds=outer), matrix, _HALF_VOXEL)
+        shared = None
+        if all(map(le, *inner)):
+            shared = _carried(grid._replace(index_bounds=inner), matrix, _HALF_VOXEL)
+        return Hull(whole, _magnitude(shared) if shared else 0.0) if whole else None
 
     def shortfall(self, standing: Standing, relative_slack: float) -> Shortfall | None:
         """Holds an extent against every grid at every time at which one of them changes.
@@ -270,15 +294,12 @@ def _overhang(limit: Bounds, hull: Hull) -> float:
     return most / hull.magnitude if hull.magnitude else inf
 
 
-def _joined(boxes: Sequence[Bounds | None]) -> Hull | None:
-    known = [box for box in boxes if box]
-    if not known or len(known) < len(boxes):
-        return None
-    if len(known) == 1:
-        return Hull(known[0], _magnitude(known[0]))
-    lows, highs = zip(*known, strict=True)
+def _joined(hulls: Sequence[Hull]) -> Hull:
+    if len(hulls) == 1:
+        return hulls[0]
+    lows, highs = zip(*(hull.box for hull in hulls), strict=True)
     box: Any = tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
-    return Hull(box, min(map(_magnitude, known)))
+    return Hull(box, min(hull.magnitude for hull in hulls))
 
 
 def _magnitude(box: Bounds) -> float:

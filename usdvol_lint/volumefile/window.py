@@ -34,7 +34,7 @@ class Window:
     """
 
     __slots__ = (
-        *("_base", "_buffer", "_descriptor", "_end", "_start"),
+        *("_at", "_base", "_buffer", "_descriptor", "_end", "_start"),
         *("limit", "notes", "position", "size", "status"),
     )
 
@@ -45,7 +45,7 @@ class Window:
         self._descriptor = descriptor
         self._start = start
         self._buffer = b""
-        self._base = self._end = 0
+        self._base = self._end = self._at = 0
         self.size = size
         self.limit = size
         self.position = 0
@@ -123,7 +123,8 @@ class Window:
     def _load(self, count: int) -> None:
         wanted = min(max(count, _CHUNK), self.size - self.position)
         try:
-            os.lseek(self._descriptor, self._start + self.position, os.SEEK_SET)
+            if self._start + self.position != self._at:
+                os.lseek(self._descriptor, self._start + self.position, os.SEEK_SET)
             found = os.read(self._descriptor, wanted)
             while len(found) < wanted and (more := os.read(self._descriptor, wanted - len(found))):
                 found += more
@@ -132,6 +133,7 @@ class Window:
         self._buffer = found
         self._base = self.position
         self._end = self._base + len(self._buffer)
+        self._at = self._start + self._end
         if self._end < self._base + count:
             self.size = self.limit = self._end
             raise self._beyond(self._base + count)
