@@ -211,19 +211,20 @@ TRANSFORMS = st.sampled_from(
 @given(
     boxes=st.lists(BOXES, min_size=1, max_size=5),
     transforms=st.lists(TRANSFORMS, min_size=5, max_size=5),
-    low=st.tuples(*[st.floats(-20, 10)] * 3),
-    size=st.floats(0, 60),
+    side=st.integers(0, 5),
+    place=st.floats(-40, 40),
 )
 def test_an_extent_that_frames_stick_out_of_is_never_passed_over(
-    boxes: list[Any], transforms: list[Transform], low: Point, size: float
+    boxes: list[Any], transforms: list[Transform], side: int, place: float
 ) -> None:
     grids = [
         Grid("g", "g", 0, "float", "t", index_bounds=box, transform=transform)
         for box, transform in zip(boxes, transforms, strict=False)
     ]
     contents: Any = SimpleNamespace(select_grids=True, grids=lambda: enumerate(grids))
-    extent = Vt.Vec3fArray([low, tuple(number + size for number in low)])
-    limits = Limits(None, [(None, extent)])
+    sides = [-1000.0] * 3 + [1000.0] * 3
+    sides[side] = place
+    limits = Limits(None, [(None, Vt.Vec3fArray([tuple(sides[:3]), tuple(sides[3:])]))])
     limit = limits.at(None)
     assert limit
     overhang = Enclosure().overhang(limits, [(contents, AT_REST)])
