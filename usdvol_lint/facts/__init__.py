@@ -176,6 +176,9 @@ class Facts:
 
     def fields(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
+        found: FieldBindings | None = self._one(volume, ":bound").looked_at
+        if found:
+            return found
         known = self._found[volume]
         if ":fields" not in known:
             known[":fields"] = self._binding_reader.read(volume, self._may_lack)
@@ -319,7 +322,7 @@ class Facts:
 
         places, used = self._tables.fields, self._field_users
         below = fields_below(volume, self.kinds)
-        return [field for field in below if places[in_prototype(field).GetPath()] not in used]
+        return [each for each in below if places.get(in_prototype(each).GetPath()) not in used]
 
     def hidden_animation(self, prim: Any, name: str) -> str | None:
         """What animates an attribute in vain, in words, because a stronger default hides it."""
@@ -335,7 +338,8 @@ class Facts:
 
     def is_shared(self, volume: Any, field: Any) -> bool:
         """Whether other Volumes target a field of this one too, or instances of this one do."""
-        if self._field_users[self._tables.fields[in_prototype(field).GetPath()]] > 1:
+        place = self._tables.fields.get(in_prototype(field).GetPath())
+        if place and self._field_users[place] > 1:
             return True
         instanced = volume.IsInPrototype() and not field.IsInPrototype()
         return instanced and shown(volume).instances > 1
@@ -371,7 +375,7 @@ class Facts:
         """The contents of the files that a Volume gets, and where their fields stand."""
         from usdvol_lint.facts.placement import AT_REST, read_placement
 
-        if not bound.is_plain:
+        if bound.looked_at:
             return [
                 (contents, read_placement(volume, target.prim))
                 for target, _, contents in self.standing(volume)[2]

@@ -178,15 +178,18 @@ class Enclosure:
         limit = None if limits.times else limits.at(None)
         most = 0.0
         for contents, placement in stands:
+            if limit is None:
+                if contents.select_grids:
+                    return inf
+                continue
             key = id(contents)
             hull = self._hulls[key] if key in self._hulls else self._hull_at_rest(contents)
-            if hull is _NOTHING:
-                continue
-            if placement is not AT_REST:
-                hull = None if placement.times else self._hull(contents, placement.matrix(None))
-            if limit is None or hull is None:
-                return inf
-            most = max(most, _overhang(limit, hull))
+            if hull is not _NOTHING:
+                if placement is not AT_REST:
+                    hull = None if placement.times else self._hull(contents, placement.matrix(None))
+                if hull is None:
+                    return inf
+                most = max(most, _overhang(limit, hull))
         return most
 
     def _hull_at_rest(self, contents: Contents) -> Hull | None:

@@ -156,12 +156,13 @@ class Bound(NamedTuple):
     """What there is to know of the bindings of a Volume that have no faults.
 
     `marks` say what is remarkable about them, `fields` are the places of the live fields that they
-    target.  `is_plain` says that each is one of these, right below the Volume.
+    target.  `looked_at` are the bindings themselves where they had to be looked at: elsewhere each
+    is one of these fields, right below the Volume.
     """
 
     marks: frozenset[Enum]
     fields: tuple[Place, ...]
-    is_plain: bool
+    looked_at: FieldBindings | None = None
 
 
 class BindingReader:
@@ -193,7 +194,7 @@ class BindingReader:
                 if relationship:
                     fields[row] = (None,)
         return [
-            self._look(volume, live, may_lack) if None in own else Bound(plain, own, True)
+            self._look(volume, live, may_lack) if None in own else Bound(plain, own)
             for volume, own in zip(usd.prims, fields, strict=True)
         ]
 
@@ -201,7 +202,7 @@ class BindingReader:
         bindings = self.read(volume, may_lack)
         paths = field_paths(bindings)
         places = tuple(live[path] for path in sorted(paths) if path in live)
-        return Bound(bindings.marks(volume), places, False)
+        return Bound(bindings.marks(volume), places, bindings)
 
     def read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
         """What the authored properties of a Volume bind."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import repeat
+from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from usdvol_lint import schema
 from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.kinds import Key, Kinds
+from usdvol_lint.facts.usd_calls import get_path
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.attributes import Authored, AuthoredReader, Shape
@@ -87,6 +88,10 @@ class Chunk:
         self.tables: list[Table] = []
         self._rows: dict[Any, tuple[Table, int]] = {}
 
+    @property
+    def places(self) -> Iterator[Place]:
+        return ((self, row) for row in range(len(self.prims)))
+
     def find(self, row: int) -> tuple[Table, int]:
         """The table of one of the prims, and its row there."""
         if len(self.tables) == 1:
@@ -97,7 +102,7 @@ class Chunk:
         return self._rows[self.prims[row]]
 
 
-Place: TypeAlias = tuple[Chunk, int]
+Place: TypeAlias = tuple["Chunk", int]
 """A chunk, and which of its prims is meant."""
 
 
@@ -110,9 +115,8 @@ class Tables:
         self._kinds = kinds
         self._authored = authored
         self._chunks = {key: list(_chunks(prims)) for key, prims in kept.items()}
-        self._places: dict[Key, dict[Any, Place]] = {}
-        self._others: dict[Any, Chunk] = {}
         self._last: list[Table] = []
+        self._asked: Any = None
 
     def chunks(self, key: Key) -> list[Chunk]:
         """The prims of a kind, in the order of the walk."""
@@ -133,11 +137,14 @@ class Tables:
 
     def find(self, prim: Any) -> tuple[Table, int]:
         """The table of a prim, and its row there; one of its own if the walk did not keep it."""
-        place = self._places_of(self._kinds.key(prim)).get(prim.GetPath())
+        if prim is not self._asked:  # rules ask in a row, and to look a prim up is dear
+            self._asked, self._found = prim, self._look_up(prim)
+        return self._found
+
+    def _look_up(self, prim: Any) -> tuple[Table, int]:
+        place = self._places.get(prim)
         if place is None:
-            if prim not in self._others:
-                self._others[prim] = Chunk((prim,))
-            place = self._others[prim], 0
+            place = self._places[prim] = Chunk((prim,)), 0
         return self.find_at(place)
 
     def find_at(self, place: Place) -> tuple[Table, int]:
@@ -151,18 +158,20 @@ class Tables:
     def fields(self) -> Mapping[Any, Place]:
         """The places of all live fields, by their paths."""
         kinds = [key for key in self._chunks if schema.FIELD in self._kinds.names(key)]
-        if len(kinds) == 1:
-            return self._places_of(kinds[0])  # so it is nearly always
-        return {path: place for key in kinds for path, place in self._places_of(key).items()}
+        return {
+            path: place
+            for chunk in chain.from_iterable(self._chunks[key] for key in kinds)
+            for path, place in zip(map(get_path, chunk.prims), chunk.places, strict=True)
+        }
 
-    def _places_of(self, key: Key) -> Mapping[Any, Place]:
-        places = self._places.get(key)
-        if places is None:
-            places = self._places[key] = {}
-            for chunk in self._chunks.get(key, ()):
-                rows = zip(repeat(chunk), range(len(chunk.prims)), strict=False)
-                places.update(zip(Answers(chunk.prims).paths, rows, strict=False))
-        return places
+    @cached_property
+    def _places(self) -> dict[Any, Place]:
+        """The places of all prims; to find one is rare where nothing is wrong."""
+        return {
+            prim: place
+            for chunk in chain.from_iterable(self._chunks.values())
+            for prim, place in zip(chunk.prims, chunk.places, strict=True)
+        }
 
     def _form(self, prims: Sequence[Any]) -> list[Table]:
         """Puts those together that are alike; one that can't be read does not keep others back."""
