@@ -132,21 +132,26 @@ class Engine:
         self, others: OtherSelections, known: set[Identity], facts: Facts, sites: Sites
     ) -> Iterator[_Found]:
         """What only other variant selections show, each with the first that does."""
-        failures = _Failures()
-        try:
-            for selection in others:
-                walked = walk(facts.stage, self._rules, facts.kinds)
-                facts = facts.composed_anew(walked.kept, walked.clipped)
-                for found in self._check(walked, facts, sites):
-                    if found.identity not in known:
-                        known.add(found.identity)
-                        site = replace(found.finding.site, variant=selection)
-                        yield _Found(replace(found.finding, site=site), found.identity)
-        except Tf.ErrorException as error:
-            failures.add(NOT_CHECKED, facts.stage.GetPseudoRoot(), error)
-        yield from failures.found(sites)
+        for selection in others:
+            for found in self._check_other(others, facts, sites):
+                if found.identity not in known:
+                    known.add(found.identity)
+                    site = replace(found.finding.site, variant=selection)
+                    yield _Found(replace(found.finding, site=site), found.identity)
         for left_out in others.not_checked():
             yield from self._stamp(NOT_CHECKED, left_out, sites)
+
+    def _check_other(self, others: OtherSelections, facts: Facts, sites: Sites) -> Iterator[_Found]:
+        try:
+            if others.error:
+                raise others.error
+            walked = walk(facts.stage, self._rules, facts.kinds)
+        except Tf.ErrorException as error:
+            failures = _Failures()
+            failures.add(NOT_CHECKED, facts.stage.GetPseudoRoot(), error)
+            yield from failures.found(sites)
+        else:
+            yield from self._check(walked, facts.composed_anew(walked.kept, walked.clipped), sites)
 
     def _check(self, walked: Walk, facts: Facts, sites: Sites) -> Iterator[_Found]:
         failures = _Failures()

@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 import re
 import stat
-from itertools import chain
 from typing import Any, BinaryIO
 
 from pxr import Sdf, Tf, Usd
 
-from usdvol_lint.facts.clips import clip_sets_on
+from usdvol_lint.facts.clips import tells_of_clips
 from usdvol_lint.facts.files import LFS_SIGNATURE
 from usdvol_lint.facts.usd_errors import raw_words, without_grammar
 from usdvol_lint.paths import SUFFIXES, display
@@ -68,26 +67,9 @@ def _open(layer: Any, session: Any | None, policy: Any) -> Any:
             return Usd.Stage.Open(layer, session, policy)
     except Tf.ErrorException as error:
         stage = next(iter(cache.GetAllStages()), None)
-        if stage is None or not set(map(raw_words, error.args)) <= _words_of_clips(stage):
+        if stage is None or not tells_of_clips(error, stage):
             raise
         return stage
-
-
-def _words_of_clips(stage: Any) -> set[str]:
-    """What USD says of the value clips of a stage that do not open."""
-    words: set[str] = set()
-    with_clips = (
-        prim
-        for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies())
-        if prim.HasAuthoredMetadata("clips")
-    )
-    for clip_set in chain.from_iterable(map(clip_sets_on, with_clips)):
-        for clip in filter(None, (asset.resolvedPath for asset in clip_set.clips)):
-            try:
-                Sdf.Layer.FindOrOpen(clip)
-            except Tf.ErrorException as error:
-                words.update(map(raw_words, error.args))
-    return words
 
 
 def _diagnose(path: str) -> bytes:

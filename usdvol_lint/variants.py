@@ -7,9 +7,10 @@ from heapq import heappop, heappush
 from itertools import chain, count
 from typing import Any, NamedTuple, TypeAlias
 
-from pxr import Sdf, Usd
+from pxr import Sdf, Tf, Usd
 
 from usdvol_lint import schema
+from usdvol_lint.facts.clips import tells_of_clips
 from usdvol_lint.facts.instances import path_in_prototype, shown
 from usdvol_lint.facts.kinds import Kinds
 from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
@@ -68,6 +69,7 @@ class OtherSelections:
 
     def __init__(self, stage: Any, kinds: Kinds, limit: int) -> None:
         self.composed = 0
+        self.error: Tf.ErrorException | None = None
         self._stage = stage
         self._kinds = kinds
         self._limit = limit
@@ -81,7 +83,8 @@ class OtherSelections:
     def __iter__(self) -> Iterator[str]:
         """Each selection that shows or hides something of ours, as a path: `/model{look=thin}`.
 
-        The stage is composed that way until the next is asked for.
+        The stage is composed that way until the next is asked for; where USD can't, `error` says
+        why.
         """
         self._explore(Sdf.Path.absoluteRootPath)
         while self._waiting and self.composed < self._limit:
@@ -89,13 +92,17 @@ class OtherSelections:
             if not choice.is_repeated and choice.specs <= self._composed_specs:
                 heappush(self._waiting, choice._replace(is_repeated=True))
                 continue
-            self._compose(choice.selection)
             self.composed += 1
             self._composed_specs |= choice.specs
             path = choice.selection.StripAllVariantSelections()
-            holders = self._explore(choice.selection)
+            try:
+                self._compose(choice.selection)
+                holders = self._explore(choice.selection)
+            except Tf.ErrorException as error:
+                self.error, holders = error, {path}
             if not choice.unknown or path in holders or self._may_lack(path):
                 yield str(choice.selection)
+            self.error = None
 
     def not_checked(self) -> Iterator[NotChecked]:
         """What iterating left out."""
@@ -120,6 +127,13 @@ class OtherSelections:
             )
 
     def _compose(self, selection: Any) -> None:
+        try:
+            self._select(selection)
+        except Tf.ErrorException as error:
+            if not tells_of_clips(error, self._stage):
+                raise
+
+    def _select(self, selection: Any) -> None:
         session = self._stage.GetSessionLayer()
         with Sdf.ChangeBlock():
             for path in self._chosen:

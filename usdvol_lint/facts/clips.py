@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 from pxr import Sdf, Tf, Usd
 
 from usdvol_lint.facts.answers import Answers
+from usdvol_lint.facts.usd_errors import raw_words
 
 _CLIPS_LOOKED_AT = 4
 
@@ -103,6 +105,26 @@ def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
     except Tf.ErrorException:
         # So USD answers where a template fits no file, and for a set that it can't use.
         return ()
+
+
+def tells_of_clips(error: Any, stage: Any) -> bool:
+    """Whether an error of USD tells of value clips that do not open, and of nothing else.
+
+    USD makes a manifest for clips without one, and so opens them when it composes the stage.
+    """
+    words: set[str] = set()
+    with_clips = (
+        prim
+        for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies())
+        if prim.HasAuthoredMetadata("clips")
+    )
+    for clip_set in chain.from_iterable(map(clip_sets_on, with_clips)):
+        for clip in filter(None, (asset.resolvedPath for asset in clip_set.clips)):
+            try:
+                Sdf.Layer.FindOrOpen(clip)
+            except Tf.ErrorException as its:
+                words.update(map(raw_words, its.args))
+    return set(map(raw_words, error.args)) <= words
 
 
 class Clips:
