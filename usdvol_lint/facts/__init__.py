@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
@@ -429,8 +428,7 @@ class Facts:
 
         bare = [
             prim
-            for table in self._tables.of(schema.VOLUME, schema.PARTICLE_FIELD)
-            for prim, limits in zip(table.prims, self.each(table, ":limits"), strict=True)
+            for prim, limits in self._readable(":limits", schema.VOLUME, schema.PARTICLE_FIELD)
             if not limits.are_authored and not has_bounds(prim)
         ]
         bare = [prim for prim in bare if not self.composition.may_lack_values(prim)]
@@ -465,9 +463,9 @@ class Facts:
             return None
         from usdvol_lint.facts.changes import find_grid_changes
 
-        others = map(self.contents, self.of(schema.FIELD_ASSET))
-        sharing = [other for other in others if other.all.files == contents.all.files]
-        return find_grid_changes(sharing) if sharing[0] == contents else None
+        others = self._readable(":contents", schema.FIELD_ASSET)
+        sharing = [prim for prim, other in others if other.files == contents.all.files]
+        return find_grid_changes(list(map(self.contents, sharing))) if sharing[0] == field else None
 
     @cached_property
     def _asset_reader(self) -> AssetReader:
@@ -576,9 +574,13 @@ class Facts:
     @cached_property
     def _field_users(self) -> Counter[Place]:
         """How many Volumes target each live field that one does, by its place."""
-        volumes = self._tables.of(schema.VOLUME)
-        columns = [self.each(table, ":bound") for table in volumes]
-        return Counter(place for bound in chain(*columns) for place in bound.fields)
+        volumes = self._readable(":bound", schema.VOLUME)
+        return Counter(place for _, bound in volumes for place in bound.fields)
+
+    def _readable(self, name: str, *schemas: str) -> Iterator[tuple[Any, Any]]:
+        """The prims that answer to a schema, with a fact of each; rules tell of unreadable ones."""
+        for table in self._tables.of(*schemas):
+            yield from table.readable(name, self._read)
 
     @cached_property
     def _field_names(self) -> FieldNames:

@@ -46,6 +46,10 @@ class Table:
             raise self._authored
         return self._authored
 
+    @property
+    def is_readable(self) -> bool:
+        return not isinstance(self._authored, Exception)
+
     def column(self, name: str, read: Read) -> Sequence[Any]:
         """What is kept under a name, of each prim; raises where that of one can't be read."""
         if name not in self.columns:
@@ -66,6 +70,17 @@ class Table:
             if len(self.prims) == 1:
                 raise
             return self.alone(row).column(name, read)[0]
+
+    def readable(self, name: str, read: Read) -> Iterator[tuple[Any, Any]]:
+        """The prims with what is kept under a name, without those of which it can't be read."""
+        try:
+            found = self.column(name, read)
+        except Exception:
+            if len(self.prims) > 1:
+                for row in range(len(self.prims)):
+                    yield from self.alone(row).readable(name, read)
+        else:
+            yield from zip(self.prims, found, strict=True)
 
     def alone(self, row: int) -> Table:
         """A table of one of the prims."""
@@ -123,11 +138,11 @@ class Tables:
         return self._chunks[key]
 
     def of(self, *schemas: str) -> Iterator[Table]:
-        """The tables of all prims that answer to one of these schemas."""
+        """The tables of all prims that answer to one of these schemas and can be read."""
         for key, chunks in self._chunks.items():
             if not self._kinds.names(key).isdisjoint(schemas):
                 for chunk in chunks:
-                    yield from self.tables(chunk)
+                    yield from (table for table in self.tables(chunk) if table.is_readable)
 
     def tables(self, chunk: Chunk) -> list[Table]:
         """The prims of a chunk in tables."""

@@ -1,0 +1,100 @@
+"""What is found of a prim does not depend on which prims are looked at together with it."""
+
+from __future__ import annotations
+
+import shutil
+from collections import Counter
+from collections.abc import Callable
+from itertools import cycle, islice
+from pathlib import Path
+from typing import Any
+
+import pytest
+from process import ROOT
+from pxr import Tf
+
+from usdvol_lint import walk
+from usdvol_lint.facts import answers, tables
+from usdvol_lint.model import Finding, StageReport
+
+PRIMS = 60
+EXTENT = "float3[] extent = [(-9, -9, -9), (9, 9, 9)]"
+TYPE = 'token fieldDataType = "float"'
+VOLUMES = (
+    EXTENT,
+    "float3[] extent = [(0, 0, 0), (0.1, 0.1, 0.1)]",
+    f"{EXTENT}\n custom rel link = <../density>",
+    f"{EXTENT}\n custom int studio:id = 3\n rel field:other = <density>",
+    "float3[] extent.timeSamples = {1: [(-9, -9, -9), (9, 9, 9)], 2: [(0, 0, 0)]}",
+    f'{EXTENT}\n def Mesh "m"\n {{\n }}',
+    "double3 xformOp:translate = (0, 5, 0)\n"
+    f'uniform token[] xformOpOrder = ["xformOp:translate"]\n{EXTENT}',
+)
+FIELDS = (
+    f'asset filePath = @./cloud.vdb@\n token fieldName = "density"\n {TYPE}',
+    f'asset filePath = @./gone.vdb@\n token fieldName = "density"\n {TYPE}',
+    f'asset filePath = @./cloud.vdb@\n token fieldName = "heat"\n {TYPE}',
+    "asset filePath.timeSamples = {1: @./cloud.vdb@, 2: @./gone.2.vdb@}",
+    'string filePath = "cloud.vdb"\n token fieldClass = "fog"',
+    "asset filePath = @./cloud.vdb@\n double3 xformOp:translate = (9, 0, 0)\n"
+    'uniform token[] xformOpOrder = ["xformOp:translate"]',
+)
+TARGETS = ("density", *["density"] * 3, "densty", "density.filePath", "../shared")
+
+
+def stage() -> str:
+    shared = f'def OpenVDBAsset "shared"\n{{\n{FIELDS[0]}\n}}\n'
+    columns = zip(cycle(VOLUMES), cycle(FIELDS), cycle(TARGETS), strict=False)
+    return f"#usda 1.0\n{shared}" + "".join(
+        f'def Volume "v{number}"\n{{\n{volume}\nrel field:density = <{target}>\n'
+        f'def OpenVDBAsset "density"\n{{\n{field}\n}}\n}}\n'
+        for number, (volume, field, target) in enumerate(islice(columns, PRIMS))
+    )
+
+
+@pytest.fixture
+def lint(lint_text: Callable[[str], StageReport], tmp_path: Path) -> Callable[[], StageReport]:
+    shutil.copy(ROOT / "rules" / "assets" / "cloud.vdb", tmp_path)
+    return lambda: lint_text(stage())
+
+
+def test_how_many_are_looked_at_together(
+    lint: Callable[[], StageReport], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = lint()
+    codes = Counter(finding.code for finding in whole.findings)
+    assert {"VOL001", "VOL005", "VOL013", "AST002", "GRD003", "SCH005"} <= codes.keys()
+    for prims, batch in ((1, 1), (2, 3), (7, 64)):
+        monkeypatch.setattr(tables, "_MOST_PRIMS", prims)
+        monkeypatch.setattr(walk, "_BATCH", batch)
+        assert lint().findings == whole.findings
+
+
+def test_a_prim_that_can_not_be_read_keeps_no_other_back(
+    lint: Callable[[], StageReport], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = besides(lint(), "/v30")
+    for question in ("get_value", "get_property_names"):
+        with monkeypatch.context() as patch:
+            patch.setattr(answers, question, failing(getattr(answers, question), "/v30/density"))
+            report = lint()
+        failed = {each.site.prim for each in report.findings if each.code == "LNT001"}
+        assert failed <= {"/v30", "/v30/density"}  # what the Volume is held against is there too
+        assert "/v30/density" in failed
+        assert besides(report, "/v30") == whole
+
+
+def besides(report: StageReport, prim: str) -> list[Finding]:
+    """What a report says, but for a prim and those below it."""
+    return [each for each in report.findings if not (each.site.prim or "").startswith(prim)]
+
+
+def failing(ask: Callable[[Any], Any], path: str) -> Callable[[Any], Any]:
+    """A question to USD that raises for one prim and its attributes."""
+
+    def ask_or_fail(asked: Any) -> Any:
+        if str(asked.GetPath()).startswith(path):
+            Tf.RaiseRuntimeError("corrupt")
+        return ask(asked)
+
+    return ask_or_fail
