@@ -296,7 +296,7 @@ def test_names_that_linux_alone_can_have(lint_text: Lint, tmp_path: Path) -> Non
 )
 def test_what_is_malformed(path: str, message: str, suggestion: str, lint_text: Lint) -> None:
     found = said(lint_text(field(f"asset filePath = @{path}@")), "AST008")
-    assert [(f[2], f[3]) for f in found] == [(f"{path!r} {message}", suggestion)]
+    assert [(f[2], f[3]) for f in found] == [(f"'{path}' {message}", suggestion)]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="finds the file in any case")

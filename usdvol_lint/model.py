@@ -18,6 +18,20 @@ class PackError(UsageError):
     """A rule pack that can't be loaded."""
 
 
+def quoted(text: str) -> str:
+    """Text between quotes as it stands, a backslash too; what can't be printed is escaped."""
+    mark = '"' if "'" in text and '"' not in text else "'"
+    shown = text if text.isprintable() else "".join(map(_printable, text))
+    return f"{mark}{shown}{mark}"
+
+
+def _printable(letter: str) -> str:
+    if letter.isprintable():
+        return letter
+    is_byte = "\udc80" <= letter <= "\udcff"  # so Python keeps a byte that is no text
+    return f"\\x{ord(letter) - 0xDC00:02x}" if is_byte else repr(letter)[1:-1]
+
+
 class Severity(IntEnum):
     """How bad a finding is; ordered, so that thresholds are comparisons."""
 

@@ -17,7 +17,7 @@ from usdvol_lint.facts.states import (
     TargetState,
 )
 from usdvol_lint.facts.sums import Sums
-from usdvol_lint.model import Severity, format_time, frame_ranges
+from usdvol_lint.model import Severity, format_time, frame_ranges, quoted
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
 
 __all__ = [
@@ -47,6 +47,7 @@ __all__ = [
     "file_paths",
     "format_time",
     "frame_ranges",
+    "quoted",
     "rule",
 ]
 

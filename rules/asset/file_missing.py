@@ -1,6 +1,16 @@
 """AST002: the file that a field names must exist."""
 
-from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import (
+    ERROR,
+    AssetState,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    quoted,
+    rule,
+)
 
 
 @rule("AST002", on="FieldAsset", when=file_paths(AssetState.MISSING), severity=ERROR, since="0.1")
@@ -14,5 +24,5 @@ def file_missing(field: Prim, facts: Facts) -> Problems:
             times=missing.times,
             at_default=missing.at_default,
             asset=missing.first.authored,
-            suggestion=f"did you mean {similar!r}?" if similar else None,
+            suggestion=f"did you mean {quoted(similar)}?" if similar else None,
         )

@@ -1,6 +1,16 @@
 """AST013: a file's frame number should follow the time as those of all other samples do."""
 
-from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    quoted,
+    rule,
+)
 
 
 @rule("AST013", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
@@ -15,5 +25,5 @@ def frame_number_differs(field: Prim, facts: Facts) -> Problems:
             at=affected.attribute,
             times=affected.times,
             asset=affected.first.authored,
-            suggestion=f"did you mean {strays.meant!r}?" if strays.meant else None,
+            suggestion=f"did you mean {quoted(strays.meant)}?" if strays.meant else None,
         )

@@ -11,6 +11,7 @@ from usdvol_lint.rule import (
     Problem,
     Problems,
     file_paths,
+    quoted,
     rule,
 )
 
@@ -34,7 +35,7 @@ def path_absolute(field: Prim, facts: Facts) -> Problems:
             times=absolute.times,
             at_default=absolute.at_default,
             asset=absolute.first.authored,
-            suggestion=f"name it in relation to the layer: {below!r}"
+            suggestion=f"name it in relation to the layer: {quoted(below)}"
             if below
             else "name it in relation to the layer, or take its root from an expression variable",
         )

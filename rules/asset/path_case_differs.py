@@ -1,6 +1,16 @@
 """AST009: a path must have the case of the names that it leads to."""
 
-from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    quoted,
+    rule,
+)
 
 
 @rule(
@@ -11,10 +21,10 @@ def path_case_differs(field: Prim, facts: Facts) -> Problems:
     if recased:
         affected = recased.affected
         yield Problem(
-            f"{affected.shown} is {recased.path!r} on disk, in another case{affected.count}",
+            f"{affected.shown} is {quoted(recased.path)} on disk, in another case{affected.count}",
             at=affected.attribute,
             times=affected.times,
             at_default=affected.at_default,
             asset=affected.first.authored,
-            suggestion=f"write it as {recased.path!r}",
+            suggestion=f"write it as {quoted(recased.path)}",
         )

@@ -9,6 +9,7 @@ from usdvol_lint.rule import (
     Problem,
     Problems,
     file_paths,
+    quoted,
     rule,
 )
 
@@ -25,7 +26,8 @@ def path_expression_broken(field: Prim, facts: Facts) -> Problems:
     for broken in paths.by_detail(AssetState.BROKEN_EXPRESSION):
         reason = broken.first.detail[:1].lower() + broken.first.detail[1:]
         yield Problem(
-            f"the expression {broken.first.authored!r} can't be evaluated: {reason}{broken.count}",
+            f"the expression {quoted(broken.first.authored)} can't be evaluated: "
+            f"{reason}{broken.count}",
             at=broken.attribute,
             times=broken.times,
             at_default=broken.at_default,
@@ -34,7 +36,7 @@ def path_expression_broken(field: Prim, facts: Facts) -> Problems:
     for unset in paths.by_detail(AssetState.UNSET_VARIABLE):
         variables = unset.first.detail
         yield Problem(
-            f"the expression {unset.first.authored!r} needs a variable that is not set: "
+            f"the expression {quoted(unset.first.authored)} needs a variable that is not set: "
             f"{variables}{unset.count}",
             at=unset.attribute,
             times=unset.times,

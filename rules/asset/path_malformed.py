@@ -12,6 +12,7 @@ from usdvol_lint.rule import (
     Problem,
     Problems,
     file_paths,
+    quoted,
     rule,
 )
 
@@ -61,4 +62,4 @@ def _advice(path: str) -> str:
     if _ROOT.match(path) or _HOME.match(path):
         return "name it in relation to the layer, with '/' between names"
     corrected = re.sub(r"\\+", "/", path.strip())
-    return f"write it as {corrected!r}"
+    return f"write it as {quoted(corrected)}"

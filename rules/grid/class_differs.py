@@ -1,6 +1,17 @@
 """GRD006: a field's class must be that of its grid."""
 
-from usdvol_lint.rule import INFO, WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import (
+    INFO,
+    WARNING,
+    Content,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    contents,
+    quoted,
+    rule,
+)
 
 _CLAIMS = ("levelSet", "fogVolume", "staggered")
 
@@ -20,8 +31,8 @@ def class_differs(field: Prim, facts: Facts) -> Problems:
         known = held != "unknown"
         what = f"is of class {content.grid.grid_class!r}" if known else "does not say its class"
         yield Problem(
-            f"fieldClass is {content.claim.field_class!r}, but grid {content.grid.label!r} in "
-            f"{found.shown} {what}{found.count}",
+            f"fieldClass is {content.claim.field_class!r}, "
+            f"but grid {quoted(content.grid.label)} in {found.shown} {what}{found.count}",
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,

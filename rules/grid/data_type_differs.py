@@ -1,6 +1,6 @@
 """GRD005: a field's data type must be that of its grid."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 from usdvol_lint.schema import ATTRIBUTES
 
 _KNOWN = ATTRIBUTES["OpenVDBAsset"]["fieldDataType"].tokens
@@ -21,7 +21,7 @@ def data_type_differs(field: Prim, facts: Facts) -> Problems:
         fitting = content.data_types
         saved = ", saved as half" if grid.half else ""
         yield Problem(
-            f"fieldDataType is {content.claim.data_type!r}, but grid {grid.label!r} in "
+            f"fieldDataType is {content.claim.data_type!r}, but grid {quoted(grid.label)} in "
             f"{found.shown} holds {grid.value_type}{saved}{found.count}",
             at=found.attribute,
             times=found.times,

@@ -1,6 +1,6 @@
 """GRD008: a grid without active voxels shows nothing."""
 
-from usdvol_lint.rule import INFO, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import INFO, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 
 
 def _empty(content: Content) -> object:
@@ -12,7 +12,7 @@ def _empty(content: Content) -> object:
 def grid_empty(field: Prim, facts: Facts) -> Problems:
     for content, found in facts.contents(field).grouped(_empty):
         yield Problem(
-            f"grid {content.grid.label!r} in {found.shown} has no active voxels{found.count}",
+            f"grid {quoted(content.grid.label)} in {found.shown} has no active voxels{found.count}",
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,

@@ -1,6 +1,6 @@
 """GRD004: a field's index must not go beyond the grids of its name."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 
 
 def _missing(content: Content) -> object:
@@ -17,7 +17,8 @@ def grid_index_missing(field: Prim, facts: Facts) -> Problems:
         name = content.grids[0].unique_name
         many = "1 grid" if count == 1 else f"{count} grids"
         yield Problem(
-            f"fieldIndex is {index}, but {found.shown} holds {many} named {name!r}{found.count}",
+            f"fieldIndex is {index}, but {found.shown} holds {many} named {quoted(name)}"
+            f"{found.count}",
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,

@@ -1,6 +1,6 @@
 """GRD003: the grid that a field names must be in its file."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 from usdvol_lint.schema import nearest
 
 _PARTS = [tuple(f"{mark}{part}" for part in "xyz") for mark in (".", "_", ":", "")]
@@ -20,7 +20,8 @@ def grid_missing(field: Prim, facts: Facts) -> Problems:
         name, purpose = content.claim.name, content.claim.purpose
         where = f" of {purpose!r}" if purpose else ""
         yield Problem(
-            f"no grid {name!r}{where} in {found.shown}, which holds {content.holds}{found.count}",
+            f"no grid {quoted(name)}{where} in {found.shown}, which holds {content.holds}"
+            f"{found.count}",
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,
@@ -33,6 +34,7 @@ def _suggestion(name: str, names: set[str]) -> str | None:
     for parts in _PARTS:
         split = [name + part for part in parts]
         if names.issuperset(split):
-            return f"{name!r} is split into {', '.join(map(repr, split))}: write it as one vector"
+            listed = ", ".join(map(quoted, split))
+            return f"{quoted(name)} is split into {listed}: write it as one vector"
     meant = nearest(name, frozenset(names - {""}))
-    return f"did you mean {meant!r}?" if meant else None
+    return f"did you mean {quoted(meant)}?" if meant else None

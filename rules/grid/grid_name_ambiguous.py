@@ -1,6 +1,16 @@
 """GRD009: one grid of the file, and no other, should answer to the field's name."""
 
-from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Content,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    contents,
+    quoted,
+    rule,
+)
 
 
 def _ambiguity(content: Content) -> tuple[str, str] | None:
@@ -11,16 +21,20 @@ def _ambiguity(content: Content) -> tuple[str, str] | None:
         name, purposes = grid.unique_name, sorted({other.purpose or "" for other in grids})
         if len(purposes) > 1 and not claim.purpose:
             listed = ", ".join(map(repr, purposes))
-            return f"grids named {name!r} in {listed}", "author the fieldPurpose that is meant"
+            return (
+                f"grids named {quoted(name)} in {listed}",
+                "author the fieldPurpose that is meant",
+            )
         return (
-            f"{len(grids)} grids named {name!r}, and the field has no fieldIndex",
+            f"{len(grids)} grids named {quoted(name)}, and the field has no fieldIndex",
             "author the fieldIndex that is meant, from 0 in the order of the file",
         )
     if not (grid.name or grid.unique_name):
         return "a grid without a name, which no fieldName can select", "name it in the file"
     if grid.name != grid.unique_name:
         return (
-            f"a grid listed as {grid.unique_name!r} whose own metadata name it {grid.name!r}",
+            f"a grid listed as {quoted(grid.unique_name)} "
+            f"whose own metadata name it {quoted(grid.name)}",
             "write the file again: readers go by the one or the other",
         )
     return None

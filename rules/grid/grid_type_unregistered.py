@@ -1,6 +1,16 @@
 """GRD011: OpenVDB as it comes must know the types of all grids in a file."""
 
-from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Content,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    contents,
+    quoted,
+    rule,
+)
 
 
 def _unregistered(content: Content) -> tuple[str, str] | None:
@@ -14,8 +24,8 @@ def grid_type_unregistered(field: Prim, facts: Facts) -> Problems:
     for content, found in facts.contents(field).grouped(_unregistered):
         label, tree_type = _unregistered(content)
         yield Problem(
-            f"grid {label!r} in {found.shown} is of type {tree_type!r}, for which OpenVDB refuses "
-            f"the whole file{found.count}",
+            f"grid {quoted(label)} in {found.shown} is of type {tree_type!r}, "
+            f"for which OpenVDB refuses the whole file{found.count}",
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,

@@ -1,6 +1,16 @@
 """GRD012: few renderers draw a grid that stands in a frustum."""
 
-from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Content,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    contents,
+    quoted,
+    rule,
+)
 
 
 def _nonlinear(content: Content) -> object:
@@ -12,7 +22,7 @@ def _nonlinear(content: Content) -> object:
 def transform_nonlinear(field: Prim, facts: Facts) -> Problems:
     for content, found in facts.contents(field).grouped(_nonlinear):
         yield Problem(
-            f"grid {content.grid.label!r} in {found.shown} has a frustum for its transform"
+            f"grid {quoted(content.grid.label)} in {found.shown} has a frustum for its transform"
             f"{found.count}",
             at=found.attribute,
             times=found.times,

@@ -1,6 +1,16 @@
 """GRD007: a field's role hint must fit what its grid says of its vectors."""
 
-from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Content,
+    Facts,
+    Prim,
+    Problem,
+    Problems,
+    contents,
+    quoted,
+    rule,
+)
 
 _CLAIMS = ("Point", "Normal", "Vector", "Color")
 
@@ -18,7 +28,7 @@ def vector_type_differs(field: Prim, facts: Facts) -> Problems:
         grid = content.grid
         yield Problem(
             f"vectorDataRoleHint is {content.claim.role_hint!r}, but the vectors of grid "
-            f"{grid.label!r} in {found.shown} are {grid.vector_type!r}{found.count}",
+            f"{quoted(grid.label)} in {found.shown} are {grid.vector_type!r}{found.count}",
             at=found.attribute,
             times=found.times,
             at_default=found.at_default,

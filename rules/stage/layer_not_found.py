@@ -1,6 +1,6 @@
 """STG001: every layer that the stage names must open."""
 
-from usdvol_lint.rule import ERROR, STAGE, Facts, NotChecked, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, STAGE, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
 
 _NAMED = 3
 
@@ -8,7 +8,7 @@ _NAMED = 3
 @rule("STG001", on=STAGE, severity=ERROR, since="0.1")
 def layer_not_found(root: Prim, facts: Facts) -> Problems:
     for missing in facts.composition.missing_layers:
-        layer = f"the {missing.arc} {missing.asset!r}"
+        layer = f"the {missing.arc} {quoted(missing.asset)}"
         where = f" (on {len(missing.prims)} prims)" if len(missing.prims) > 1 else ""
         if missing.is_uri:
             yield NotChecked(
@@ -26,7 +26,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             at=missing.prim,
             spec=missing.spec,
             asset=missing.asset,
-            suggestion=f"did you mean {similar!r}?" if similar else None,
+            suggestion=f"did you mean {quoted(similar)}?" if similar else None,
         )
     unloaded = [str(prim.GetPath()) for prim in facts.composition.unloaded]
     if unloaded:

@@ -20,7 +20,7 @@ from usdvol_lint.facts.opinions import is_from_clips, opinion
 from usdvol_lint.facts.patterns import find_pattern
 from usdvol_lint.facts.states import AssetState, FileFault
 from usdvol_lint.facts.values import read_values
-from usdvol_lint.model import frame_ranges
+from usdvol_lint.model import frame_ranges, quoted
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
 _LIVE_SCHEMES = frozenset({"op", "opdef", "oplib"})
@@ -126,8 +126,8 @@ class Affected:
     def shown(self) -> str:
         """The first path in quotes, with the expression that it was evaluated from."""
         first = self.first
-        origin = "" if first.authored == first.path else f" (from {first.authored!r})"
-        return f"{first.path!r}{origin}"
+        origin = "" if first.authored == first.path else f" (from {quoted(first.authored)})"
+        return f"{quoted(first.path)}{origin}"
 
     @property
     def count(self) -> str:

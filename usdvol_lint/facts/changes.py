@@ -9,6 +9,7 @@ from typing import TypeAlias, TypeVar
 
 from usdvol_lint.facts.assets import Affected
 from usdvol_lint.facts.contents import Content, FieldContents
+from usdvol_lint.model import quoted
 
 _T = TypeVar("_T")
 
@@ -79,7 +80,7 @@ def _difference(grids: Grids, usual: Grids) -> str:
     added = grids.keys() - usual.keys()
     others = sorted(name for name in grids.keys() & usual.keys() if grids[name] != usual[name])
     retyped = (
-        f"has {name!r} as {' and '.join(grids[name])} instead of {' and '.join(usual[name])}"
+        f"has {quoted(name)} as {' and '.join(grids[name])} instead of {' and '.join(usual[name])}"
         for name in others
     )
     words = [f"lacks {_listed(lacking)}" if lacking else "", *retyped]

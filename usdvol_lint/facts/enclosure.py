@@ -16,7 +16,7 @@ from usdvol_lint.facts.extents import Limits
 from usdvol_lint.facts.fields import Target
 from usdvol_lint.facts.held import Held, Time
 from usdvol_lint.facts.placement import AT_REST, IDENTITY, Placement, read_placement
-from usdvol_lint.model import format_time
+from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Bounds, Grid, IndexBounds, Matrix
 
 _AXES = "xyz"
@@ -104,7 +104,7 @@ class Overhang(NamedTuple):
     def shown(self) -> str:
         """The grid in words."""
         moved = ", moved as its field is," if self.is_displaced else ""
-        return f"the grid {self.grid!r} of <{self.field}>{moved}"
+        return f"the grid {quoted(self.grid)} of <{self.field}>{moved}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
+from usdvol_lint import model
 from usdvol_lint.volumefile.transform import Bounds, Matrix, Transform, finite
 
 Format: TypeAlias = Literal["openvdb", "nanovdb", "field3d"]
@@ -153,4 +154,4 @@ class VolumeFileError(Exception):
 
 def quoted(text: str) -> str:
     """Text out of a file, printable and short enough for a message."""
-    return repr(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")
+    return model.quoted(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")
