@@ -75,6 +75,29 @@ def package(path: Path, stage: str, files: dict[str, bytes]) -> None:
 @pytest.mark.parametrize(
     ("authored", "expected"),
     [
+        (
+            "./shto.usdz[a.vdb]",
+            "no file at './shto.usdz[a.vdb]': no package './shto.usdz'"
+            " -> did you mean './shot.usdz[a.vdb]'?",
+        ),
+        (
+            "./caches/shot.usdz[a.vdb]",
+            "no file at './caches/shot.usdz[a.vdb]': no folder './caches'"
+            " -> did you mean './cache'?",
+        ),
+    ],
+)
+def test_a_package_that_is_not_there(
+    authored: str, expected: str, lint_text: Lint, tmp_path: Path
+) -> None:
+    package(tmp_path / "shot.usdz", "#usda 1.0\n", {"a.vdb": CONTENT})
+    (tmp_path / "cache").mkdir()
+    assert said(lint_text(volume(f"asset filePath = @{authored}@"))) == [f"AST002 {expected}"]
+
+
+@pytest.mark.parametrize(
+    ("authored", "expected"),
+    [
         ("./vdb/cloud.vdb", []),
         ("vdb/cloud.vdb", []),
         (

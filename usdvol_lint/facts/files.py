@@ -14,6 +14,7 @@ from pxr import Ar, Sdf, Tf
 
 from usdvol_lint.facts.patterns import matching_frames
 from usdvol_lint.facts.states import FileFault
+from usdvol_lint.model import quoted
 from usdvol_lint.nearest import nearest_word
 
 LFS_SIGNATURE = b"version https://git-lfs"
@@ -72,6 +73,8 @@ class Files:
         corrected = self.recased(path, authored)
         if Ar.IsPackageRelativePath(path):
             package, inner = Ar.SplitPackageRelativePathOuter(path)
+            if not os.path.isfile(package):
+                return self._absence_of_package(package, authored)
             similar = None if corrected else self._nearest(package, inner)
             corrected = _with_end(authored, inner, similar) if similar else corrected
             return Absence(f" in {os.path.basename(package)!r}", corrected)
@@ -86,6 +89,13 @@ class Files:
         if os.path.islink(missing):
             return Absence(f": {_broken_link(missing)}", corrected)
         return Absence(f": no folder {shown!r}" if rest else "", corrected)
+
+    def _absence_of_package(self, package: str, authored: str) -> Absence:
+        shown, inner = Ar.SplitPackageRelativePathOuter(authored)
+        reason, corrected = self.absence(package, shown)
+        if corrected and corrected.endswith(os.path.splitext(shown)[1]):  # else it is a folder
+            corrected = str(Ar.JoinPackageRelativePath(corrected, inner))
+        return Absence(reason or f": no package {quoted(shown)}", corrected)
 
     def recased(self, path: str, authored: str) -> str | None:
         """What `authored` should be for the folders to have its names, where only the case differs.
