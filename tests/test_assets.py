@@ -206,8 +206,8 @@ def test_bare_names_are_looked_for_beside_their_layer(lint_text: Lint, tmp_path:
         "AST002 no file at 'clod.vdb' -> did you mean 'cloud.vdb'?"
     ]
     assert said(lint_text(stage.format("b"), "b.usda")) == [
-        "AST003 no file at 'smoke.$F4.vdb': USD does not replace '$F4' -> author "
-        "filePath.timeSamples = { 1: @smoke.0001.vdb@ } (1 file found)"
+        "AST003 no file at 'smoke.$F4.vdb': USD does not replace '$F4' -> 1 file found: author "
+        "filePath.timeSamples = { 1: @smoke.0001.vdb@ }"
     ]
 
 
@@ -419,13 +419,14 @@ def test_expressions_in_a_usd_that_forgets_them(
 
 
 def test_time_samples_to_paste(lint_text: Lint, tmp_path: Path) -> None:
-    """A handful, by number; padding counts, and what only resembles the pattern does not."""
+    """All of them, by number; padding counts, and what only resembles the pattern does not."""
     write(tmp_path, *(f"fx/smoke.{frame:04}.vdb" for frame in (-5, 1, 2, 3, 10, 100)))
     write(tmp_path, "fx/smoke.7.vdb", "fx/smoke.0001.vdb.tmp", "fx/old_smoke.0001.vdb")
     finding = only(lint_text(volume("asset filePath = @./fx/smoke.%04d.vdb@")))
     assert finding.suggestion == (
-        "author filePath.timeSamples = { 1: @./fx/smoke.0001.vdb@, 2: @./fx/smoke.0002.vdb@, "
-        "3: @./fx/smoke.0003.vdb@, 10: @./fx/smoke.0010.vdb@, … } (5 files found)"
+        "5 files found: author filePath.timeSamples = { 1: @./fx/smoke.0001.vdb@, "
+        "2: @./fx/smoke.0002.vdb@, 3: @./fx/smoke.0003.vdb@, 10: @./fx/smoke.0010.vdb@, "
+        "100: @./fx/smoke.0100.vdb@ }"
     )
 
 

@@ -274,6 +274,24 @@ def test_wrapping_keeps_every_word_and_quoted_path() -> None:
         assert LONG_PRIM in text
 
 
+def test_a_long_list_is_whole_where_it_is_asked_for() -> None:
+    """Frames to paste: some of them tell what is meant, and --verbose and JSON have them all."""
+    frames = ", ".join(f"{frame}: @./fx/smoke.{frame:04}.vdb@" for frame in range(1, 101))
+    advice = f"author filePath.timeSamples = {{ {frames} }}"
+    finding = Finding("AST003", "", Severity.ERROR, "no file", Site("a.usda"), suggestion=advice)
+    subject = report(StageReport("a.usda", Status.CHECKED, findings=(finding,)))
+    text = render(subject, "full", Options(width=10_000))
+    assert "1: @./fx/smoke.0001.vdb@, 2: @" in text
+    assert "@, … (--verbose shows all of it)\n" in text
+    assert len(text) < 700
+    for asked in (Options(width=10_000, verbose=True), Options(width=80, verbose=True)):
+        assert advice in " ".join(render(subject, "full", asked).split())
+    assert (
+        json.loads(render(subject, "json", Options()))["stages"][0]["findings"][0]["suggestion"]
+        == advice
+    )
+
+
 def test_wrapping_counts_the_cells_of_a_terminal() -> None:
     """Each of these characters is two cells wide, so two words of two fit in nine cells."""
     finding = Finding("AST002", "", Severity.ERROR, "煙煙 煙煙 煙煙 煙煙 煙", Site("a.usda"))

@@ -4,8 +4,6 @@ from collections.abc import Sequence
 
 from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
-_SHOWN = 4
-
 
 @rule("AST003", on="FieldAsset", when=file_paths(AssetState.PATTERN), severity=ERROR, since="0.1")
 def path_pattern(field: Prim, facts: Facts) -> Problems:
@@ -29,7 +27,6 @@ def _advice(path: str) -> str:
 
 def _time_samples(frames: Sequence[tuple[int, str]]) -> str:
     """The files that are there, as text to paste."""
-    samples = ", ".join(f"{number}: @{path}@" for number, path in frames[:_SHOWN])
-    more = ", …" if len(frames) > _SHOWN else ""
+    samples = ", ".join(f"{number}: @{path}@" for number, path in frames)
     files = f"{len(frames)} files" if len(frames) > 1 else "1 file"
-    return f"author filePath.timeSamples = {{ {samples}{more} }} ({files} found)"
+    return f"{files} found: author filePath.timeSamples = {{ {samples} }}"

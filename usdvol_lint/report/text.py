@@ -16,6 +16,8 @@ SEVERITY_STYLES = {
     Severity.INFO: "bold cyan",
 }
 
+_LONGEST_SUGGESTION = 400
+
 # A word to wrap at; quoted text counts as one, so that a path with spaces can still be copied.
 _WORD = re.compile(r"""(?<!\S)\(?(['"@]).*?\1\S*|\S+""")
 
@@ -111,11 +113,20 @@ def _finding(finding: Finding, indent: str, options: Options) -> Iterator[str]:
     if where := ", ".join(_where(finding.site)):
         yield _labelled("at", where, "blue", indent, options)
     if finding.suggestion:
-        yield _labelled("help:", printable(finding.suggestion), "green", indent, options)
+        advice = finding.suggestion if options.verbose else _shortened(finding.suggestion)
+        yield _labelled("help:", printable(advice), "green", indent, options)
     if options.verbose:
         yield _labelled("rule:", _rule(finding), "dim", indent, options)
         for line in (finding.detail or "").expandtabs().splitlines():
             yield f"{indent}| {printable(line)}".rstrip()
+
+
+def _shortened(suggestion: str) -> str:
+    """A suggestion of many items, such as frames to paste, up to one of them."""
+    if len(suggestion) <= _LONGEST_SUGGESTION:
+        return suggestion
+    start = suggestion[:_LONGEST_SUGGESTION].rpartition(", ")[0]
+    return f"{start}, … (--verbose shows all of it)" if start else suggestion
 
 
 def place(site: Site) -> str:
