@@ -386,6 +386,28 @@ def test_crashes_and_hangs(jobs: str, tmp_path: Path) -> None:
     assert ran.json["summary"]["by_status"] == {"checked": 3, "crashed": 4, "timed_out": 1}
 
 
+@pytest.mark.parametrize("end", ["hang", "exit"])
+def test_what_was_found_before_the_end_is_kept(end: str, tmp_path: Path) -> None:
+    """Also what the authored selections show, where another selection ends it all."""
+    kept = volume("v1") + volume("v2").removeprefix("#usda 1.0\n")
+    bad = volume(end).removeprefix("#usda 1.0\n")
+    variants = 'variantSet "look" = {\n"good" {\n}\n"bad" {\n' + bad + "}\n}"
+    (tmp_path / "late.usda").write_text(kept + bad, encoding="utf-8")
+    (tmp_path / "other.usda").write_text(
+        f'{kept}def "model" (\nvariants = {{ string look = "good" }}\n'
+        f'prepend variantSets = ["look"]\n)\n{{\n{variants}\n}}\n',
+        encoding="utf-8",
+    )
+    ran = run(*ROUGH_ONLY, "--timeout", "1", "--variants", "all", ".", cwd=tmp_path)
+    assert (ran.code, ran.err) == (2, "")
+    assert set(statuses(ran).values()) == {"timed_out" if end == "hang" else "crashed"}
+    found = [
+        [(finding["code"], finding["prim"]) for finding in stage["findings"]]
+        for stage in ran.json["stages"]
+    ]
+    assert found == [[("LNT001", None), ("RGH001", "/v1"), ("RGH001", "/v2")]] * 2
+
+
 def test_verbose_shows_what_the_process_said(tmp_path: Path) -> None:
     write(tmp_path, exit=volume("exit"))
     only = ("--isolated", "--pack", ROUGH, "--select", "RGH", "exit.usda")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -31,6 +31,9 @@ from usdvol_lint.volumefile.cache import VolumeFiles
 from usdvol_lint.walk import Walk, assign, walk
 
 _LONGEST = 300
+_TOLD_AT_ONCE = 100
+_UNTOLD = 0.05
+"""For so many seconds further findings are kept back: to tell of each by itself takes its time."""
 
 
 def usd_version() -> str:
@@ -39,14 +42,15 @@ def usd_version() -> str:
     return ".".join(str(part) for part in (major, minor, patch)[0 if major else 1 :])
 
 
-def _ignore_progress(samples: int) -> None:
+def _ignore(told: object) -> None:
     pass
 
 
 class Engine:
     """Lints stages, one after the other, with the same rules.
 
-    `advance` is told how many samples of a long sequence were read since it was last told.
+    `advance` is told how many samples of a long sequence were read since it was last told, `tell`
+    what was found meanwhile, so that it is not lost whatever becomes of the stage.
     `selections` is how many variant selections besides the authored ones are composed at most.
     `times` says which time samples of particles are looked at, `statistics` whether to tell what
     particle fields hold.
@@ -59,7 +63,8 @@ class Engine:
         active: ActiveRules,
         load: str = "all",
         content: str = "all",
-        advance: Callable[[int], None] = _ignore_progress,
+        advance: Callable[[int], None] = _ignore,
+        tell: Callable[[list[Finding]], None] = _ignore,
         selections: int = 0,
         times: str | int = "all",
         statistics: bool = False,
@@ -69,6 +74,7 @@ class Engine:
         self._severities = active.severities
         self._load = load
         self._advance = advance
+        self._tell = tell
         self._content = content
         self._volume_files = VolumeFiles()
         self._selections = selections
@@ -100,14 +106,17 @@ class Engine:
             self._statistics,
         )
         sites = Sites()
-        found = [*self._check_usd(facts, sites), *self._check(walked, facts, sites)]
+        found = [
+            *self._told(self._check_usd(facts, sites)),
+            *self._told(self._check(walked, facts, sites)),
+        ]
         stats = _stats(walked, facts)
         particle_fields = facts.particle_field_stats() if self._statistics else None
         if self._selections:
             clock.lap("check")
             others = OtherSelections(stage, kinds, self._selections)
             known = {each.identity for each in found}
-            found += self._check_others(others, known, facts, sites)
+            found += self._told(self._check_others(others, known, facts, sites))
             stats["variant_selections"] = others.composed
             clock.lap("variants")
         findings = with_fingerprints(each.finding for each in found)
@@ -115,6 +124,18 @@ class Engine:
         return StageReport(
             display(path), Status.CHECKED, stats, findings, clock.seconds, particle_fields
         )
+
+    def _told(self, found: Iterable[_Found]) -> Iterator[_Found]:
+        untold: list[Finding] = []
+        told_at = 0.0
+        for number, each in enumerate(found):
+            untold.append(each.finding)
+            if number < _TOLD_AT_ONCE or time.perf_counter() - told_at > _UNTOLD:
+                self._tell(untold)
+                untold, told_at = [], time.perf_counter()
+            yield each
+        if untold:
+            self._tell(untold)
 
     def _check_usd(self, facts: Facts, sites: Sites) -> Iterator[_Found]:
         """Whether the installed USD knows what the stage uses."""

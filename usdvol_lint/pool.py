@@ -14,8 +14,8 @@ from contextlib import suppress
 from typing import IO, TYPE_CHECKING, Any
 
 from usdvol_lint.child import start_child
-from usdvol_lint.model import StageReport, Status, UsageError
-from usdvol_lint.protocol import Advance, Ready, Refusal, Setup
+from usdvol_lint.model import Finding, StageReport, Status, UsageError
+from usdvol_lint.protocol import Advance, Found, Ready, Refusal, Setup
 from usdvol_lint.trouble import Unreadable, report_trouble
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class Worker:
     def prepare(self, setup: Setup, limit: float) -> None:
         """Hands over the rules; raises UsageError if the worker can't work with them."""
         self._setup, self._patience = setup, limit
-        reply, expired = self._ask(setup, limit, lambda samples: None)
+        reply, expired = self._ask(setup, limit, lambda said: None)
         if isinstance(reply, Refusal):
             raise UsageError(" ".join(reply.reason.split()))
         if not isinstance(reply, Ready):
@@ -60,14 +60,22 @@ class Worker:
             self._adopt(start_child())
             self.prepare(self._setup, self._patience)
         began = time.perf_counter()
-        reply, timed_out = self._ask(path, limit, advance)
+        found: list[Finding] = []
+
+        def hear(said: Advance | Found) -> None:
+            if isinstance(said, Found):
+                found.extend(said.findings)
+            else:
+                advance(said.samples)
+
+        reply, timed_out = self._ask(path, limit, hear)
         self._gone = timed_out or not isinstance(reply, StageReport)
         if isinstance(reply, StageReport):
             return reply
         seconds = {"total": time.perf_counter() - began}
         trouble = self._timed_out(limit) if timed_out else self._crashed()
         status = Status.TIMED_OUT if timed_out else Status.CRASHED
-        return report_trouble(path, trouble, status, seconds)
+        return report_trouble(path, trouble, status, seconds, found)
 
     def kill(self) -> None:
         """Has the child end without ceremony."""
@@ -82,9 +90,12 @@ class Worker:
                 stream.close()
 
     def _ask(
-        self, message: Setup | str, limit: float, advance: Callable[[int], None]
+        self, message: Setup | str, limit: float, hear: Callable[[Advance | Found], None]
     ) -> tuple[Any, bool]:
-        """The child's answer, or None if it died or was stopped; and whether the limit ended it."""
+        """The child's answer, or None if it died or was stopped; and whether the limit ended it.
+
+        `hear` is told what the child says before that.
+        """
         expired = threading.Event()
         timer = threading.Timer(limit, self._expire, (expired,))
         timer.daemon = True
@@ -93,8 +104,8 @@ class Worker:
             with suppress(OSError):  # a child that has gone may have said why
                 pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
                 self._stdin.flush()
-            while isinstance(reply := pickle.load(self._stdout), Advance):
-                advance(reply.samples)
+            while isinstance(reply := pickle.load(self._stdout), Advance | Found):
+                hear(reply)
             return reply, expired.is_set()
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
             return None, expired.is_set()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from usdvol_lint.config import ActiveRules
+from usdvol_lint.model import Finding
 
 
 class Setup(NamedTuple):
@@ -29,6 +30,12 @@ class Refusal(NamedTuple):
     """The worker's only message, where it can't work at all."""
 
     reason: str
+
+
+class Found(NamedTuple):
+    """What was found of a stage since the worker last told; then comes more."""
+
+    findings: list[Finding]
 
 
 class Advance(NamedTuple):

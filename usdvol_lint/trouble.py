@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from usdvol_lint.catalog import STAGE_UNREADABLE, help_for
 from usdvol_lint.model import Finding, Severity, Site, StageReport, Status, with_fingerprints
 from usdvol_lint.paths import display
@@ -33,8 +35,9 @@ def report_trouble(
     trouble: Unreadable,
     status: Status = Status.UNREADABLE,
     seconds: dict[str, float] | None = None,
+    found: Iterable[Finding] = (),
 ) -> StageReport:
-    """A stage's report that holds one LNT001 finding."""
+    """A stage's report that holds one LNT001 finding, and what was found before."""
     finding = Finding(
         code=STAGE_UNREADABLE.code,
         name=STAGE_UNREADABLE.name,
@@ -45,4 +48,6 @@ def report_trouble(
         help=help_for(STAGE_UNREADABLE),
         detail=trouble.detail,
     )
-    return StageReport(display(path), status, {}, with_fingerprints([finding]), seconds or {})
+    return StageReport(
+        display(path), status, {}, with_fingerprints([finding, *found]), seconds or {}
+    )

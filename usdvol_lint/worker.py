@@ -9,7 +9,7 @@ from typing import Any, BinaryIO
 
 from usdvol_lint.catalog import load
 from usdvol_lint.model import StageReport, UsageError
-from usdvol_lint.protocol import Advance, Ready, Refusal, Setup
+from usdvol_lint.protocol import Advance, Found, Ready, Refusal, Setup
 
 
 def main() -> None:
@@ -37,6 +37,7 @@ def main() -> None:
         setup.load,
         setup.content,
         lambda samples: _send(replies, Advance(samples)),
+        lambda findings: _send(replies, Found(findings)),
         setup.selections,
         setup.times,
         setup.statistics,
@@ -67,6 +68,6 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
     return requests, replies
 
 
-def _send(replies: BinaryIO, message: Ready | Refusal | Advance | StageReport) -> None:
+def _send(replies: BinaryIO, message: Ready | Refusal | Advance | Found | StageReport) -> None:
     pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
     replies.flush()
