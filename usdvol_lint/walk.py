@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import chain, islice
 from operator import itemgetter
@@ -75,29 +75,28 @@ def assign(
     """
     rules = list(rules)
     sums = Sums(facts)
-    asked = {
-        key: _Asked([rule for rule in rules if not names.isdisjoint(rule.on)], sums, options)
-        for key in walked.kept
-        if (names := facts.kinds.names(key))
-    }
+    asking = {key: _Asking(facts.kinds.names(key), rules, sums, options) for key in walked.kept}
     for key, chunk in _fields_first(walked, facts):
         for prim in chunk.prims:
-            for rule in asked[key].always:
+            for rule in asking[key].always:
                 yield rule, prim
-        if asked[key].triages:
+        if asking[key].triages:
             for table in facts.tables(chunk):
-                for triage in asked[key].triages:
+                for triage in asking[key].triages:
                     yield from triage.chosen(table)
 
 
-class _Asked:
-    """The rules that ask for prims of a kind: for all of them, or for those that they choose."""
+class _Asking:
+    """The rules that ask for prims of a kind: `always`, or for those that a triage chooses."""
 
-    def __init__(self, rules: Sequence[Rule], sums: Sums, options: Options) -> None:
+    def __init__(
+        self, names: frozenset[str], rules: Iterable[Rule], sums: Sums, options: Options
+    ) -> None:
         by_fact: dict[str, list[Rule]] = defaultdict(list)
         self.always: list[Rule] = []
         for rule in rules:
-            (by_fact[rule.when.fact] if rule.when else self.always).append(rule)
+            if not names.isdisjoint(rule.on):
+                (by_fact[rule.when.fact] if rule.when else self.always).append(rule)
         self.triages = [
             _Triage(getattr(sums, fact), chosen, options) for fact, chosen in by_fact.items()
         ]

@@ -23,14 +23,14 @@ _MOST_PRIMS = 1024
 class Table:
     """Prims of one kind on which the same properties are authored.
 
-    `usd` gives USD's answers about them; `columns` hold what was found of them, by name.
+    `usd` gives USD's answers about them; what is found of them is kept by name.
     """
 
-    __slots__ = ("_alone", "_authored", "_failed", "columns", "usd")
+    __slots__ = ("_alone", "_authored", "_columns", "_failed", "usd")
 
     def __init__(self, usd: Answers, authored: Authored | Exception) -> None:
         self.usd = usd
-        self.columns: dict[str, Sequence[Any]] = {}
+        self._columns: dict[str, Sequence[Any]] = {}
         self._authored = authored
         self._alone: dict[int, Table] = {}
         self._failed: dict[str, Exception] = {}
@@ -52,15 +52,15 @@ class Table:
 
     def column(self, name: str, read: Read) -> Sequence[Any]:
         """What is kept under a name, of each prim; raises where that of one can't be read."""
-        if name not in self.columns:
+        if name not in self._columns:
             if name in self._failed:
                 raise self._failed[name]
             try:
-                self.columns[name] = read(name, self)
+                self._columns[name] = read(name, self)
             except Exception as error:
                 self._failed[name] = error
                 raise
-        return self.columns[name]
+        return self._columns[name]
 
     def cell(self, row: int, name: str, read: Read) -> Any:
         """What is kept under a name of one prim, whether or not that of others can be read."""
@@ -165,8 +165,7 @@ class Tables:
     def find_at(self, place: Place) -> tuple[Table, int]:
         """The table of the prim at a place, and its row there."""
         chunk, row = place
-        if not chunk.tables:
-            chunk.tables = self._form(chunk.prims)
+        self.tables(chunk)
         return chunk.find(row)
 
     @cached_property
