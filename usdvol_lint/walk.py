@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import chain, islice
+from itertools import compress, islice, repeat
 from operator import itemgetter
 from typing import Any, TypeAlias
 
@@ -37,7 +37,7 @@ class Walk:
 
     prims: int = 0
     clipped: list[Any] = field(default_factory=list)
-    kept: dict[Key, list[Any]] = field(default_factory=lambda: defaultdict(list))
+    kept: dict[Key, list[Any]] = field(default_factory=dict)
 
 
 def walk(stage: Any, rules: Iterable[Rule], kinds: Kinds) -> Walk:
@@ -47,21 +47,23 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: Kinds) -> Walk:
     the cost does not grow with the number of rules.
     """
     wanted = _COUNTED.union(*(rule.on for rule in rules))
-    decided: dict[Key, bool] = {}
+    of_kind: dict[Key, list[Any] | None] = {}
     result = Walk()
     for prims in _batches(stage):
         result.prims += len(prims)
         keeps_some = False
         for prim, key in zip(prims, kinds.keys(prims), strict=True):
-            keep = decided.get(key)
-            if keep is None:
-                keep = decided[key] = not wanted.isdisjoint(kinds.names(key))
-            if keep:
-                result.kept[key].append(prim)
+            if key not in of_kind:
+                of_kind[key] = None if wanted.isdisjoint(kinds.names(key)) else []
+            kept = of_kind[key]
+            if kept is not None:
+                kept.append(prim)
                 keeps_some = True
         if keeps_some:
-            above = _ancestors(prims[0])  # the walk goes down first: those of the others are here
-            result.clipped += filter(_has_clips, chain(above, prims))
+            # The walk goes down first: all that is above one of them is here or above the first.
+            around = [*_ancestors(prims[0]), *prims]
+            result.clipped += compress(around, map(has_metadata, around, repeat("clips")))
+    result.kept = {key: kept for key, kept in of_kind.items() if kept}
     return result
 
 
@@ -149,11 +151,6 @@ class _Triage:
 def _ancestors(prim: Any) -> Iterator[Any]:
     while not (prim := prim.GetParent()).IsPseudoRoot():
         yield prim
-
-
-def _has_clips(prim: Any) -> bool:
-    found: bool = has_metadata(prim, "clips")
-    return found
 
 
 def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[Key, Chunk]]:
