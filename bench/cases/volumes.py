@@ -51,6 +51,7 @@ began = perf_counter()
 for path in paths: read_volume_file(path)
 print((perf_counter() - began) / len(paths) * 1000)
 """
+_PEER = Command(("nvidia_usd_validate",), exit_code=1)
 _VDB_PRINT = Command(("sh", "-c", 'exec vdb_print "$1"/*.vdb', "sh"))
 
 
@@ -176,6 +177,7 @@ CASES = (
     Case("samples", linter("--select", "AST"), python(_READ_SAMPLES), 2.0, many_samples),
     Case("sequence", linter(), python(_READ_FILES), 2.0, long_sequence),
     Case("volumes", linter(), python(_READ_VOLUMES), 2.0, many_volumes),
+    Case("volumes-peer", linter(), _PEER, 0.05, many_volumes, needs=_PEER.words[0]),
     Case("headers", _HEADERS, _VDB_PRINT, 0.2, many_files, needs="vdb_print"),
     Case("header", python(_READ_HEADERS, prints=True), None, 0.25, many_files, unit="ms"),
 )
