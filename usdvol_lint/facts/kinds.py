@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 from pxr import Usd
 
 from usdvol_lint import schema
+from usdvol_lint.facts.usd_calls import get_applied, get_type
 
 Key: TypeAlias = tuple[str, ...]
 """A prim's type name, then the names of its applied schemas."""
@@ -23,27 +24,32 @@ class Kinds:
         self.knows_particle_fields = is_registered(schema.PARTICLE_FIELD)
         self._fallbacks = fallbacks or {}
         self._names: dict[Key, frozenset[str]] = {}
+        self._as_written: dict[tuple[str, Key, Key], Key] = {}
 
     def key(self, prim: Any) -> Key:
         """What prims of one kind share."""
-        return (prim.GetTypeName(), *self.applied(prim))
+        return self.keys((prim,))[0]
 
     def keys(self, prims: Sequence[Any]) -> list[Key]:
         """What each of many prims shares with its kind: a third of the time of one by one."""
-        if not self.knows_particle_fields:
-            return list(map(self.key, prims))
-        types = map(Usd.Prim.GetTypeName, prims)
-        applied = map(Usd.Prim.GetAppliedSchemas, prims)
-        return [(name, *apis) for name, apis in zip(types, applied, strict=True)]
+        types = map(get_type, prims)
+        applied = map(get_applied, prims)
+        if self.knows_particle_fields:
+            return [(name, *apis) for name, apis in zip(types, applied, strict=True)]
+        known = self._as_written
+        said = zip(types, map(tuple, applied), map(raw_apis, prims), strict=True)
+        return [known[each] if each in known else self._with_ours(*each) for each in said]
 
     def applied(self, prim: Any) -> tuple[str, ...]:
         """The applied schemas; on a USD without particle fields, ours as written too."""
-        applied = tuple(prim.GetAppliedSchemas())
-        if self.knows_particle_fields:
-            return applied
-        ours = tuple(name for name in raw_apis(prim) if name in schema.API_INCLUDES)
-        built_in = schema.BUILT_IN_APIS.get(prim.GetTypeName(), ())
-        return applied + schema.expand_apis(built_in + ours)
+        return self.key(prim)[1:]
+
+    def _with_ours(self, type_name: str, applied: tuple[str, ...], written: tuple[str, ...]) -> Key:
+        ours = tuple(name for name in written if name in schema.API_INCLUDES)
+        built_in = schema.BUILT_IN_APIS.get(type_name, ())
+        key = (type_name, *applied, *schema.expand_apis(built_in + ours))
+        self._as_written[type_name, applied, written] = key
+        return key
 
     def names(self, key: Key) -> frozenset[str]:
         """The schema names that prims of this kind answer to, UNKNOWN_TYPE or ABSTRACT_TYPE too."""

@@ -26,6 +26,7 @@ get_path: Any = Usd.Object.GetPath
 get_stage: Any = Usd.Object.GetStage
 get_type: Any = Usd.Prim.GetTypeName
 
+get_applied: Any = Usd.Prim.GetAppliedSchemas
 get_attribute: Any = Usd.Prim.GetAttribute
 get_children: Any = Usd.Prim.GetFilteredChildren
 get_parent: Any = Usd.Prim.GetParent
