@@ -363,6 +363,23 @@ def test_a_clip_that_can_not_be_read(lint_text: Lint, tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.parametrize("others", ["", 'def OpenVDBAsset "other"\n{\n}\n'])
+def test_a_manifest_that_can_not_be_read_is_one_finding(
+    others: str, lint_text: Lint, tmp_path: Path
+) -> None:
+    """USD raises for it where a value is first asked for, whichever field that is of."""
+    write_clips(tmp_path)
+    (tmp_path / "manifest.usda").write_text("#usda 1.0\ndef (")
+    clips = "asset[] assetPaths = [@./clip.0.usda@, @./clip.1.usda@, @./clip.2.usda@]"
+    stage = f"#usda 1.0\n{CLIPS % clips}".removesuffix("}\n") + others + "}\n"
+    report = lint_text(stage)
+    about = [each for each in said(report) if each[:6] not in ("FLD001", "FLD002", "VOL012")]
+    assert about == [
+        "STG001 the clip manifest './manifest.usda' can't be read: manifest.usda:2:1: unexpected "
+        "'def (' in </>; what it holds was not checked"
+    ]
+
+
 def test_clips_far_above_what_they_hold(lint_text: Lint) -> None:
     others = "".join(f'def Scope "other_{number}"\n{{\n}}\n' for number in range(1000))
     text = CLIPS.replace("subLayers = [@./fx.usda@]", "").replace("{\n}\n", "{%s}\n")

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from usdvol_lint import schema
 from usdvol_lint.facts.answers import Answers
@@ -15,6 +15,8 @@ from usdvol_lint.facts.usd_calls import get_path
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.attributes import Authored, AuthoredReader, Shape
+
+_T = TypeVar("_T")
 
 _MOST_PRIMS = 1024
 """So many are asked one question after the other: then what is found of them is cached."""
@@ -58,6 +60,8 @@ class Table:
             try:
                 self._columns[name] = read(name, self)
             except Exception as error:
+                if len(self.prims) == 1:
+                    return _again(lambda: read(name, self))
                 self._failed[name] = error
                 raise
         return self._columns[name]
@@ -193,10 +197,13 @@ class Tables:
             table.usd.forget()
         try:
             self._last = list(self._alike(Answers(prims)))
-        except Exception as error:
-            if len(prims) == 1:
+        except Exception:
+            if len(prims) > 1:
+                return [table for prim in prims for table in self._form((prim,))]
+            try:
+                return _again(lambda: list(self._alike(Answers(prims))))
+            except Exception as error:
                 return [Table(Answers(prims), error)]
-            return [table for prim in prims for table in self._form((prim,))]
         return self._last
 
     def _alike(self, usd: Answers) -> Iterator[Table]:
@@ -210,6 +217,14 @@ class Tables:
             rows[shape].append(row)
         for shape, some in rows.items():
             yield Table(usd.of(some), self._authored.read(usd.prims[some[0]], key, shape))
+
+
+def _again(read: Callable[[], _T]) -> _T:
+    """Reads what could not be read: USD raises once for a layer that it can't open for a value.
+
+    From then on it goes without it, and the layer is a finding by itself.
+    """
+    return read()
 
 
 def _chunks(prims: Sequence[Any]) -> Iterator[Chunk]:
