@@ -58,12 +58,13 @@ class Table:
             if name in self._failed:
                 raise self._failed[name]
             try:
-                self._columns[name] = read(name, self)
+                found = read(name, self)
             except Exception as error:
-                if len(self.prims) == 1:
-                    return _again(lambda: read(name, self))
-                self._failed[name] = error
-                raise
+                if len(self.prims) > 1:
+                    self._failed[name] = error
+                    raise
+                found = _again(lambda: read(name, self))
+            self._columns[name] = found
         return self._columns[name]
 
     def cell(self, row: int, name: str, read: Read) -> Any:
