@@ -14,11 +14,9 @@ from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.clips import Clips
 from usdvol_lint.facts.kinds import Key, Kinds
 from usdvol_lint.facts.usd_calls import (
-    attribute_at,
     get_attribute,
     get_prim_stack,
     own_attribute,
-    property_path,
     type_of_spec,
 )
 from usdvol_lint.facts.values import Values, values_of
@@ -128,12 +126,11 @@ def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
     types = authored.types
     stack = get_prim_stack(prim) if types else ()
     for holder in stack:
-        layer, path = holder.layer, holder.path
         for name, wanted in types:
-            place = property_path(path, name)
-            spec = attribute_at(layer, place)
+            place = Sdf.Path(f".{name}")
+            spec = own_attribute(holder, place)
             if spec is None:
-                spec = layer.GetRelationshipAtPath(place)
+                spec = holder.GetRelationshipAtPath(place)
                 if spec:
                     yield Mistyped(get_attribute(prim, name), spec, "rel", str(wanted), False)
             elif (found := type_of_spec(spec)) != wanted:

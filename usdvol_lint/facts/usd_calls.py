@@ -6,16 +6,12 @@ from typing import Any
 
 from pxr import Sdf, Usd
 
-type_of_spec: Any = Sdf.AttributeSpec.typeName.fget
-
-attribute_at: Any = Sdf.Layer.GetAttributeAtPath
-
 has_prefix: Any = Sdf.Path.HasPrefix
 parent_path: Any = Sdf.Path.GetParentPath
 prim_path: Any = Sdf.Path.GetPrimPath
-property_path: Any = Sdf.Path.AppendProperty
 
 own_attribute: Any = Sdf.PrimSpec.GetAttributeAtPath
+type_of_spec: Any = Sdf.AttributeSpec.typeName.fget
 
 count_samples: Any = Usd.Attribute.GetNumTimeSamples
 get_value: Any = Usd.Attribute.Get
@@ -24,7 +20,6 @@ has_value: Any = Usd.Attribute.HasAuthoredValue
 get_name: Any = Usd.Object.GetName
 get_path: Any = Usd.Object.GetPath
 get_stage: Any = Usd.Object.GetStage
-get_type: Any = Usd.Prim.GetTypeName
 
 get_applied: Any = Usd.Prim.GetAppliedSchemas
 get_attribute: Any = Usd.Prim.GetAttribute
@@ -34,9 +29,9 @@ get_prim_stack: Any = Usd.Prim.GetPrimStack
 get_properties: Any = Usd.Prim.GetAuthoredProperties
 get_property_names: Any = Usd.Prim.GetAuthoredPropertyNames
 get_relationship: Any = Usd.Prim.GetRelationship
+get_type: Any = Usd.Prim.GetTypeName
 has_metadata: Any = Usd.Prim.HasAuthoredMetadata
 is_in_prototype: Any = Usd.Prim.IsInPrototype
-is_proxy: Any = Usd.Prim.IsInstanceProxy
 
 get_targets: Any = Usd.Relationship.GetForwardedTargets
 
