@@ -408,6 +408,15 @@ def test_what_was_found_before_the_end_is_kept(end: str, tmp_path: Path) -> None
     assert found == [[("LNT001", None), ("RGH001", "/v1"), ("RGH001", "/v2")]] * 2
 
 
+def test_of_many_findings_few_are_lost(tmp_path: Path) -> None:
+    """To tell of each by itself would take its time."""
+    many = "".join(volume(f"v{n}").removeprefix("#usda 1.0\n") for n in range(1000))
+    (tmp_path / "many.usda").write_text(volume("v") + many + volume("exit")[10:], encoding="utf-8")
+    ran = run(*ROUGH_ONLY, "many.usda", cwd=tmp_path)
+    assert statuses(ran) == {"many.usda": "crashed"}
+    assert 900 <= len(ran.json["stages"][0]["findings"]) <= 1002
+
+
 def test_verbose_shows_what_the_process_said(tmp_path: Path) -> None:
     write(tmp_path, exit=volume("exit"))
     only = ("--isolated", "--pack", ROUGH, "--select", "RGH", "exit.usda")

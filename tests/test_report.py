@@ -24,10 +24,10 @@ from usdvol_lint.model import (
     Site,
     StageReport,
     Status,
+    printable,
 )
 from usdvol_lint.report import FORMATS, Options, render
 from usdvol_lint.report.json_report import SCHEMA_VERSION
-from usdvol_lint.report.plain import printable
 from usdvol_lint.report.text import verdict
 
 GOLDEN = Path(__file__).parent / "golden"

@@ -14,6 +14,9 @@ from process import ROOT
 from pxr import Tf
 
 from usdvol_lint import walk
+from usdvol_lint.catalog import Catalog
+from usdvol_lint.config import Config, activate
+from usdvol_lint.engine import Engine
 from usdvol_lint.facts import answers, tables
 from usdvol_lint.model import Finding, StageReport
 
@@ -31,6 +34,10 @@ VOLUMES = (
     f'uniform token[] xformOpOrder = ["xformOp:translate"]\n{EXTENT}',
 )
 FIELDS = (
+    'asset filePath = @./cloud.vdb@\n token fieldName = "density"\n string fieldDataType = "x"',
+    f'asset filePath = @./cloud.vdb@\n string fieldName = "density"\n {TYPE}',
+    f'asset filePath = @./cloud.vdb@\ntoken fieldName = "density"\ndouble fieldIndex = 1\n{TYPE}',
+    f'asset filePath = @./cloud.vdb@\ntoken fieldName = "density"\nint fieldIndex = 1\n{TYPE}',
     f'asset filePath = @./cloud.vdb@\n token fieldName = "density"\n {TYPE}',
     f'asset filePath = @./gone.vdb@\n token fieldName = "density"\n {TYPE}',
     f'asset filePath = @./cloud.vdb@\n token fieldName = "heat"\n {TYPE}',
@@ -45,6 +52,7 @@ TARGETS = ("density", *["density"] * 3, "densty", "density.filePath", "../shared
 def stage() -> str:
     shared = f'def OpenVDBAsset "shared"\n{{\n{FIELDS[0]}\n}}\n'
     columns = zip(cycle(VOLUMES), cycle(FIELDS), cycle(TARGETS), strict=False)
+    shared += f'def OpenVDBAsset "unused"\n{{\n{FIELDS[0]}\n}}\ndef Volume "bare"\n{{\n}}\n'
     return f"#usda 1.0\n{shared}" + "".join(
         f'def Volume "v{number}"\n{{\n{volume}\nrel field:density = <{target}>\n'
         f'def OpenVDBAsset "density"\n{{\n{field}\n}}\n}}\n'
@@ -63,7 +71,16 @@ def test_how_many_are_looked_at_together(
 ) -> None:
     whole = lint()
     codes = Counter(finding.code for finding in whole.findings)
-    assert {"VOL001", "VOL005", "VOL013", "AST002", "GRD003", "SCH005"} <= codes.keys()
+    assert {
+        "VOL001",
+        "VOL005",
+        "VOL013",
+        "SCH003",
+        "GRD004",
+        "AST002",
+        "GRD003",
+        "SCH005",
+    } <= codes.keys()
     for prims, batch in ((1, 1), (2, 3), (7, 64)):
         monkeypatch.setattr(tables, "_MOST_PRIMS", prims)
         monkeypatch.setattr(walk, "_BATCH", batch)
@@ -73,7 +90,9 @@ def test_how_many_are_looked_at_together(
 def test_a_prim_that_can_not_be_read_keeps_no_other_back(
     lint: Callable[[], StageReport], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Nor what is said of the stage as a whole; but it is said, whatever rules there are."""
     whole = besides(lint(), "/v30")
+    assert "VOL012" in {finding.code for finding in whole}
     for question in ("get_value", "get_property_names"):
         with monkeypatch.context() as patch:
             patch.setattr(answers, question, failing(getattr(answers, question), "/v30/density"))
@@ -84,17 +103,43 @@ def test_a_prim_that_can_not_be_read_keeps_no_other_back(
         assert besides(report, "/v30") == whole
 
 
+@pytest.mark.parametrize(
+    ("code", "question", "is_said"),
+    [("VOL012", "get_relationship", False), ("SCH007", "get_value", True)],
+)
+def test_what_is_left_out_of_a_stage_as_a_whole_is_said_under_any_rules(
+    code: str,
+    question: str,
+    is_said: bool,
+    catalog: Catalog,
+    lint: Callable[[], StageReport],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The Volume that can't be read may have targeted any of the fields."""
+    expected = [each for each in lint().findings if each.code == code]
+    assert expected
+    engine = Engine(catalog.rules, activate(Config(select=(code, "LNT")), catalog))
+    for asked in (question, "get_property_names"):
+        with monkeypatch.context() as patch:
+            patch.setattr(answers, asked, failing(getattr(answers, asked), "/v30"))
+            findings = engine.lint("stage.usda").findings
+        assert [each for each in findings if each.code == code] == (expected if is_said else [])
+        unread = [each.site.prim for each in findings if each.code == "LNT001"]
+        assert "/v30" in unread
+        assert set(unread) <= {"/v30", "/v30/density"}
+
+
 def besides(report: StageReport, prim: str) -> list[Finding]:
     """What a report says, but for a prim and those below it."""
     return [each for each in report.findings if not (each.site.prim or "").startswith(prim)]
 
 
-def failing(ask: Callable[[Any], Any], path: str) -> Callable[[Any], Any]:
+def failing(ask: Callable[..., Any], path: str) -> Callable[..., Any]:
     """A question to USD that raises for one prim and its attributes."""
 
-    def ask_or_fail(asked: Any) -> Any:
+    def ask_or_fail(asked: Any, *name: str) -> Any:
         if str(asked.GetPath()).startswith(path):
             Tf.RaiseRuntimeError("corrupt")
-        return ask(asked)
+        return ask(asked, *name)
 
     return ask_or_fail

@@ -408,6 +408,20 @@ def test_usd_fails_under_a_selection(lint: Lint, monkeypatch: pytest.MonkeyPatch
     assert "not a good layer" in report.findings[0].message
 
 
+def test_variants_that_can_not_be_read(lint: Lint, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the authored selections show stands."""
+
+    def fail(others: OtherSelections, selection: Any) -> None:
+        Tf.RaiseRuntimeError("not a good layer")
+
+    monkeypatch.setattr(OtherSelections, "_explore", fail)
+    looks = variant_set("look", a=volume("9"), b="", c="")
+    assert found(lint(stage=prim("model", looks, look="a"))) == [
+        ("LNT001", None, None),
+        ("AST002", "/model/v/d", "look=a"),
+    ]
+
+
 def test_what_sums_up_a_stage_is_not_said_again_for_each_selection(lint: Lint) -> None:
     """The same missing layer, now on two prims and now on one."""
     lib = prim(

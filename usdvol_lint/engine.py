@@ -32,8 +32,6 @@ from usdvol_lint.walk import Walk, assign, walk
 
 _LONGEST = 300
 _TOLD_AT_ONCE = 100
-_UNTOLD = 0.05
-"""For so many seconds further findings are kept back: to tell of each by itself takes its time."""
 
 
 def usd_version() -> str:
@@ -126,13 +124,13 @@ class Engine:
         )
 
     def _told(self, found: Iterable[_Found]) -> Iterator[_Found]:
+        """To tell of each by itself takes its time: of many, a tenth may be kept back."""
         untold: list[Finding] = []
-        told_at = 0.0
         for number, each in enumerate(found):
             untold.append(each.finding)
-            if number < _TOLD_AT_ONCE or time.perf_counter() - told_at > _UNTOLD:
+            if number < _TOLD_AT_ONCE or 10 * len(untold) > number:
                 self._tell(untold)
-                untold, told_at = [], time.perf_counter()
+                untold = []
             yield each
         if untold:
             self._tell(untold)
@@ -153,8 +151,8 @@ class Engine:
         self, others: OtherSelections, known: set[Identity], facts: Facts, sites: Sites
     ) -> Iterator[_Found]:
         """What only other variant selections show, each with the first that does."""
-        for selection in others:
-            for found in self._check_other(others, facts, sites):
+        for selection, error in others:
+            for found in self._check_other(error, facts, sites):
                 if found.identity not in known:
                     known.add(found.identity)
                     site = replace(found.finding.site, variant=selection)
@@ -162,17 +160,22 @@ class Engine:
         for left_out in others.not_checked():
             yield from self._stamp(NOT_CHECKED, left_out, sites)
 
-    def _check_other(self, others: OtherSelections, facts: Facts, sites: Sites) -> Iterator[_Found]:
-        try:
-            if others.error:
-                raise others.error
-            walked = walk(facts.stage, self._rules, facts.kinds)
-        except Tf.ErrorException as error:
+    def _check_other(
+        self, fault: Tf.ErrorException | None, facts: Facts, sites: Sites
+    ) -> Iterator[_Found]:
+        """What one selection shows, or why it can't be told."""
+        if not fault:
+            try:
+                walked = walk(facts.stage, self._rules, facts.kinds)
+            except Tf.ErrorException as error:
+                fault = error
+            else:
+                facts = facts.composed_anew(walked.kept, walked.clipped)
+                yield from self._check(walked, facts, sites)
+        if fault:
             failures = _Failures()
-            failures.add(NOT_CHECKED, facts.stage.GetPseudoRoot(), error)
+            failures.add(NOT_CHECKED, facts.stage.GetPseudoRoot(), fault)
             yield from failures.found(sites)
-        else:
-            yield from self._check(walked, facts.composed_anew(walked.kept, walked.clipped), sites)
 
     def _check(self, walked: Walk, facts: Facts, sites: Sites) -> Iterator[_Found]:
         failures = _Failures()
@@ -183,6 +186,8 @@ class Engine:
                     yield from self._stamp(rule, problem, sites)
             except Exception as error:
                 failures.add(rule, prim, error)
+        for prim, fault in facts.passed_over:
+            failures.add(NOT_CHECKED, prim, fault)
         yield from failures.found(sites)
 
     def _work(self, walked: Walk, facts: Facts) -> Iterator[tuple[Rule, Any]]:

@@ -21,15 +21,27 @@ class PackError(UsageError):
 def quoted(text: str) -> str:
     """Text between quotes as it stands, a backslash too; what can't be printed is escaped."""
     mark = '"' if "'" in text and '"' not in text else "'"
-    shown = text if text.isprintable() else "".join(map(_printable, text))
-    return f"{mark}{shown}{mark}"
+    return f"{mark}{printable(text)}{mark}"
 
 
-def _printable(letter: str) -> str:
-    if letter.isprintable():
-        return letter
-    is_byte = "\udc80" <= letter <= "\udcff"  # so Python keeps a byte that is no text
-    return f"\\x{ord(letter) - 0xDC00:02x}" if is_byte else repr(letter)[1:-1]
+def printable(text: str) -> str:
+    r"""Text from a stage as one visible line: what does not print is shown as `\x1b` or `\u202e`.
+
+    That covers control characters, line breaks, bidirectional overrides, invisible characters,
+    spaces that only look like one, and bytes that were never text (`\xff`).
+    """
+    return text if text.isprintable() else "".join(map(_visible, text))
+
+
+def _visible(char: str) -> str:
+    if char.isprintable():
+        return char
+    point = ord(char)
+    if 0xDC80 <= point <= 0xDCFF:  # a byte that Python could not decode in a file name
+        point -= 0xDC00
+    if point <= 0xFF:
+        return f"\\x{point:02x}"
+    return f"\\u{point:04x}" if point <= 0xFFFF else f"\\U{point:08x}"
 
 
 class Severity(IntEnum):

@@ -12,6 +12,7 @@ from pxr import Sdf, Tf, Usd
 from usdvol_lint.facts.clips import tells_of_clips
 from usdvol_lint.facts.files import LFS_SIGNATURE
 from usdvol_lint.facts.usd_errors import raw_words, without_grammar
+from usdvol_lint.model import quoted
 from usdvol_lint.paths import SUFFIXES, display
 from usdvol_lint.trouble import Unreadable
 
@@ -82,7 +83,7 @@ def _diagnose(path: str) -> bytes:
     except FileNotFoundError:
         if os.path.islink(path):
             target = os.readlink(path)
-            raise Unreadable(f"a symbolic link to {target!r}, which does not exist") from None
+            raise Unreadable(f"a symbolic link to {quoted(target)}, which does not exist") from None
         raise Unreadable("no such file or folder") from None
     except OSError as error:
         raise Unreadable(f"can't be read: {error.strerror or error}") from error

@@ -1,4 +1,4 @@
-"""What stands in a report for a stage that could not be checked."""
+"""What stands in a report for a stage that could not be checked, or not to its end."""
 
 from __future__ import annotations
 

@@ -69,7 +69,6 @@ class OtherSelections:
 
     def __init__(self, stage: Any, kinds: Kinds, limit: int) -> None:
         self.composed = 0
-        self.error: Tf.ErrorException | None = None
         self._stage = stage
         self._kinds = kinds
         self._limit = limit
@@ -80,13 +79,16 @@ class OtherSelections:
         self._composed_specs: set[VariantSpec] = set()
         self._out_of_reach: dict[frozenset[VariantSpec], str] = {}
 
-    def __iter__(self) -> Iterator[str]:
+    def __iter__(self) -> Iterator[tuple[str | None, Tf.ErrorException | None]]:
         """Each selection that shows or hides something of ours, as a path: `/model{look=thin}`.
 
-        The stage is composed that way until the next is asked for; where USD can't, `error` says
-        why.
+        The stage is composed that way until the next is asked for, or an error says why it can't
+        be; for that of no selection, it can't be told what there is to select.
         """
-        self._explore(Sdf.Path.absoluteRootPath)
+        try:
+            self._explore(Sdf.Path.absoluteRootPath)
+        except Tf.ErrorException as error:
+            yield None, error
         while self._waiting and self.composed < self._limit:
             choice = heappop(self._waiting)
             if not choice.is_repeated and choice.specs <= self._composed_specs:
@@ -99,10 +101,10 @@ class OtherSelections:
                 self._compose(choice.selection)
                 holders = self._explore(choice.selection)
             except Tf.ErrorException as error:
-                self.error, holders = error, {path}
-            if not choice.unknown or path in holders or self._may_lack(path):
-                yield str(choice.selection)
-            self.error = None
+                yield str(choice.selection), error
+            else:
+                if not choice.unknown or path in holders or self._may_lack(path):
+                    yield str(choice.selection), None
 
     def not_checked(self) -> Iterator[NotChecked]:
         """What iterating left out."""

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
+_MOST = 1000
+
 
 @rule("AST003", on="FieldAsset", when=file_paths(AssetState.PATTERN), severity=ERROR, since="0.1")
 def path_pattern(field: Prim, facts: Facts) -> Problems:
@@ -27,6 +29,7 @@ def _advice(path: str) -> str:
 
 def _time_samples(frames: Sequence[tuple[int, str]]) -> str:
     """The files that are there, as text to paste."""
-    samples = ", ".join(f"{number}: @{path}@" for number, path in frames)
+    samples = ", ".join(f"{number}: @{path}@" for number, path in frames[:_MOST])
+    samples += ", …" if len(frames) > _MOST else ""
     files = f"{len(frames)} files" if len(frames) > 1 else "1 file"
     return f"{files} found: author filePath.timeSamples = {{ {samples} }}"

@@ -1,6 +1,16 @@
 """FLD006: a default must not hide the animation of a field's file."""
 
-from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import (
+    WARNING,
+    Facts,
+    PathMark,
+    Prim,
+    Problem,
+    Problems,
+    file_paths,
+    quoted,
+    rule,
+)
 
 
 @rule("FLD006", on="FieldAsset", when=file_paths(PathMark.LAYERED), severity=WARNING, since="0.1")
@@ -8,8 +18,9 @@ def default_hides_animation(field: Prim, facts: Facts) -> Problems:
     hidden = facts.hidden_animation(field, "filePath")
     if hidden:
         paths = facts.assets(field, "filePath")
+        default = quoted(paths.samples[0].authored)
         yield Problem(
-            f"the default {paths.samples[0].authored!r} holds at all times and hides {hidden}",
+            f"the default {default} holds at all times and hides {hidden}",
             at=paths.attribute,
             suggestion="author time samples in its place, or remove it",
         )

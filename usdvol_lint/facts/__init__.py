@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -62,6 +62,9 @@ class Facts:
     many of a field's files are looked into, and `volume_files` has those of other stages; `times`
     says which time samples of particles are looked at, `statistics` whether to count in passing
     what `particle_field_stats` tells.
+    What is found of many prims in one go is kept in the columns of tables, what is found of one at
+    a time in `_found`; `passed_over` are prims that a fact about the stage as a whole does without,
+    because USD can't read them.
     Modules that need pxr are imported where they are used, so that the words rules are written in
     can be loaded where there is no pxr.
     """
@@ -89,6 +92,7 @@ class Facts:
         self._statistics = statistics
         self._ever_used: set[Any] = set()
         self._found: dict[Any, dict[str, Any]] = defaultdict(dict)
+        self.passed_over: list[tuple[Any, Exception]] = []
 
     def composed_anew(self, kept: Mapping[Key, Sequence[Any]], clipped: Sequence[Any]) -> Facts:
         """The facts of the same stage under another variant selection.
@@ -414,6 +418,8 @@ class Facts:
         volumes = self.of(schema.VOLUME)
         if not volumes or not unused or not self.composition.is_whole:
             return []
+        if not {prim for prim, _ in self.passed_over}.isdisjoint(volumes):
+            return []  # nobody knows what these target
         for volume in volumes:
             if not self.fields(volume).is_sound:
                 below = fields_below(volume, self.kinds)
@@ -447,10 +453,13 @@ class Facts:
         """What USD could not compose."""
         from usdvol_lint.facts.composition import read_composition
 
-        clipped = [table for table in self._tables.of(*schema.OURS) if table.authored.is_clipped]
-        clip_sets = dict.fromkeys(
-            found for table in clipped for prim in table.prims for found in self.clip_sets(prim)
-        )
+        clipped: list[Any] = []
+        for table in self._tables.of(*schema.OURS):
+            if table.fault:
+                self._pass_over(table.prims[0], table.fault)
+            elif table.authored.is_clipped:
+                clipped += table.prims
+        clip_sets = dict.fromkeys(found for prim in clipped for found in self.clip_sets(prim))
         return read_composition(self.stage, clip_sets)
 
     def grid_changes(self, field: Any) -> GridChanges | None:
@@ -463,9 +472,16 @@ class Facts:
             return None
         from usdvol_lint.facts.changes import find_grid_changes
 
-        others = self._readable(":contents", schema.FIELD_ASSET)
-        sharing = [prim for prim, other in others if other.files == contents.all.files]
+        sharing = self._sharing[tuple(contents.all.files)]
         return find_grid_changes(list(map(self.contents, sharing))) if sharing[0] == field else None
+
+    @cached_property
+    def _sharing(self) -> Mapping[Hashable, list[Any]]:
+        """The fields that name the same files at the same times."""
+        found: dict[Hashable, list[Any]] = defaultdict(list)
+        for prim, contents in self._readable(":contents", schema.FIELD_ASSET):
+            found[tuple(contents.files)].append(prim)
+        return found
 
     @cached_property
     def _asset_reader(self) -> AssetReader:
@@ -535,20 +551,27 @@ class Facts:
         return Tables(self._kept, self.kinds, self._authored_reader)
 
     def _read(self, name: str, table: Table) -> Sequence[Any]:
-        """Finds what is kept under a name for each prim of a table."""
-        if name == ":claims":
-            return self._claim_reader.read(table.usd, table.authored)
-        if name == ":contents":
-            paths, claims = self.each(table, "filePath"), self.each(table, ":claims")
-            return self._content_reader.read(paths, claims, table.authored)
-        if name == ":bound":
-            live = self._tables.fields
-            return self._binding_reader.read_many(table.usd, table.authored, live, self._may_lack)
-        if name == ":limits":
-            from usdvol_lint.facts.extents import read_limits
+        """Finds what is kept under a name for each prim of a table.
 
-            return read_limits(table.usd)
-        return self._asset_reader.read(table.usd, name)
+        Under the name of an attribute, that is what the asset paths in its values lead to.
+        """
+        usd, authored = table.usd, table.authored
+        match name:
+            case ":claims":
+                return self._claim_reader.read(usd, authored)
+            case ":contents":
+                paths, claims = self.each(table, "filePath"), self.each(table, ":claims")
+                return self._content_reader.read(paths, claims, authored)
+            case ":bound":
+                fields = self._tables.fields
+                return self._binding_reader.read_many(usd, authored, fields, self._may_lack)
+            case ":limits":
+                from usdvol_lint.facts.extents import read_limits
+
+                return read_limits(usd)
+            case _ if not name.startswith(":"):
+                return self._asset_reader.read(usd, name)
+        raise KeyError(name)
 
     def _may_lack(self, prim: Any) -> bool:
         return self.composition.may_lack(prim)
@@ -578,9 +601,12 @@ class Facts:
         return Counter(place for _, bound in volumes for place in bound.fields)
 
     def _readable(self, name: str, *schemas: str) -> Iterator[tuple[Any, Any]]:
-        """The prims that answer to a schema, with a fact of each; rules tell of unreadable ones."""
+        """The prims that answer to a schema, with a fact of each; others are `passed_over`."""
         for table in self._tables.of(*schemas):
-            yield from table.readable(name, self._read)
+            yield from table.readable(name, self._read, self._pass_over)
+
+    def _pass_over(self, prim: Any, error: Exception) -> None:
+        self.passed_over.append((prim, error))
 
     @cached_property
     def _field_names(self) -> FieldNames:

@@ -224,10 +224,10 @@ def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:
     for spec in specs:
         if count := spec.layer.GetNumTimeSamplesForPath(spec.path):
             samples = "time sample" if count == 1 else f"{count} time samples"
-            return f"the {samples} in {spec.layer.GetDisplayName()!r}"
+            return f"the {samples} in {quoted(spec.layer.GetDisplayName())}"
     for clip_set in clips:
         if clip_set.is_outranked_by(held.spec) and clip_set.layer_with_samples(attribute):
-            return f"the value clips {clip_set.name!r} on <{shown(clip_set.prim).path}>"
+            return f"the value clips {quoted(clip_set.name)} on <{shown(clip_set.prim).path}>"
     return None
 
 

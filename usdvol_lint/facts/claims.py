@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,9 +64,9 @@ class ClaimReader:
 
     def read(self, usd: Answers, authored: Authored) -> list[FieldClaims]:
         """What many fields say that are alike."""
-        names = [name for name in _ATTRIBUTES if name in authored.declared]
+        names = tuple(name for name in _ATTRIBUTES if name in authored.declared)
         if not names:
-            return [self._constant(())] * len(usd.prims)
+            return [self._constant((), ())] * len(usd.prims)
         values = zip(*map(usd.values, names), strict=True)
         counts = zip(*map(usd.counts, names), strict=True)
         found = []
@@ -74,14 +74,14 @@ class ClaimReader:
             if any(are_animated):
                 found.append(self._read_changing([field.GetAttribute(name) for name in names]))
             else:
-                found.append(self._constant(zip(names, said, strict=True)))
+                found.append(self._constant(names, said))
         return found
 
-    def _constant(self, said: Iterable[tuple[str, Any]]) -> FieldClaims:
-        key = tuple(said)
+    def _constant(self, names: tuple[str, ...], said: tuple[Any, ...]) -> FieldClaims:
+        key = (names, said, *map(type, said))  # to a dictionary 1, 1.0 and True are the same
         found = self._unchanging.get(key)
         if found is None:
-            claim = self._claim({_ATTRIBUTES[name]: value for name, value in key})
+            claim = self._claim(dict(zip(map(_ATTRIBUTES.__getitem__, names), said, strict=True)))
             found = self._unchanging[key] = FieldClaims(claim)
         return found
 
@@ -103,9 +103,5 @@ class ClaimReader:
 
     def _claim(self, said: dict[str, Any]) -> Claim:
         """The claim of these values, the same one for the same values."""
-        key = tuple(said.items())
-        claim = self._claims.get(key)
-        if claim is None:
-            given: Any = {name: value for name, value in key if isinstance(value, _TYPES[name])}
-            claim = self._claims[key] = Claim(**given)
-        return claim
+        given: Any = {name: value for name, value in said.items() if type(value) is _TYPES[name]}
+        return self._claims.setdefault(tuple(given.items()), Claim(**given))

@@ -189,6 +189,8 @@ class BindingReader:
         plain = frozenset(marks)
         columns = [_below(usd.relationships(name), usd.paths, live) for name in authored.bound]
         fields = list(zip(*columns, strict=True)) if columns else [(None,)] * len(usd.prims)
+        if len(columns) > 1:  # two relationships may target one field
+            fields = [tuple(dict.fromkeys(own)) for own in fields]
         for name in authored.strange:
             for row, relationship in enumerate(usd.relationships(name)):
                 if relationship:

@@ -77,7 +77,7 @@ class Files:
                 return self._absence_of_package(package, authored)
             similar = None if corrected else self._nearest(package, inner)
             corrected = _with_end(authored, inner, similar) if similar else corrected
-            return Absence(f" in {os.path.basename(package)!r}", corrected)
+            return Absence(f" in {quoted(os.path.basename(package))}", corrected)
         missing = _first_missing(path)
         folder, name = os.path.split(missing)
         rest = path[len(missing) :]
@@ -88,7 +88,7 @@ class Files:
             corrected = _with_end(authored, name + rest, similar + rest if whole else similar)
         if os.path.islink(missing):
             return Absence(f": {_broken_link(missing)}", corrected)
-        return Absence(f": no folder {shown!r}" if rest else "", corrected)
+        return Absence(f": no folder {quoted(shown)}" if rest else "", corrected)
 
     def _absence_of_package(self, package: str, authored: str) -> Absence:
         shown, inner = Ar.SplitPackageRelativePathOuter(authored)
@@ -239,8 +239,8 @@ def _broken_link(path: str) -> str:
         os.stat(path)
     except OSError as error:
         if error.errno == errno.ELOOP:
-            return f"a symbolic link to {target!r} that leads round in a circle"
-    return f"a symbolic link to {target!r}, which does not exist"
+            return f"a symbolic link to {quoted(target)} that leads round in a circle"
+    return f"a symbolic link to {quoted(target)}, which does not exist"
 
 
 def _with_end(path: str, end: str, replacement: str) -> str:

@@ -24,7 +24,7 @@ class Kinds:
         self.knows_particle_fields = is_registered(schema.PARTICLE_FIELD)
         self._fallbacks = fallbacks or {}
         self._names: dict[Key, frozenset[str]] = {}
-        self._as_written: dict[tuple[str, Key, Key], Key] = {}
+        self._known_keys: dict[tuple[str, Key, Key], Key] = {}
 
     def key(self, prim: Any) -> Key:
         """What prims of one kind share."""
@@ -36,7 +36,7 @@ class Kinds:
         applied = map(get_applied, prims)
         if self.knows_particle_fields:
             return [(name, *apis) for name, apis in zip(types, applied, strict=True)]
-        known = self._as_written
+        known = self._known_keys
         said = zip(types, map(tuple, applied), map(raw_apis, prims), strict=True)
         return [known[each] if each in known else self._with_ours(*each) for each in said]
 
@@ -48,7 +48,7 @@ class Kinds:
         ours = tuple(name for name in written if name in schema.API_INCLUDES)
         built_in = schema.BUILT_IN_APIS.get(type_name, ())
         key = (type_name, *applied, *schema.expand_apis(built_in + ours))
-        self._as_written[type_name, applied, written] = key
+        self._known_keys[type_name, applied, written] = key
         return key
 
     def names(self, key: Key) -> frozenset[str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from usdvol_lint.facts.assets import AssetSamples, Sample
 from usdvol_lint.facts.held import Held, Time
 from usdvol_lint.facts.states import AssetState
+from usdvol_lint.model import quoted
 
 _KNOWN = frozenset({AssetState.FILE, AssetState.UNVERIFIABLE})
 _FILES_NAMED = 3
@@ -27,7 +28,7 @@ class MixedFiles:
     @property
     def shown(self) -> str:
         """As in `'./cloud.vdb' (density, temperature) and './smoke.vdb' (velocity)`."""
-        named = [f"{file!r} ({', '.join(fields)})" for file, fields in self.fields.items()]
+        named = [f"{quoted(file)} ({', '.join(fields)})" for file, fields in self.fields.items()]
         if len(named) > _FILES_NAMED:
             named[_FILES_NAMED - 1 :] = [f"{len(named) - _FILES_NAMED + 1} more"]
         return f"{', '.join(named[:-1])} and {named[-1]}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import repeat
 from typing import Any, NamedTuple
 
 from pxr import Usd
@@ -34,18 +33,20 @@ class Nesting:
 
     def above(self, prim: Any) -> Any | None:
         """The nearest Gprim among the ancestors, those of the instances of a prototype too."""
-        parent = get_parent(prim)
-        found = self._at_or_above.get(parent, _UNKNOWN)
+        return self._from(get_parent(prim))
+
+    def _from(self, prim: Any) -> Any | None:
+        """The nearest Gprim from a prim upwards."""
+        found = self._at_or_above.get(prim, _UNKNOWN)
         if found is _UNKNOWN:
-            found = self._at_or_above[parent] = self._find_at_or_above(parent)
+            found = self._at_or_above[prim] = self._find_at_or_above(prim)
         return found
 
     def are_likely(self, usd: Answers) -> list[bool]:
-        """Whether there is a Gprim above, or below, if only one that speaks for itself."""
-        above = map(self._at_or_above.get, usd.parents, repeat(_UNKNOWN))
+        """Whether there is a Gprim above or below, Volumes and particle fields counted too."""
         return [
-            bool(self.above(prim) if found is _UNKNOWN else found) or self._hold_gprims(children)
-            for prim, found, children in zip(usd.prims, above, usd.children, strict=True)
+            bool(self._from(parent)) or self._hold_gprims(children)
+            for parent, children in zip(usd.parents, usd.children, strict=True)
         ]
 
     def below(self, prim: Any) -> Iterator[Nested]:

@@ -17,7 +17,7 @@ from pxr import Ar
 from usdvol_lint.facts.assets import Affected, AssetSamples, Sample
 from usdvol_lint.facts.opinions import is_from_clips, opinion
 from usdvol_lint.facts.states import AssetState
-from usdvol_lint.model import format_time
+from usdvol_lint.model import format_time, quoted
 
 _DIGITS = re.compile(r"([0-9]+)")
 _NUMBERS = (re.compile(r"-?[0-9]+"), re.compile(r"-?[0-9]+\.[0-9]+"))  # the latter: sub-frames
@@ -64,7 +64,8 @@ class Missing(NamedTuple):
         if self.found is None:
             return "add the samples, or write the frames that are missing"
         if not self.found:
-            return f"there is no file {self.paths[0]!r} either: write the frames that are missing"
+            absent = quoted(self.paths[0])
+            return f"there is no file {absent} either: write the frames that are missing"
         samples = ", ".join(f"{format_time(time)}: @{path}@" for time, path in self.found[:_SHOWN])
         more = ", …" if len(self.found) > _SHOWN else ""
         there = f"{len(self.found)} of {len(self.times)} files are there"

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from usdvol_lint import schema
 from usdvol_lint.facts.answers import Answers
@@ -16,10 +16,12 @@ from usdvol_lint.facts.usd_calls import get_path
 if TYPE_CHECKING:
     from usdvol_lint.facts.attributes import Authored, AuthoredReader, Shape
 
-_T = TypeVar("_T")
-
 _MOST_PRIMS = 1024
 """So many are asked one question after the other: then what is found of them is cached."""
+
+
+class NotTogetherError(Exception):
+    """Of one of some prims it is known that something can't be read: ask for each by itself."""
 
 
 class Table:
@@ -28,14 +30,15 @@ class Table:
     `usd` gives USD's answers about them; what is found of them is kept by name.
     """
 
-    __slots__ = ("_alone", "_authored", "_columns", "_failed", "usd")
+    __slots__ = ("_alone", "_authored", "_columns", "_failed", "_place", "usd")
 
     def __init__(self, usd: Answers, authored: Authored | Exception) -> None:
         self.usd = usd
         self._columns: dict[str, Sequence[Any]] = {}
         self._authored = authored
+        self._place = authored.__traceback__ if isinstance(authored, Exception) else None
         self._alone: dict[int, Table] = {}
-        self._failed: dict[str, Exception] = {}
+        self._failed: set[str] = set()
 
     @property
     def prims(self) -> Sequence[Any]:
@@ -45,26 +48,25 @@ class Table:
     def authored(self) -> Authored:
         """What is authored on them; raises what USD raised where it can't be read."""
         if isinstance(self._authored, Exception):
-            raise self._authored
+            raise self._authored.with_traceback(self._place)  # else it grows each time
         return self._authored
 
     @property
-    def is_readable(self) -> bool:
-        return not isinstance(self._authored, Exception)
+    def fault(self) -> Exception | None:
+        """Why what is authored on them can't be read."""
+        return self._authored if isinstance(self._authored, Exception) else None
 
     def column(self, name: str, read: Read) -> Sequence[Any]:
         """What is kept under a name, of each prim; raises where that of one can't be read."""
         if name not in self._columns:
             if name in self._failed:
-                raise self._failed[name]
+                raise NotTogetherError
             try:
-                found = read(name, self)
-            except Exception as error:
+                self._columns[name] = read(name, self)
+            except Exception:
                 if len(self.prims) > 1:
-                    self._failed[name] = error
-                    raise
-                found = _again(lambda: read(name, self))
-            self._columns[name] = found
+                    self._failed.add(name)
+                raise
         return self._columns[name]
 
     def cell(self, row: int, name: str, read: Read) -> Any:
@@ -76,14 +78,17 @@ class Table:
                 raise
             return self.alone(row).column(name, read)[0]
 
-    def readable(self, name: str, read: Read) -> Iterator[tuple[Any, Any]]:
+    def readable(
+        self, name: str, read: Read, pass_over: Callable[[Any, Exception], None]
+    ) -> Iterator[tuple[Any, Any]]:
         """The prims with what is kept under a name, without those of which it can't be read."""
         try:
             found = self.column(name, read)
-        except Exception:
-            if len(self.prims) > 1:
-                for row in range(len(self.prims)):
-                    yield from self.alone(row).readable(name, read)
+        except Exception as error:
+            if len(self.prims) == 1:
+                return pass_over(self.prims[0], error)
+            for row in range(len(self.prims)):
+                yield from self.alone(row).readable(name, read, pass_over)
         else:
             yield from zip(self.prims, found, strict=True)
 
@@ -143,11 +148,11 @@ class Tables:
         return self._chunks[key]
 
     def of(self, *schemas: str) -> Iterator[Table]:
-        """The tables of all prims that answer to one of these schemas and can be read."""
+        """The tables of all prims that answer to one of these schemas."""
         for key, chunks in self._chunks.items():
             if not self._kinds.names(key).isdisjoint(schemas):
                 for chunk in chunks:
-                    yield from (table for table in self.tables(chunk) if table.is_readable)
+                    yield from self.tables(chunk)
 
     def tables(self, chunk: Chunk) -> list[Table]:
         """The prims of a chunk in tables."""
@@ -201,11 +206,20 @@ class Tables:
         except Exception:
             if len(prims) > 1:
                 return [table for prim in prims for table in self._form((prim,))]
-            try:
-                return _again(lambda: list(self._alike(Answers(prims))))
-            except Exception as error:
-                return [Table(Answers(prims), error)]
+            return [self._again(prims)]
         return self._last
+
+    def _again(self, prims: Sequence[Any]) -> Table:
+        """The table of one prim that could not be read the first time.
+
+        USD raises once for a manifest of value clips that it can't open; from then on it goes
+        without, and the manifest is a finding by itself.
+        """
+        try:
+            (table,) = self._alike(Answers(prims))
+        except Exception as error:
+            return Table(Answers(prims), error)
+        return table
 
     def _alike(self, usd: Answers) -> Iterator[Table]:
         key = self._kinds.key(usd.prims[0])
@@ -218,14 +232,6 @@ class Tables:
             rows[shape].append(row)
         for shape, some in rows.items():
             yield Table(usd.of(some), self._authored.read(usd.prims[some[0]], key, shape))
-
-
-def _again(read: Callable[[], _T]) -> _T:
-    """Reads what could not be read: USD raises once for a layer that it can't open for a value.
-
-    From then on it goes without it, and the layer is a finding by itself.
-    """
-    return read()
 
 
 def _chunks(prims: Sequence[Any]) -> Iterator[Chunk]:

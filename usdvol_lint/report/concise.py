@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from os.path import normpath
 from pathlib import Path
 
-from usdvol_lint.model import Finding, Report, Site, StageReport
+from usdvol_lint.model import Finding, Report, Site, StageReport, printable
 from usdvol_lint.report import Options
-from usdvol_lint.report.plain import paint, printable
+from usdvol_lint.report.plain import paint
 from usdvol_lint.report.text import SEVERITY_STYLES, place
 
 

@@ -6,9 +6,18 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 
-from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status, Summary
+from usdvol_lint.model import (
+    Finding,
+    Report,
+    Severity,
+    Site,
+    StageReport,
+    Status,
+    Summary,
+    printable,
+)
 from usdvol_lint.report import Options
-from usdvol_lint.report.plain import paint, printable
+from usdvol_lint.report.plain import paint
 
 SEVERITY_STYLES = {
     Severity.ERROR: "bold red",
