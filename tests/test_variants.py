@@ -500,11 +500,13 @@ def test_a_variant_with_an_unreadable_clip_keeps_no_other_back(lint: Lint) -> No
         "asset[] assetPaths = [@./cut.usda@]\n"
         "double2[] active = [(0, 0)]\ndouble2[] times = [(0, 0)] } } ) {\n}"
     )
-    sets = variant_set("look", a="", b=clips, c=field("gone", "e"))
+    library = f'class Volume "library" {clips}\n'
+    sets = variant_set("look", a="", b=clips, c=field("gone", "e"), d=library + field("2", "e"))
     stage = prim("b", sets, inside=volume("1"), look="a")
     report = lint(stage=stage, cut="def (")
     assert sorted(found(report)) == [
         ("AST002", "/b/e", "/b{look=c}"),
         ("STG001", "/b", "/b{look=b}"),
         ("VOL012", "/b/e", "/b{look=c}"),
+        ("VOL012", "/b/e", "/b{look=d}"),
     ]

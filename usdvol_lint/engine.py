@@ -20,6 +20,7 @@ from usdvol_lint.catalog import (
 from usdvol_lint.config import ActiveRules
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.kinds import Kinds
+from usdvol_lint.facts.usd_errors import without_grammar
 from usdvol_lint.model import Finding, Severity, StageReport, Status, with_fingerprints
 from usdvol_lint.paths import display
 from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
@@ -283,7 +284,7 @@ class _Failures:
 
 
 def _usd_failed(error: Exception) -> str:
-    said = " ".join("; ".join(in_usds_words(error)).split())
+    said = "; ".join(map(without_grammar, in_usds_words(error)))
     return f"USD can't read what is here: {said}"[:_LONGEST]
 
 

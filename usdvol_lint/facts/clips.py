@@ -13,6 +13,7 @@ from usdvol_lint.facts.answers import Answers
 from usdvol_lint.facts.usd_errors import raw_words
 
 _CLIPS_LOOKED_AT = 4
+_ALL = Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,9 +115,7 @@ def tells_of_clips(error: Any, stage: Any) -> bool:
     """
     words: set[str] = set()
     with_clips = (
-        prim
-        for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies())
-        if prim.HasAuthoredMetadata("clips")
+        prim for prim in Usd.PrimRange.Stage(stage, _ALL) if prim.HasAuthoredMetadata("clips")
     )
     for clip_set in chain.from_iterable(map(clip_sets_on, with_clips)):
         for clip in filter(None, (asset.resolvedPath for asset in clip_set.clips)):
