@@ -118,7 +118,9 @@ class Engine:
             found += self._told(self._check_others(others, known, facts, sites))
             stats["variant_selections"] = others.composed
             clock.lap("variants")
-        findings = with_fingerprints(each.finding for each in found)
+        findings = with_fingerprints(
+            each.finding for each in found if not each.holds or each.holds()
+        )
         clock.lap("check")
         return StageReport(
             display(path), Status.CHECKED, stats, findings, clock.seconds, particle_fields
@@ -157,7 +159,7 @@ class Engine:
                 if found.identity not in known:
                     known.add(found.identity)
                     site = replace(found.finding.site, variant=selection)
-                    yield _Found(replace(found.finding, site=site), found.identity)
+                    yield found._replace(finding=replace(found.finding, site=site))
         for left_out in others.not_checked():
             yield from self._stamp(NOT_CHECKED, left_out, sites)
 
@@ -218,7 +220,8 @@ class Engine:
             suggestion=problem.suggestion,
             help=help_for(code),
         )
-        yield _Found(finding, identity(rule, problem) if self._selections else ())
+        known_by = identity(rule, problem) if self._selections else ()
+        yield _Found(finding, known_by, getattr(problem, "holds", None))
 
 
 class _Found(NamedTuple):
@@ -226,6 +229,7 @@ class _Found(NamedTuple):
 
     finding: Finding
     identity: Identity
+    holds: Callable[[], bool] | None = None
 
 
 @dataclass(slots=True)

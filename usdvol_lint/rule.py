@@ -69,6 +69,7 @@ class Problem:
     `times` are time codes of the stage; `at_default` adds USD's default time.
     `asset` is an asset path, as authored, that stands in the layer where the line should point.
     `severity` may lower the rule's own for a milder case, never raise it.
+    `holds` is asked when all of the stage was looked at, other variant selections too.
     """
 
     message: str
@@ -80,6 +81,7 @@ class Problem:
     spec: Any = None
     asset: str | None = None
     severity: Severity | None = None
+    holds: Callable[[], bool] | None = None
 
 
 @dataclass(frozen=True, slots=True)

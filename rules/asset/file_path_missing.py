@@ -22,8 +22,10 @@ def file_path_missing(field: Prim, facts: Facts) -> Problems:
         return
     if paths.of(AssetState.EMPTY):
         message = "filePath is empty"
+    elif paths.samples:
+        message = "filePath is blocked"
     else:
-        message = "filePath is blocked" if paths.samples else "no filePath"
+        message = "filePath has no value" if paths.attribute.IsAuthored() else "no filePath"
     yield Problem(
         message, at=paths.attribute, suggestion="author the path of the file that holds the field"
     )

@@ -9,5 +9,6 @@ def field_unused(root: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"no Volume of this stage targets the field {field.GetName()!r}",
             at=field,
+            holds=facts.stays_unused(field),
             suggestion=f"bind it with 'rel field:{field.GetName()}' on a Volume, or remove it",
         )

@@ -16,7 +16,7 @@ from usdvol_lint.rule import (
 @rule(
     "VOL003",
     on="Volume",
-    when=bindings(Emptiness.UNAUTHORED, Emptiness.BLOCKED, Emptiness.DELETED),
+    when=bindings(Emptiness.UNAUTHORED, Emptiness.BLOCKED, Emptiness.DELETED, Emptiness.CIRCULAR),
     severity=WARNING,
     since="0.1",
 )
@@ -29,6 +29,13 @@ def relationship_empty(volume: Prim, facts: Facts) -> Problems:
                 f"'field:{binding.name}' has no target{behind}",
                 at=binding.property,
                 suggestion=f"did you mean <{meant}>?" if meant else "name a field, or remove it",
+            )
+        elif binding.emptiness is Emptiness.CIRCULAR:
+            yield Problem(
+                f"'field:{binding.name}' forwards to <{binding.forwards_to}>, which leads round in "
+                "a circle",
+                at=binding.property,
+                suggestion="target a field",
             )
         elif binding.emptiness in (Emptiness.BLOCKED, Emptiness.DELETED):
             yield Problem(

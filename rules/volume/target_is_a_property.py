@@ -7,8 +7,12 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState,
 def target_is_a_property(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.fields(volume).with_target(TargetState.PROPERTY):
         meant = facts.meant_field(binding)
+        if meant and target.shown.startswith(f"{meant}."):
+            suggestion = f"target the prim <{meant}>"
+        else:
+            suggestion = f"did you mean <{meant}>?" if meant else "target the field prim"
         yield Problem(
             f"'field:{binding.name}' targets the property <{target.shown}>, not a field prim",
             at=binding.property,
-            suggestion=f"target the prim <{meant}>" if meant else "target the field prim",
+            suggestion=suggestion,
         )

@@ -427,6 +427,11 @@ class Facts:
                 unused.difference_update(map(self._meant_path, self.fields(volume).bindings))
         return [self.stage.GetPrimAtPath(path) for path in sorted(unused)]
 
+    def stays_unused(self, field: Any) -> Callable[[], bool]:
+        """Asks, once more variant selections were looked at, whether none of them uses a field."""
+        path, ever_used = field.GetPath(), self._ever_used
+        return lambda: path not in ever_used
+
     @cached_property
     def without_extent(self) -> list[Any]:
         """The Volumes and particle fields that have no bounds to USD, by their paths."""
@@ -580,7 +585,8 @@ class Facts:
         from usdvol_lint.facts.fields import meant_path
 
         path = meant_path(binding)
-        return self._field_names.nearest(path) if path else None
+        volume = binding.property.GetPrim().GetPath()
+        return self._field_names.nearest(path, volume) if path else None
 
     @cached_property
     def enclosure(self) -> Enclosure:
@@ -612,7 +618,7 @@ class Facts:
     def _field_names(self) -> FieldNames:
         from usdvol_lint.facts.fields import FieldNames
 
-        return FieldNames(self.of(schema.FIELD))
+        return FieldNames(self.of(schema.FIELD), self.of(schema.VOLUME))
 
     @cached_property
     def _authored_reader(self) -> AuthoredReader:

@@ -199,7 +199,7 @@ class AssetReader:
         if count:
             samples = tuple(self._classified(attribute))
             return AssetSamples(attribute, samples, frozenset(each.state for each in samples))
-        if value is None and not (attribute.IsAuthored() or attribute.HasAuthoredValue()):
+        if value is None and not attribute.GetResolveInfo().ValueIsBlocked():
             return AssetSamples(attribute, (), frozenset())
         alone = (_classify(attribute, None, value, self._files),)
         if alone[0].state is AssetState.FILE and _FORMAT_ARGUMENTS not in alone[0].path:

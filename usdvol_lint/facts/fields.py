@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from pxr import Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.answers import Answers
@@ -281,17 +281,19 @@ def fields_below(volume: Any, kinds: Kinds) -> list[Any]:
 class FieldNames:
     """Finds the field prim that a path was probably meant for."""
 
-    def __init__(self, fields: Iterable[Any]) -> None:
+    def __init__(self, fields: Iterable[Any], volumes: Iterable[Any]) -> None:
+        self._volumes = frozenset(volume.GetPath() for volume in volumes)
         self._by_name: dict[str, list[Any]] = defaultdict(list)
         self._by_parent: dict[Any, dict[str, Any]] = defaultdict(dict)
         for path in sorted(field.GetPath() for field in fields):
             self._by_name[path.name].append(path)
             self._by_parent[path.GetParentPath()][path.name] = path
 
-    def nearest(self, path: Any) -> Any | None:
+    def nearest(self, path: Any, volume: Any) -> Any | None:
         """A sibling of nearly the same name, or the closest field of exactly that name.
 
-        None where two are equally close: a guess would send people the wrong way.
+        None where two are equally close: a guess would send people the wrong way; and no field of
+        that name below another Volume than that at the path `volume`.
         """
         siblings = self._by_parent.get(path.GetParentPath(), {})
         sibling = nearest_word(path.name, siblings, cutoff=0.7, fold=str)
@@ -303,7 +305,10 @@ class FieldNames:
         for other in namesakes[max(place - 2, 0) : place + 2]:
             shared[path.GetCommonPrefix(other).pathElementCount].append(other)
         closest = shared[max(shared)] if shared else []
-        return closest[0] if len(closest) == 1 else None
+        if len(closest) != 1:
+            return None
+        above = {volume, *closest[0].GetPrefixes()} & self._volumes
+        return closest[0] if above <= {volume} else None
 
 
 def meant_path(binding: Binding) -> Any | None:
@@ -346,12 +351,15 @@ def _why_empty(relationship: Any) -> tuple[Emptiness, tuple[Any, ...]]:
         # It forwards to another relationship, and that one is empty: its emptiness counts.
         seen.add(relationship.GetPath())
         relationship = relationship.GetStage().GetRelationshipAtPath(targets[0])
-        if not relationship or relationship.GetPath() in seen:
+        if not relationship:
             return Emptiness.UNAUTHORED, ()
+        if relationship.GetPath() in seen:
+            return Emptiness.CIRCULAR, ()
     lost: list[Any] = []
     emptiness = Emptiness.UNAUTHORED
     deleted: set[str] = set()
-    for spec in relationship.GetPropertyStack():
+    specs = relationship.GetPropertyStack()  # weaker ones may be of an attribute
+    for spec in (spec for spec in specs if isinstance(spec, Sdf.RelationshipSpec)):
         targets = spec.targetPathList
         deleted.update(path.name for path in targets.deletedItems)
         held = [path for path in targets.GetAddedOrExplicitItems() if path.name not in deleted]

@@ -113,5 +113,7 @@ class Emptiness(Enum):
     """Explicitly no target: `= None` or `= []`."""
     DELETED = auto()
     """A list operation took the targets away."""
+    CIRCULAR = auto()
+    """It forwards to another relationship, and that one back to it."""
     LOST = auto()
     """Specs hold targets, composition dropped them."""
