@@ -363,6 +363,21 @@ def test_a_clip_that_can_not_be_read(lint_text: Lint, tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("", "no filePath"),
+        ("asset filePath", "filePath has no value"),
+        ("asset filePath = None", "filePath is blocked"),
+        ("asset filePath = @@", "filePath is empty"),
+    ],
+)
+def test_ways_to_name_no_file(path: str, message: str, lint_text: Lint) -> None:
+    assert said(lint_text(volume(path))) == [
+        f"AST001 {message} -> author the path of the file that holds the field"
+    ]
+
+
 @pytest.mark.parametrize("others", ["", 'def OpenVDBAsset "other"\n{\n}\n'])
 def test_a_manifest_that_can_not_be_read_is_one_finding(
     others: str, lint_text: Lint, tmp_path: Path

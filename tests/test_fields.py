@@ -154,3 +154,56 @@ def Volume "two" {{
     assert lint(text) == [
         ("VOL001", "'field:density' targets </gone/density>, and there is no such prim", None)
     ]
+
+
+@pytest.mark.parametrize(
+    ("target", "code", "message", "suggestion"),
+    [
+        (
+            "/cloud.one",
+            "VOL003",
+            "'field:density' forwards to </cloud.one>, which leads round in a circle",
+            "target a field",
+        ),
+        (
+            "/cloud/density.filePath",
+            "VOL001",
+            "'field:density' targets </cloud/density.filePath>, and there is no such prim",
+            None,
+        ),
+        (
+            "/other/density.filePath",
+            "VOL005",
+            "'field:density' targets the property </other/density.filePath>, not a field prim",
+            "target the prim </other/density>",
+        ),
+    ],
+)
+def test_targets_that_lead_astray(
+    target: str, code: str, message: str, suggestion: str | None, lint: Lint
+) -> None:
+    """A field of the same name below another Volume is that Volume's, and no suggestion."""
+    text = f"""
+def Volume "cloud" {{
+    rel field:density = <{target}>
+    rel one = </cloud.two>
+    rel two = </cloud.one>
+}}
+def Volume "other" {{
+    rel field:density = </other/density>
+    {FIELD.format(name="density")}
+}}
+"""
+    assert lint(text) == [(code, message, suggestion)]
+
+
+def test_a_relationship_over_an_attribute_of_the_same_name(lint: Lint) -> None:
+    text = """
+class "_old" {
+    custom string field:density = "density"
+}
+def Volume "cloud" (inherits = </_old>) {
+    rel field:density
+}
+"""
+    assert lint(text) == [("VOL003", "'field:density' has no target", "name a field, or remove it")]

@@ -422,6 +422,17 @@ def test_variants_that_can_not_be_read(lint: Lint, monkeypatch: pytest.MonkeyPat
     ]
 
 
+@pytest.mark.parametrize("selections", [0, LIMIT])
+def test_a_field_that_another_variant_uses_is_not_unused(selections: int, lint: Lint) -> None:
+    """Whichever of them is selected; and one that none uses is said once."""
+    fields = "".join(field("1", name) for name in ("thin", "thick", "none"))
+    bind = {name: f"rel field:density = </cloud/{name}>\n" for name in ("thin", "thick")}
+    cloud = prim("cloud", variant_set("look", **bind), inside=fields, look="thin")
+    report = lint(selections, stage=cloud.replace("def Xform", "def Volume"))
+    unused = ["/cloud/none"] if selections else ["/cloud/none", "/cloud/thick"]
+    assert [each.site.prim for each in report.findings if each.code == "VOL012"] == unused
+
+
 def test_what_sums_up_a_stage_is_not_said_again_for_each_selection(lint: Lint) -> None:
     """The same missing layer, now on two prims and now on one."""
     lib = prim(
