@@ -21,7 +21,7 @@ from usdvol_lint.config import Config, activate
 from usdvol_lint.engine import Engine
 from usdvol_lint.facts.enclosure import Enclosure
 from usdvol_lint.facts.extents import Limits
-from usdvol_lint.facts.placement import AT_REST, IDENTITY, read_placement
+from usdvol_lint.facts.placement import AT_REST, IDENTITY, Placement, read_placements
 from usdvol_lint.model import Finding
 from usdvol_lint.volumefile import Grid, read_volume_file
 from usdvol_lint.volumefile.transform import Frustum, Transform, rows, scale_translate
@@ -38,6 +38,11 @@ TURN = (0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
 MOVED = Gf.Matrix4d(1).SetRotate(Gf.Rotation((1, 2, 3), 40)) * Gf.Matrix4d(1).SetTranslate(
     (3, 1, -2)
 )
+
+
+def placement_of(volume: Usd.Prim, field: Usd.Prim) -> Placement:
+    [(_, placement)] = read_placements(volume, field)
+    return placement
 
 
 def by(numbers: tuple[float, ...]) -> Callable[[Point], Point]:
@@ -183,7 +188,7 @@ def test_a_field_stands_where_usd_says(ops: dict[str, str]) -> None:
     volume = stage.GetPrimAtPath("/world/group/cloud")
     for path in ("/world/group/cloud/scope/below", "/world/fields/beside", "/apart"):
         field = stage.GetPrimAtPath(path)
-        placement = read_placement(volume, field)
+        placement = placement_of(volume, field)
         for time in (None, 1.0, 2.0):
             cache = UsdGeom.XformCache(Usd.TimeCode.Default() if time is None else time)
             wanted = (
@@ -244,10 +249,10 @@ def test_what_moves_both_costs_nothing() -> None:
     layer.ImportFromString(HIERARCHY.format_map(ops))
     stage = Usd.Stage.Open(layer)
     cloud = stage.GetPrimAtPath("/world/group/cloud")
-    below = read_placement(cloud, stage.GetPrimAtPath("/world/group/cloud/scope/below"))
+    below = placement_of(cloud, stage.GetPrimAtPath("/world/group/cloud/scope/below"))
     assert (below.up, below.down, below.times) == ((), (), ())
     assert below.matrix(1.0) is IDENTITY
-    assert read_placement(cloud, stage.GetPrimAtPath("/apart")).times == (1.0, 3.0)
+    assert placement_of(cloud, stage.GetPrimAtPath("/apart")).times == (1.0, 3.0)
 
 
 @pytest.mark.parametrize("scale", ["(0, 1, 1)", "(nan, 1, 1)"])
@@ -256,7 +261,7 @@ def test_numbers_that_allow_no_place(scale: str) -> None:
     op = f'double3 xformOp:scale = {scale}\n uniform token[] xformOpOrder = ["xformOp:scale"]'
     layer.ImportFromString(HIERARCHY.format_map({**dict.fromkeys(NAMES, ""), "cloud": f"\n {op}"}))
     stage = Usd.Stage.Open(layer)
-    placement = read_placement(
+    placement = placement_of(
         stage.GetPrimAtPath("/world/group/cloud"), stage.GetPrimAtPath("/apart")
     )
     assert placement.matrix(None) is None
@@ -600,6 +605,21 @@ def test_an_instance_that_stands_elsewhere_than_its_field(lint: Lint) -> None:
     assert lint(SHARED + INSTANCE.format("one", ""), "VOL015") == []
     found = only(lint(SHARED + INSTANCE.format("one", "\n " + OPS["move"]), "VOL015"))
     assert "its space is moved by (-1, -2, -3) in relation" in found.message
+
+
+@pytest.mark.parametrize("moved", ["one", "two"])
+def test_each_instance_stands_where_it_stands(moved: str, lint: Lint) -> None:
+    """Whichever comes first; and what is suggested encloses the field as all of them see it."""
+    instances = "".join(
+        INSTANCE.format(name, "\n " + OPS["move"] if name == moved else "")
+        for name in ("one", "two", "three")
+    )
+    found = only(lint(SHARED + instances, "VOL013"))
+    assert f"moved as its field is, in </{moved}/cloud> reaches out of the extent" in found.message
+    _, _, numbers = str(found.suggestion).partition("= ")
+    assert lint(SHARED.replace("[(0, 0, 0), (1, 1, 1)]", numbers[:-1]) + instances, "VOL013") == []
+    found = only(lint(SHARED + instances, "VOL015"))
+    assert f"its space is moved by (-1, -2, -3) in </{moved}/cloud> in relation" in found.message
 
 
 @pytest.mark.parametrize(

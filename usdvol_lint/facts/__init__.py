@@ -349,9 +349,12 @@ class Facts:
 
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How a field is moved in relation to a Volume that binds it, if it is."""
-        from usdvol_lint.facts.placement import read_placement
+        from usdvol_lint.facts.placement import read_placements
 
-        return read_placement(volume, field).displacement()
+        for path, placement in read_placements(volume, field):
+            if found := placement.displacement():
+                return found._replace(words=f"{found.words} in <{path}>") if path else found
+        return None
 
     def extent_shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
         """What the grids of a Volume have outside its extent, if one is authored."""
@@ -376,19 +379,24 @@ class Facts:
 
     def _stands(self, volume: Any, bound: Bound) -> list[tuple[Contents, Placement]]:
         """The contents of the files that a Volume gets, and where their fields stand."""
-        from usdvol_lint.facts.placement import AT_REST, read_placement
+        from usdvol_lint.facts.placement import AT_REST, read_placements
 
         if bound.looked_at:
             return [
-                (contents, read_placement(volume, target.prim))
+                (contents, placement)
                 for target, _, contents in self.standing(volume)[2]
+                for _, placement in read_placements(volume, target.prim)
             ]
         found = []
         for place in bound.fields:
             table, row = self._tables.find_at(place)
             moves = "xformOpOrder" in table.authored.declared
-            placement = read_placement(volume, table.prims[row]) if moves else AT_REST
-            found.append((table.cell(row, ":contents", self._read), placement))
+            contents = table.cell(row, ":contents", self._read)
+            if moves:
+                placements = read_placements(volume, table.prims[row])
+                found += [(contents, placement) for _, placement in placements]
+            else:
+                found.append((contents, AT_REST))
         return found
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:

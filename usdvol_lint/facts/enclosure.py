@@ -15,7 +15,7 @@ from usdvol_lint.facts.contents import Contents
 from usdvol_lint.facts.extents import Limits
 from usdvol_lint.facts.fields import Target
 from usdvol_lint.facts.held import Held, Time
-from usdvol_lint.facts.placement import AT_REST, IDENTITY, Placement, read_placement
+from usdvol_lint.facts.placement import AT_REST, IDENTITY, Placement, read_placements
 from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Bounds, Grid, IndexBounds, Matrix
 
@@ -34,15 +34,24 @@ class Moment(NamedTuple):
 
 
 class PlacedField:
-    """A field of a Volume: the grids that its files hold, and where it stands."""
+    """A field of a Volume: the grids that its files hold, and where it stands.
+
+    `place` is the path of the instance if there are several that show the Volume alone.
+    """
 
     def __init__(
-        self, target: Target, paths: AssetSamples, contents: Contents, placement: Placement
+        self,
+        target: Target,
+        paths: AssetSamples,
+        contents: Contents,
+        placement: Placement,
+        place: str,
     ) -> None:
         self._target = target
         self._paths = paths
         self._contents = contents
         self._placement = placement
+        self.place = place
         self._moved_at = placement.times
 
     @property
@@ -85,6 +94,7 @@ class Overhang(NamedTuple):
     sides: tuple[tuple[str, float], ...]
     time: Time
     is_displaced: bool
+    place: str
 
     @property
     def most(self) -> float:
@@ -104,6 +114,7 @@ class Overhang(NamedTuple):
     def shown(self) -> str:
         """The grid in words."""
         moved = ", moved as its field is," if self.is_displaced else ""
+        moved += f" in <{self.place}>" if self.place else ""
         return f"the grid {quoted(self.grid)} of <{self.field}>{moved}"
 
 
@@ -283,8 +294,8 @@ class Enclosure:
 def _placed(standing: Standing) -> Iterator[PlacedField]:
     volume, _, fields = standing
     for target, paths, contents in fields:
-        placement = read_placement(volume, target.prim)
-        yield PlacedField(target, paths, contents, placement)
+        for place, placement in read_placements(volume, target.prim):
+            yield PlacedField(target, paths, contents, placement, place)
 
 
 def _overhang(limit: Bounds, hull: Hull) -> float:
@@ -324,7 +335,9 @@ class _Tally:
         self.times.add(moment.time)
         self.fields.add(placed.shown)
         displaced = moment.matrix is not IDENTITY
-        overhang = Overhang(placed.shown, moment.grid.label, sides, moment.time, displaced)
+        overhang = Overhang(
+            placed.shown, moment.grid.label, sides, moment.time, displaced, placed.place
+        )
         if self.worst is None or overhang.most > self.worst.most:
             self.worst = overhang
 

@@ -23,6 +23,15 @@ def shown(prim: Any) -> Shown:
     )
 
 
+def shown_paths(prim: Any) -> list[str]:
+    """Every stage path that shows a prim, in their order."""
+    if not prim.IsInPrototype():
+        return [str(prim.GetPath())]
+    below = path_in_prototype(prim)
+    instances = _prototype(prim).GetInstances()
+    return sorted(path + below for instance in instances for path in shown_paths(instance))
+
+
 def path_in_prototype(prim: Any) -> str:
     """The path below the prototype, which is the same for each instance; else the prim's own."""
     path = str(prim.GetPath())

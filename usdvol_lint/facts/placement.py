@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 from pxr import Gf, Usd
 
 from usdvol_lint.facts.held import Time
-from usdvol_lint.facts.instances import shown
+from usdvol_lint.facts.instances import shown_paths
 from usdvol_lint.facts.usd_calls import get_attribute, get_parent, get_value, is_in_prototype
 from usdvol_lint.volumefile.transform import Matrix, finite, rows, scale_translate
 
 IDENTITY: Matrix = scale_translate((1, 1, 1))
 _ROUNDING = 1e-6
+_MOST_INSTANCES = 1000
 
 
 class Displacement(NamedTuple):
@@ -80,10 +81,22 @@ class Placement(NamedTuple):
 AT_REST = Placement((), (), ())
 
 
-def read_placement(volume: Any, field: Any) -> Placement:
-    """Reads the transforms between a field and a Volume that binds it."""
-    if is_in_prototype(volume) and not is_in_prototype(field):
-        volume = volume.GetStage().GetPrimAtPath(shown(volume).path)
+def read_placements(volume: Any, field: Any) -> Iterator[tuple[str, Placement]]:
+    """Reads the transforms between a field and a Volume that binds it.
+
+    There are several where instances show the Volume and not the field; each of these is told by
+    its path.  Of more than a thousand only so many are looked at.
+    """
+    if not is_in_prototype(volume) or is_in_prototype(field):
+        yield "", _read_placement(volume, field)
+        return
+    paths = shown_paths(volume)
+    for path in paths[:_MOST_INSTANCES]:
+        instance = volume.GetStage().GetPrimAtPath(path)
+        yield path if len(paths) > 1 else "", _read_placement(instance, field)
+
+
+def _read_placement(volume: Any, field: Any) -> Placement:
     up_count, down_count = _counts(volume, field)
     up, up_resets = _transformed(field, up_count)
     down, down_resets = _transformed(volume, down_count)
