@@ -355,9 +355,7 @@ def test_a_clip_that_can_not_be_read(lint_text: Lint, tmp_path: Path) -> None:
     write_clips(tmp_path)
     (tmp_path / "broken.usda").write_text("#usda 1.0\ndef (")
     clips = "asset[] assetPaths = [@./broken.usda@, @./broken.usda@, @./broken.usda@]"
-    report = lint_text("#usda 1.0\n" + CLIPS % clips)
-    # USD fails again whenever a rule asks for a value, which the engine reports as LNT001.
-    assert [text for text in said(report) if not text.startswith("LNT001")] == [
+    assert said(lint_text("#usda 1.0\n" + CLIPS % clips)) == [
         "STG001 the clip './broken.usda' can't be read: broken.usda:2:1: unexpected 'def (' in "
         "</>; what it holds was not checked"
     ]

@@ -22,8 +22,8 @@ from usdvol_lint.rule import (
 )
 def relationship_empty(volume: Prim, facts: Facts) -> Problems:
     for binding in facts.fields(volume).relationships:
+        meant = facts.meant_field(binding) if binding.emptiness else None
         if binding.emptiness is Emptiness.UNAUTHORED:
-            meant = facts.meant_field(binding)
             behind = f" behind <{binding.forwards_to}>" if binding.forwards_to else ""
             yield Problem(
                 f"'field:{binding.name}' has no target{behind}",
@@ -35,7 +35,7 @@ def relationship_empty(volume: Prim, facts: Facts) -> Problems:
                 f"'field:{binding.name}' forwards to <{binding.forwards_to}>, which leads round in "
                 "a circle",
                 at=binding.property,
-                suggestion="target a field",
+                suggestion=f"did you mean <{meant}>?" if meant else "target a field",
             )
         elif binding.emptiness in (Emptiness.BLOCKED, Emptiness.DELETED):
             yield Problem(

@@ -90,7 +90,7 @@ class Facts:
         self._volume_files = volume_files
         self._times = times
         self._statistics = statistics
-        self._ever_used: set[Any] = set()
+        self._accounted_for: set[Any] = set()
         self._found: dict[Any, dict[str, Any]] = defaultdict(dict)
         self.passed_over: list[tuple[Any, Exception]] = []
 
@@ -111,7 +111,7 @@ class Facts:
             self._statistics,
         )
         other.files = self.files
-        other._ever_used = self._ever_used
+        other._accounted_for = self._accounted_for
         return other
 
     def of(self, schema_name: str) -> list[Any]:
@@ -421,8 +421,8 @@ class Facts:
         from usdvol_lint.facts.fields import fields_below
 
         places, used = self._tables.fields, self._field_users
-        self._ever_used.update(path for path, place in places.items() if place in used)
-        unused = places.keys() - self._ever_used
+        self._accounted_for.update(path for path, place in places.items() if place in used)
+        unused = places.keys() - self._accounted_for
         volumes = self.of(schema.VOLUME)
         if not volumes or not unused or not self.composition.is_whole:
             return []
@@ -431,14 +431,15 @@ class Facts:
         for volume in volumes:
             if not self.fields(volume).is_sound:
                 below = fields_below(volume, self.kinds)
-                unused.difference_update(in_prototype(field).GetPath() for field in below)
-                unused.difference_update(map(self._meant_path, self.fields(volume).bindings))
-        return [self.stage.GetPrimAtPath(path) for path in sorted(unused)]
+                self._accounted_for.update(in_prototype(field).GetPath() for field in below)
+                meant = map(self._meant_path, self.fields(volume).bindings)
+                self._accounted_for.update(filter(None, meant))
+        return [self.stage.GetPrimAtPath(path) for path in sorted(unused - self._accounted_for)]
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:
         """Asks, once more variant selections were looked at, whether none of them uses a field."""
-        path, ever_used = field.GetPath(), self._ever_used
-        return lambda: path not in ever_used
+        path, accounted_for = field.GetPath(), self._accounted_for
+        return lambda: path not in accounted_for
 
     @cached_property
     def without_extent(self) -> list[Any]:
