@@ -46,14 +46,14 @@ FIELDS = (
     "asset filePath = @./cloud.vdb@\n double3 xformOp:translate = (9, 0, 0)\n"
     'uniform token[] xformOpOrder = ["xformOp:translate"]',
 )
-TARGETS = ("density", *["density"] * 3, "densty", "density.filePath", "../shared")
+TARGETS = ("density", *["density"] * 3, "densty", "density.filePath", "../common")
 
 
 def stage() -> str:
-    shared = f'def OpenVDBAsset "shared"\n{{\n{FIELDS[0]}\n}}\n'
+    common = f'def OpenVDBAsset "common"\n{{\n{FIELDS[0]}\n}}\n'
     columns = zip(cycle(VOLUMES), cycle(FIELDS), cycle(TARGETS), strict=False)
-    shared += f'def OpenVDBAsset "unused"\n{{\n{FIELDS[0]}\n}}\ndef Volume "bare"\n{{\n}}\n'
-    return f"#usda 1.0\n{shared}" + "".join(
+    common += f'def OpenVDBAsset "unused"\n{{\n{FIELDS[0]}\n}}\ndef Volume "bare"\n{{\n}}\n'
+    return f"#usda 1.0\n{common}" + "".join(
         f'def Volume "v{number}"\n{{\n{volume}\nrel field:density = <{target}>\n'
         f'def OpenVDBAsset "density"\n{{\n{field}\n}}\n}}\n'
         for number, (volume, field, target) in enumerate(islice(columns, PRIMS))
