@@ -350,12 +350,18 @@ def test_the_sample_that_usd_adds_where_a_clip_jumps_is_none(
     )
 
 
-def test_a_clip_that_can_not_be_read(lint_text: Lint, tmp_path: Path) -> None:
+@pytest.mark.parametrize("active", ["(1, 0), (3, 1), (5, 2)", "(1, 0)"])
+@pytest.mark.parametrize("manifest", ["asset manifestAssetPath = @./manifest.usda@", ""])
+def test_a_clip_that_can_not_be_read(
+    active: str, manifest: str, lint_text: Lint, tmp_path: Path
+) -> None:
     """The field has no path then, but the layer is to blame, not the field."""
     write_clips(tmp_path)
     (tmp_path / "broken.usda").write_text("#usda 1.0\ndef (")
-    clips = "asset[] assetPaths = [@./broken.usda@, @./broken.usda@, @./broken.usda@]"
-    assert said(lint_text("#usda 1.0\n" + CLIPS % clips)) == [
+    broken = ", ".join(["@./broken.usda@"] * active.count("("))
+    clips = CLIPS.replace("(1, 0), (3, 1), (5, 2)", active)
+    clips = clips.replace("asset manifestAssetPath = @./manifest.usda@", manifest)
+    assert said(lint_text("#usda 1.0\n" + clips % f"asset[] assetPaths = [{broken}]")) == [
         "STG001 the clip './broken.usda' can't be read: broken.usda:2:1: unexpected 'def (' in "
         "</>; what it holds was not checked"
     ]

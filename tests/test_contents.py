@@ -414,6 +414,21 @@ def test_hostile_files_cost_neither_time_nor_memory(lint_text: Lint, tmp_path: P
     assert max(len(finding.message) for finding in report.findings) < 600
 
 
+@pytest.mark.parametrize("index", ["bool fieldIndex = true", "double fieldIndex = 1"])
+def test_an_index_that_is_no_integer_is_none(index: str, lint_text: Lint, tmp_path: Path) -> None:
+    """Its type is a finding, and nobody looks for a second grid."""
+    (tmp_path / "a.vdb").write_bytes(w.vdb(grid("density")))
+    text = stage(density("./a.vdb").replace("token fieldName", f"{index}\n token fieldName"))
+    assert index in text
+    assert said(lint_text(text), "GRD", "SCH003", "FLD003", "FLD007") == [
+        (
+            "SCH003",
+            None,
+            f"'{index.split(' =', maxsplit=1)[0]}' where the schema declares 'int fieldIndex'",
+        )
+    ]
+
+
 def test_names_of_any_bytes(lint_text: Lint, tmp_path: Path) -> None:
     """They are quoted, and the report can be written."""
     odd = w.Grid(b"d\xe9nsit\xe9", metadata={"name": w.string(b"d\xe9nsit\xe9")})

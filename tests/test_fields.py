@@ -6,11 +6,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from pxr import Usd
 
 from usdvol_lint.catalog import Catalog
 from usdvol_lint.config import Config, activate
 from usdvol_lint.engine import Engine
+from usdvol_lint.facts import Facts
+from usdvol_lint.facts.kinds import Kinds
 from usdvol_lint.model import StageReport
+from usdvol_lint.walk import walk
 
 FIELD = """def OpenVDBAsset "{name}" {{
     asset filePath = @./cloud.vdb@
@@ -195,6 +199,27 @@ def Volume "other" {{
 }}
 """
     assert lint(text) == [(code, message, suggestion)]
+
+
+def test_two_relationships_of_one_volume_share_no_field(tmp_path: Path) -> None:
+    text = f"""#usda 1.0
+def Volume "cloud" {{
+    rel field:a = </cloud/density>
+    rel field:b = </cloud/density>
+    {FIELD.format(name="density")}
+}}
+"""
+    stage = Usd.Stage.Open(write(tmp_path / "stage.usda", text))
+    kinds = Kinds()
+    walked = walk(stage, [], kinds)
+    facts = Facts(stage, kinds, walked.kept, walked.clipped)
+    cloud, density = stage.GetPrimAtPath("/cloud"), stage.GetPrimAtPath("/cloud/density")
+    assert not facts.is_shared(cloud, density)
+
+
+def write(path: Path, text: str) -> str:
+    path.write_text(text, encoding="utf-8")
+    return str(path)
 
 
 def test_a_relationship_over_an_attribute_of_the_same_name(lint: Lint) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import compress, islice, repeat
 from operator import itemgetter
@@ -120,9 +121,10 @@ class _Triage:
 
     def chosen(self, table: Table) -> Iterator[tuple[Rule, Any]]:
         """The prims, each with its rules; what can't be told here, they find out themselves."""
-        try:
+        sums: list[Any] | None = None
+        with suppress(Exception):
             sums = list(self._sum_up(table))
-        except Exception:
+        if sums is None:
             if len(table.prims) == 1:
                 yield from ((rule, table.prims[0]) for rule in self._rules)
                 return

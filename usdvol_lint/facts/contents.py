@@ -254,7 +254,7 @@ class ContentReader:
     def _contents(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Contents:
         if AssetState.FILE not in samples.states:
             return _NOTHING
-        if claims.times or len(samples.samples) > 1:
+        if len(samples.samples) > 1:
             return self._read(samples, claims, wanted)
         key = (samples.samples[0], claims, wanted)
         found = self._alone.get(key)

@@ -14,7 +14,6 @@ from usdvol_lint.volumefile.transform import Matrix, finite, rows, scale_transla
 
 IDENTITY: Matrix = scale_translate((1, 1, 1))
 _ROUNDING = 1e-6
-_MOST_INSTANCES = 1000
 
 
 class Displacement(NamedTuple):
@@ -85,13 +84,13 @@ def read_placements(volume: Any, field: Any) -> Iterator[tuple[str, Placement]]:
     """Reads the transforms between a field and a Volume that binds it.
 
     There are several where instances show the Volume and not the field; each of these is told by
-    its path.  Of more than a thousand only so many are looked at.
+    its path.
     """
     if not is_in_prototype(volume) or is_in_prototype(field):
         yield "", _read_placement(volume, field)
         return
     paths = shown_paths(volume)
-    for path in paths[:_MOST_INSTANCES]:
+    for path in paths:
         instance = volume.GetStage().GetPrimAtPath(path)
         yield path if len(paths) > 1 else "", _read_placement(instance, field)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -71,12 +72,11 @@ class Table:
 
     def cell(self, row: int, name: str, read: Read) -> Any:
         """What is kept under a name of one prim, whether or not that of others can be read."""
-        try:
-            return self.column(name, read)[row]
-        except Exception:
-            if len(self.prims) == 1:
-                raise
+        if len(self.prims) > 1:
+            with suppress(Exception):
+                return self.column(name, read)[row]
             return self.alone(row).column(name, read)[0]
+        return self.column(name, read)[0]
 
     def readable(
         self, name: str, read: Read, pass_over: Callable[[Any, Exception], None]
@@ -201,25 +201,23 @@ class Tables:
         """Puts those together that are alike; one that can't be read does not keep others back."""
         for table in self._last:
             table.usd.forget()
-        try:
-            self._last = list(self._alike(Answers(prims)))
-        except Exception:
+        formed = self._attempt(prims)
+        if isinstance(formed, Exception):
             if len(prims) > 1:
                 return [table for prim in prims for table in self._form((prim,))]
-            return [self._again(prims)]
-        return self._last
+            # USD raises once for a manifest of value clips that it can't open; from then on it
+            # goes without, and the manifest is a finding by itself.
+            formed = self._attempt(prims)
+        if isinstance(formed, Exception):
+            return [Table(Answers(prims), formed)]
+        self._last = formed
+        return formed
 
-    def _again(self, prims: Sequence[Any]) -> Table:
-        """The table of one prim that could not be read the first time.
-
-        USD raises once for a manifest of value clips that it can't open; from then on it goes
-        without, and the manifest is a finding by itself.
-        """
+    def _attempt(self, prims: Sequence[Any]) -> list[Table] | Exception:
         try:
-            (table,) = self._alike(Answers(prims))
+            return list(self._alike(Answers(prims)))
         except Exception as error:
-            return Table(Answers(prims), error)
-        return table
+            return error
 
     def _alike(self, usd: Answers) -> Iterator[Table]:
         key = self._kinds.key(usd.prims[0])
