@@ -590,3 +590,19 @@ def test_unset_variables_in_arcs(lint_text: Lint) -> None:
     assert said(report) == [
         "STG001 the reference '`\"./${SET}.usda\"`' does not exist; what it holds was not checked"
     ]
+
+
+def test_samples_of_their_own_beside_a_clip_that_can_not_be_read(
+    lint_text: Lint, tmp_path: Path
+) -> None:
+    """They are stronger than the clip, and checked; USD raises when asked where they stand."""
+    write_clips(tmp_path)
+    (tmp_path / "broken.usda").write_text("#usda 1.0\ndef (")
+    clips = CLIPS.replace("(1, 0), (3, 1), (5, 2)", "(1, 0)").removesuffix("{\n}\n")
+    own = 'over "density"\n{\n    asset filePath.timeSamples = {\n1: @./gone.vdb@,\n}\n}\n'
+    stage = f"#usda 1.0\n{clips % 'asset[] assetPaths = [@./broken.usda@]'}{{\n{own}}}\n"
+    assert said(lint_text(stage)) == [
+        "STG001 the clip './broken.usda' can't be read: broken.usda:2:1: unexpected 'def (' in "
+        "</>; what it holds was not checked",
+        "AST002 no file at './gone.vdb' (1 of 1 samples)",
+    ]

@@ -424,7 +424,7 @@ def test_an_index_that_is_no_integer_is_none(index: str, lint_text: Lint, tmp_pa
         (
             "SCH003",
             None,
-            f"'{index.split(' =', maxsplit=1)[0]}' where the schema declares 'int fieldIndex'",
+            f"'{index.partition(' =')[0]}' where the schema declares 'int fieldIndex'",
         )
     ]
 

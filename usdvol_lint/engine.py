@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -192,7 +191,6 @@ class Engine:
                 failures.add(rule, prim, error)
         for prim, fault in facts.passed_over:
             failures.add(NOT_CHECKED, prim, fault)
-        failures.leave_out(facts)
         yield from failures.found(sites)
 
     def _work(self, walked: Walk, facts: Facts) -> Iterator[tuple[Rule, Any]]:
@@ -269,18 +267,6 @@ class _Failures:
         if isinstance(error, Tf.ErrorException):
             key = (str(prim.GetPath()), *in_usds_words(error))
         self._failures.setdefault(key, _Failure(rule, prim, error)).count += 1
-
-    def leave_out(self, facts: Facts) -> None:
-        """Forgets that USD raised for value clips that do not open: these are findings already."""
-        by_usd = {
-            key: failure.error
-            for key, failure in self._failures.items()
-            if isinstance(failure.error, Tf.ErrorException)
-        }
-        with suppress(Tf.ErrorException):  # nor may the composition be read
-            for key, error in by_usd.items():
-                if facts.composition.tells_of(error):
-                    del self._failures[key]
 
     def found(self, sites: Sites) -> Iterator[_Found]:
         for key, failure in self._failures.items():

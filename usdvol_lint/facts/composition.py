@@ -88,11 +88,6 @@ class Composition:
         """The same with value clips, which say nothing but what attributes are worth."""
         return _is_at_or_below(prim, self._lack_opinions | self._lack_clips)
 
-    def tells_of(self, error: Any) -> bool:
-        """Whether USD raised for nothing but layers that are missing here."""
-        paths = [missing.path for missing in self.missing_layers]
-        return all(any(path in words for path in paths) for words in map(raw_words, error.args))
-
     @cached_property
     def _lack_opinions(self) -> frozenset[Any]:
         return _as_walked(missing for missing in self.missing_layers if missing.arc in _ARCS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from pxr import Usd
+from pxr import Tf, Usd
 
 
 class Opinion(NamedTuple):
@@ -21,10 +21,18 @@ def opinion(attribute: Any, time: float | None) -> Opinion | None:
     """
     code = Usd.TimeCode.Default() if time is None else time
     kinds = ("default",) if time is None else ("timeSamples", "default", "spline")
-    for spec, offset in attribute.GetPropertyStackWithLayerOffsets(code):
+    for spec, offset in _stack(attribute, code):
         if any(spec.HasInfo(kind) for kind in kinds):
             return Opinion(spec, offset)
     return None
+
+
+def _stack(attribute: Any, code: Any) -> Any:
+    """The specs with their offsets, strongest first, without value clips if one does not open."""
+    try:
+        return attribute.GetPropertyStackWithLayerOffsets(code)
+    except Tf.ErrorException:
+        return attribute.GetPropertyStackWithLayerOffsets(Usd.TimeCode.Default())
 
 
 def is_from_clips(attribute: Any, time: float | None) -> bool:
