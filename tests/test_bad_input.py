@@ -1,4 +1,4 @@
-"""Whatever is wrong with the input, everybody else's stages are still reported."""
+"""Whatever is wrong with the input is told in a line, and all other stages are still reported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Extents of Volumes against the grids of their fields: where boxes lie, when, and what is said."""
+"""Volumes held against what their fields bring: where they stand, how far grids reach, which files."""
 
 from __future__ import annotations
 
