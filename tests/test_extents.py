@@ -1,4 +1,4 @@
-"""Volumes held against what their fields bring: where they stand, how far grids reach, which files."""
+"""Volumes held against what their fields bring: where they stand, how far grids reach, files."""
 
 from __future__ import annotations
 

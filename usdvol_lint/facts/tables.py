@@ -72,11 +72,13 @@ class Table:
 
     def cell(self, row: int, name: str, read: Read) -> Any:
         """What is kept under a name of one prim, whether or not that of others can be read."""
-        if len(self.prims) > 1:
+        found = self._columns.get(name)
+        if found is None and len(self.prims) > 1:
             with suppress(Exception):
-                return self.column(name, read)[row]
-            return self.alone(row).column(name, read)[0]
-        return self.column(name, read)[0]
+                found = self.column(name, read)
+            if found is None:
+                return self.alone(row).column(name, read)[0]
+        return self.column(name, read)[0] if found is None else found[row]
 
     def readable(
         self, name: str, read: Read, pass_over: Callable[[Any, Exception], None]
