@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from usdvol_lint.catalog import Catalog, load
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import StageReport
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog, load
 
 ROOT = Path(__file__).parent.parent
 

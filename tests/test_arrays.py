@@ -19,13 +19,14 @@ from hypothesis import strategies as st
 from process import ROOT, run
 from pxr import Sdf, Usd, Vt
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
-from usdvol_lint.facts.arrays import Misfits, chosen, memory
-from usdvol_lint.facts.kinds import Kinds
-from usdvol_lint.facts.values import Value, Values
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.facts.particles.arrays import Misfits, chosen, memory
+from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.values import Value, Values
 from usdvol_lint.model import Finding, StageReport
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 
 SH = "radiance:sphericalHarmonicsCoefficients"
 DEGREE = "radiance:sphericalHarmonicsDegree"
@@ -619,9 +620,10 @@ def test_numpy_is_imported_for_particles_alone(tmp_path: Path) -> None:
     )
     program = """
 import sys
-from usdvol_lint.catalog import load
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.packs.catalog import load
+from usdvol_lint.config import Config
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.engine.engine import Engine
 catalog = load()
 Engine(catalog.rules, activate(Config(), catalog)).lint(sys.argv[1])
 sys.exit("numpy" in sys.modules)

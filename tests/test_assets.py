@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 from stages import CONTENT, only, package, said, volume, write
 
-from usdvol_lint.engine import Engine
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts import assets as asset_facts
-from usdvol_lint.facts.assets import is_uri
-from usdvol_lint.facts.files import Absence, Files
-from usdvol_lint.facts.patterns import find_pattern
+from usdvol_lint.facts.files.assets import is_uri
+from usdvol_lint.facts.files.disk import Absence, Files
+from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]

@@ -15,11 +15,12 @@ import pytest
 from process import ROOT, ROUGH, STUDIO, Ran, environment, run, volume, write
 from pxr import Sdf, Usd, UsdVol
 
-from usdvol_lint.engine import Engine
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import UsageError
-from usdvol_lint.paths import discover, display
-from usdvol_lint.pool import Worker
-from usdvol_lint.protocol import Setup
+from usdvol_lint.paths import display
+from usdvol_lint.run.discovery import discover
+from usdvol_lint.run.pool import Worker
+from usdvol_lint.run.protocol import Setup
 
 ZIP_WRITER: Any = getattr(Sdf, "ZipFileWriter", None) or Usd.ZipFileWriter
 """Where USD's own writer of packages is depends on its version."""
@@ -436,7 +437,7 @@ def test_the_limit_is_for_a_stage_not_for_a_new_process(tmp_path: Path) -> None:
 def test_a_process_that_says_why_it_ends_is_heard() -> None:
     """Even if it has gone before it was asked anything."""
     program = (
-        "import pickle, sys; from usdvol_lint.protocol import Refusal; "
+        "import pickle, sys; from usdvol_lint.run.protocol import Refusal; "
         "sys.stdout.buffer.write(pickle.dumps(Refusal('not\\ntoday')))"
     )
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)

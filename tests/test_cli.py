@@ -16,9 +16,10 @@ from typing import Any
 import pytest
 from process import PROGRAM, ROUGH, STUDIO, Ran, environment, run, volume, write
 
-from usdvol_lint import __version__, cli
-from usdvol_lint.catalog import load
+from usdvol_lint import __version__
+from usdvol_lint.command import cli
 from usdvol_lint.config import OUTPUT_FORMATS
+from usdvol_lint.packs.catalog import load
 from usdvol_lint.report import FORMATS
 
 ONLY_STUDIO = ("--isolated", "--pack", STUDIO, "--select", "STU")
@@ -754,7 +755,7 @@ def test_the_parent_imports_neither_usd_nor_numpy(two: Path) -> None:
     )
     assert done.returncode == 1
     imported = {line.rpartition("|")[2].strip() for line in done.stderr.splitlines()}
-    assert {"usdvol_lint.pool", "usdvol_lint.report.plain"} <= imported
+    assert {"usdvol_lint.run.pool", "usdvol_lint.report.plain"} <= imported
     roots = {name.partition(".")[0] for name in imported}
     assert roots.isdisjoint({"pxr", "numpy", "rich"})
 

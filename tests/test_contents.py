@@ -12,10 +12,11 @@ from pathlib import Path
 import pytest
 import vdbwriter as w
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import StageReport
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.volumefile import VolumeFile, VolumeFileError, cache, read_volume_file, window
 from usdvol_lint.volumefile.cache import Reading, VolumeFiles
 from usdvol_lint.volumefile.package import NotInPlaceError, Package

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from usdvol_lint.cli import command
+from usdvol_lint.command.cli import command
 from usdvol_lint.config import Config
 
 ROOT = Path(__file__).parent.parent

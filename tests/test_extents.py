@@ -16,13 +16,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
-from usdvol_lint.facts.enclosure import Enclosure
-from usdvol_lint.facts.extents import Limits
-from usdvol_lint.facts.placement import AT_REST, IDENTITY, Placement, read_placements
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.facts.prims.extents import Limits
+from usdvol_lint.facts.volumes.enclosure import Enclosure
+from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement, read_placements
 from usdvol_lint.model import Finding
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.volumefile import Grid, read_volume_file
 from usdvol_lint.volumefile.transform import Frustum, Transform, rows, scale_translate
 

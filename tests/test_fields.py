@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 from pxr import Usd
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Facts
-from usdvol_lint.facts.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import Kinds
 from usdvol_lint.model import StageReport
-from usdvol_lint.walk import walk
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 
 FIELD = """def OpenVDBAsset "{name}" {{
     asset filePath = @./cloud.vdb@

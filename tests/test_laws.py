@@ -14,42 +14,52 @@ from process import ROOT
 from pxr import Sdf, Usd, Vt
 
 from usdvol_lint import schema
-from usdvol_lint.catalog import ENGINE_RULES, Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
-from usdvol_lint.facts.kinds import is_registered
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.facts.usd.kinds import is_registered
 from usdvol_lint.model import Finding, Severity
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import ENGINE_RULES, Catalog
 from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
 
 ENGINE = ROOT / "usdvol_lint"
 RULES = ROOT / "rules"
 
-LAYERS = (
+PACKAGES = (
     {"model", "nearest"},
-    {"schema"},
-    {"page", "paths", "volumefile"},
+    {"schema", "paths", "config"},
+    {"volumefile"},
     {"facts"},
     {"rule"},
-    {"catalog"},
-    {"config", "trouble", "site", "walk"},
-    {"protocol", "stage", "variants"},
+    {"packs"},
     {"engine"},
-    {"child", "worker"},
-    {"pool"},
+    {"child"},
     {"run"},
-    {"report", "progress"},
-    {"output", "about"},
-    {"cli"},
+    {"report"},
+    {"command"},
     {"__main__"},
 )
-"""Who may import whom: a module of ours only what stands above it, or beside it in its package."""
-LEVELS = {name: level for level, names in enumerate(LAYERS) for name in names}
-WITHOUT_USD = {
-    *("model", "nearest", "schema", "page", "paths", "volumefile", "rule", "catalog", "config"),
-    *("trouble", "protocol", "child", "pool", "run", "report", "progress", "output", "about"),
-    *("cli", "__main__", "__init__"),
+"""Who may import whom: a package or module of ours only what stands above it, or itself."""
+WINGS = {
+    "usd": set(),
+    "prims": {"usd"},
+    "files": {"usd", "prims"},
+    "layers": {"usd", "prims", "files"},
+    "grids": {"usd", "prims", "files", "layers"},
+    "volumes": {"usd", "prims", "files", "layers", "grids"},
+    "particles": {"usd", "prims"},
 }
-"""What the parent process imports: in it neither pxr nor numpy may be named at module level."""
+"""Which other parts of `facts` each part may import."""
+LEVELS = {name: level for level, names in enumerate(PACKAGES) for name in names}
+WITH_USD = ("facts/*/*.py", "engine/*.py", "run/worker.py")
+WITHOUT_USD = (
+    "facts/*/__init__.py",
+    "facts/*/states.py",
+    "engine/__init__.py",
+    "engine/trouble.py",
+    "engine/lines.py",
+)
+"""What the parent process may import: there neither pxr nor numpy may be named at module level."""
 
 RULE_MODULES = sorted(path for path in RULES.rglob("*.py") if not path.name.startswith("_"))
 ENGINE_MODULES = sorted(ENGINE.rglob("*.py"))
@@ -82,8 +92,12 @@ def tree(path: Path) -> ast.Module:
 
 
 def part(path: Path) -> str:
-    """The name of a module in LAYERS: that of its package, if it is in one."""
+    """The name of a module in PACKAGES: that of its package, if it is in one."""
     return path.relative_to(ENGINE).with_suffix("").parts[0]
+
+
+def is_one_of(path: Path, patterns: tuple[str, ...]) -> bool:
+    return any(path.relative_to(ENGINE).match(pattern) for pattern in patterns)
 
 
 # --- the engine -----------------------------------------------------------------------------------
@@ -108,9 +122,25 @@ def test_imports_point_down(path: Path) -> None:
         assert imported == own or LEVELS[imported] < LEVELS[own], f"{own} imports {name}"
 
 
+FACT_MODULES = sorted(ENGINE.glob("facts/*/*.py"))
+
+
+def test_every_wing_has_its_place() -> None:
+    assert {path.parent.name for path in FACT_MODULES} == WINGS.keys()
+
+
+@pytest.mark.parametrize("path", FACT_MODULES, ids=lambda path: str(path.relative_to(ENGINE)))
+def test_wings_import_those_below_them(path: Path) -> None:
+    own = path.parent.name
+    for name, _ in imports(path):
+        if name.startswith("usdvol_lint.facts."):
+            other = name.split(".")[2]
+            assert other == "found" or other == own or other in WINGS[own], f"{own} imports {name}"
+
+
 @pytest.mark.parametrize("path", ENGINE_MODULES, ids=lambda path: str(path.relative_to(ENGINE)))
 def test_the_parent_process_needs_no_usd(path: Path) -> None:
-    if part(path) in WITHOUT_USD or path.name == "lines.py":
+    if is_one_of(path, WITHOUT_USD) or not is_one_of(path, WITH_USD):
         roots = {name.partition(".")[0] for name in imports_at_once(path)}
         assert roots.isdisjoint({"pxr", "numpy"})
 

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 from stages import findings, said, volume
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import StageReport
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 
 Lint = Callable[..., StageReport]
 

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pxr import Sdf, Usd
 
-from usdvol_lint.facts.lines import Position, TextLayer
+from usdvol_lint.engine.lines import Position, TextLayer
 
 MARK = "¦"
 

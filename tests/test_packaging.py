@@ -90,7 +90,7 @@ def test_the_wheel_works(in_checkout: bool, installed: Path, tmp_path: Path) -> 
     (tmp_path / "stage.usda").write_text(STAGE, encoding="utf-8")
     env = environment(PYTHONPATH=str(installed))
     cwd = ROOT if in_checkout else tmp_path
-    where = "import usdvol_lint.catalog as c; print(*c.load().folders, sep='\\n')"
+    where = "import usdvol_lint.packs.catalog as c; print(*c.load().folders, sep='\\n')"
     done = subprocess.run(
         [sys.executable, "-P", "-c", where],
         cwd=cwd,

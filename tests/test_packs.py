@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 from process import ROOT, STUDIO, Ran, environment, run, volume, write
 
-from usdvol_lint.catalog import load
-from usdvol_lint.config import Config, activate
+from usdvol_lint.config import Config
 from usdvol_lint.model import PackError, UsageError
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import load
 
 WRONG = "fog.usda:2:1: STU001 error </fog> name 'fog', wanted smoke, fire\n"
 CONCISE = ("--output-format", "concise", "--select", "STU001")

@@ -11,9 +11,9 @@ from zipfile import ZipFile
 
 import pytest
 
-from usdvol_lint.catalog import load
-from usdvol_lint.engine import Engine
-from usdvol_lint.page import Example, Page, read_page
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.packs.catalog import load
+from usdvol_lint.packs.page import Example, Page, read_page
 
 ROOT = Path(__file__).parent.parent
 ASSETS = ROOT / "rules" / "assets"

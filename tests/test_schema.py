@@ -6,7 +6,7 @@ import pytest
 from pxr import Sdf, Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.kinds import is_concrete, is_registered, type_names
+from usdvol_lint.facts.usd.kinds import is_concrete, is_registered, type_names
 
 REGISTRY = Usd.SchemaRegistry()
 KNOWS_PARTICLE_FIELDS = Usd.GetVersion() >= schema.PARTICLE_FIELD_SINCE

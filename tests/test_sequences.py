@@ -10,8 +10,8 @@ from zipfile import ZipFile
 
 import pytest
 
-from usdvol_lint.facts.files import Files
-from usdvol_lint.facts.sequences import Numbering, number
+from usdvol_lint.facts.files.disk import Files
+from usdvol_lint.facts.files.sequences import Numbering, number
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]
@@ -378,9 +378,10 @@ def test_what_a_package_stage_names_in_layers_outside_it(lint_text: Lint, tmp_pa
     with ZipFile(tmp_path / "shot.usdz", "w") as package:
         package.writestr("root.usda", f"#usda 1.0\n(\n    subLayers = [@{layer}@]\n)\n")
     lint_text("#usda 1.0\n", "other.usda")
-    from usdvol_lint.catalog import load
-    from usdvol_lint.config import Config, activate
-    from usdvol_lint.engine import Engine
+    from usdvol_lint.config import Config
+    from usdvol_lint.engine.engine import Engine
+    from usdvol_lint.packs.activation import activate
+    from usdvol_lint.packs.catalog import load
 
     catalog = load()
     engine = Engine(catalog.rules, activate(Config(select=("ALL",)), catalog))

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from pxr import Sdf, Usd, UsdUtils
 
+from usdvol_lint.engine.site import Located, Sites
 from usdvol_lint.model import Site
 from usdvol_lint.rule import NotChecked, Problem
-from usdvol_lint.site import Located, Sites
 
 Locate = Callable[..., Located]
 

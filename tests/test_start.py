@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from usdvol_lint import __version__, cli
+import usdvol_lint
+from usdvol_lint import __version__
+from usdvol_lint.command import cli
 
-HELP = Path(cli.__file__).with_name("help.txt")
+HELP = Path(usdvol_lint.__file__).with_name("help.txt")
 PROGRAM = """
 import atexit, os, sys
 from usdvol_lint.__main__ import main
@@ -58,7 +60,7 @@ def test_only_workers_import_usd(
     done = run(*arguments)
     assert done.returncode == 0, done.stderr
     imported = set(done.stderr.split())
-    assert "usdvol_lint.cli" in imported
+    assert "usdvol_lint.command.cli" in imported
     assert imported.isdisjoint({"pxr", "numpy", "rich"})
 
 

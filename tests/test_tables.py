@@ -13,12 +13,13 @@ import pytest
 from process import ROOT
 from pxr import Tf
 
-from usdvol_lint import walk
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.config import Config
+from usdvol_lint.engine import walk
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts import answers, tables
 from usdvol_lint.model import Finding, StageReport
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 
 PRIMS = 60
 EXTENT = "float3[] extent = [(-9, -9, -9), (9, 9, 9)]"

@@ -12,12 +12,13 @@ import pytest
 from process import Ran, run
 from pxr import Sdf, Tf
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import ActiveRules, Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.model import Severity, StageReport
+from usdvol_lint.packs.activation import ActiveRules, activate
+from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.rule import Facts, Prim, Problem, Problems, Rule
-from usdvol_lint.variants import OtherSelections
 
 RULES = ("AST002", "VOL001", "VOL012", "STG", "LNT")
 LIMIT = 100

@@ -10,13 +10,13 @@ import pytest
 from process import ROOT
 from pxr import Usd
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.engine import Engine
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.engine.walk import assign, walk
 from usdvol_lint.facts import Facts
-from usdvol_lint.facts.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import Kinds
 from usdvol_lint.model import Severity
+from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
-from usdvol_lint.walk import assign, walk
 
 
 def asks(code: str, *on: str) -> Rule:
@@ -204,7 +204,7 @@ def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
 def test_an_instanced_finding_says_where_and_how_often(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from usdvol_lint.config import ActiveRules
+    from usdvol_lint.packs.activation import ActiveRules
     from usdvol_lint.rule import Problem
 
     monkeypatch.chdir(tmp_path)

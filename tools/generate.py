@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from usdvol_lint.catalog import Catalog, load
-from usdvol_lint.cli import help_text
+from usdvol_lint.command.cli import help_text
+from usdvol_lint.packs.catalog import Catalog, load
 
 ROOT = Path(__file__).parent.parent
 RULES = ROOT / "rules"

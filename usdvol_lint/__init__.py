@@ -8,7 +8,7 @@ if TYPE_CHECKING:
 
     from usdvol_lint.config import Config
     from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status, UsageError
-    from usdvol_lint.run import lint
+    from usdvol_lint.run.lint import lint
 
 __version__ = "0.1.0"
 __all__ = [
@@ -24,7 +24,7 @@ __all__ = [
     "lint",
 ]
 
-_HOMES = {"Config": "config", "lint": "run"}
+_HOMES = {"Config": "config", "lint": "run.lint"}
 
 
 def __getattr__(name: str) -> Any:

@@ -19,7 +19,7 @@ def main() -> None:
         with open(os.path.join(os.path.dirname(__file__), "help.txt"), encoding="utf-8") as file:
             _say(file.read())
     elif not arguments or not _LINTS_NOTHING.isdisjoint(arguments):
-        from usdvol_lint.cli import main as run_command
+        from usdvol_lint.command.cli import main as run_command
 
         sys.exit(run_command(arguments))
     else:
@@ -43,7 +43,7 @@ def _lint(arguments: list[str]) -> None:
     # Whoever ends this process, such as a CI host, means the workers too.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        from usdvol_lint.cli import main as run_command
+        from usdvol_lint.command.cli import main as run_command
 
         code = run_command(arguments, child)
     finally:

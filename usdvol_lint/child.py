@@ -5,12 +5,12 @@ from __future__ import annotations
 import subprocess
 import sys
 
-_PROGRAM = "import sys; sys.path[:] = {path!r}; from usdvol_lint.worker import main; main()"
+_PROGRAM = "import sys; sys.path[:] = {path!r}; from usdvol_lint.run.worker import main; main()"
 """A worker imports from where its parent does, and nothing else from the working directory."""
 
 
 def start_child() -> subprocess.Popen[bytes]:
-    """A process that runs `usdvol_lint.worker`: it imports USD, then waits for messages."""
+    """A process that runs `usdvol_lint.run.worker`: it imports USD, then waits for messages."""
     return subprocess.Popen(
         [sys.executable, "-c", _PROGRAM.format(path=sys.path)],
         stdin=subprocess.PIPE,

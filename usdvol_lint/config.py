@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from os.path import isfile
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from usdvol_lint.catalog import NOT_IGNORABLE, Catalog, length
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
 
@@ -30,7 +29,6 @@ _CHOICES = {
 TIMES = ("all", "first", "ends")
 LEVELS = tuple(severity.label for severity in reversed(Severity))
 LONGEST_TIMEOUT = 1_000_000
-_KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
 
 
 class Config(NamedTuple):
@@ -51,13 +49,6 @@ class Config(NamedTuple):
     variant_limit: int = 100
     times: str | int = "all"
     statistics: bool = False
-
-
-class ActiveRules(NamedTuple):
-    """What of the catalog is switched on: severity and options by code."""
-
-    severities: Mapping[str, Severity]
-    options: Mapping[str, Mapping[str, Any]]
 
 
 def find_config_file(start: Path) -> Path | None:
@@ -88,37 +79,6 @@ def read_config(path: Path) -> Config:
     return config._replace(packs=packs)
 
 
-def activate(config: Config, catalog: Catalog) -> ActiveRules:
-    """Resolves selection, severities and options against the catalog; unknown ones are errors."""
-    codes = catalog.select(config.select, config.ignore)
-    severities = {code: catalog.rules[code].severity for code in sorted(codes)}
-    for selector, level in sorted(config.severity.items(), key=lambda item: length(item[0])):
-        if selector.strip().upper() in NOT_IGNORABLE:
-            raise UsageError(f"{selector} stays an error: it says that the job was not done")
-        for code in catalog.expand(selector) & severities.keys() - NOT_IGNORABLE:
-            severities[code] = Severity[level.upper()]
-    options: dict[str, dict[str, Any]] = {}
-    for name, given in config.options.items():
-        rule = catalog.find(name)
-        for option, value in given.items():
-            checked = _checked_option(rule.name, rule.options, option, value)
-            options.setdefault(rule.code, {})[option] = checked
-    return ActiveRules(severities, options)
-
-
-def _checked_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> Any:
-    if option not in known:
-        raise UsageError(f"{name} has no option {option!r}{did_you_mean(option, known)}")
-    default = known[option]
-    if isinstance(default, tuple):
-        return tuple(_strings(f"{name}: option {option!r}", value))
-    kind = (int, float) if isinstance(default, float) else type(default)
-    if not isinstance(value, kind) or isinstance(value, bool) != isinstance(default, bool):
-        wanted = _KINDS.get(type(default), type(default).__name__)
-        raise UsageError(f"{name}: option {option!r} must be {wanted}, not {value!r}")
-    return value
-
-
 def _own_table(project: Path) -> Any | None:
     """What a pyproject.toml says of us."""
     tools = _read_toml(project).get("tool", {})
@@ -142,7 +102,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
 def _checked(path: Path, key: str, value: Any) -> Any:
     where = f"{path}: {key}"
     if key in ("select", "ignore", "packs"):
-        return tuple(_strings(where, value))
+        return tuple(strings(where, value))
     if key in _CHOICES:
         return one_of(where, value, _CHOICES[key])
     if key == "severity":
@@ -185,7 +145,8 @@ def times(where: str, value: Any) -> str | int:
     return value  # type: ignore[no-any-return]
 
 
-def _strings(where: str, value: Any) -> list[str]:
+def strings(where: str, value: Any) -> list[str]:
+    """The value, if it is a list of strings."""
     if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
         raise UsageError(f"{where} must be a list of strings, not {value!r}")
     return value

@@ -8,15 +8,9 @@ from enum import Enum
 from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.facts import Facts
-from usdvol_lint.facts.states import (
-    AssetState,
-    BindingMark,
-    Emptiness,
-    FileFault,
-    PathMark,
-    TargetState,
-)
+from usdvol_lint.facts.files.states import AssetState, FileFault, PathMark
 from usdvol_lint.facts.sums import Sums
+from usdvol_lint.facts.volumes.states import BindingMark, Emptiness, TargetState
 from usdvol_lint.model import Severity, format_time, frame_ranges, quoted
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
 
@@ -57,7 +51,7 @@ Prim: TypeAlias = Any
 """A `pxr.Usd.Prim`; spelt so that rules can be loaded where pxr is not imported."""
 
 Content: TypeAlias = Any
-"""A `usdvol_lint.facts.contents.Content`, spelt so for the same reason."""
+"""A `usdvol_lint.facts.grids.contents.Content`, spelt so for the same reason."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -141,9 +141,10 @@ with tempfile.NamedTemporaryFile("w", suffix=".usda") as empty:
 """
 _LINT_AGAIN = """
 import sys
-from usdvol_lint.catalog import load
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.packs.catalog import load
+from usdvol_lint.config import Config
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.engine.engine import Engine
 catalog = load()
 engine = Engine(catalog.rules, activate(Config(), catalog))
 engine.lint(sys.argv[1])

@@ -8,30 +8,38 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
-from usdvol_lint.facts.instances import in_prototype, shown, shown_path
-from usdvol_lint.facts.states import TargetState
+from usdvol_lint.facts.usd.instances import in_prototype, shown, shown_path
+from usdvol_lint.facts.volumes.states import TargetState
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.arrays import ParticleArrays
-    from usdvol_lint.facts.arrays.extent import Strays
-    from usdvol_lint.facts.assets import Affected, AssetReader, AssetSamples, UnlistedClips
-    from usdvol_lint.facts.attributes import (
+    from usdvol_lint.facts.files.assets import Affected, AssetReader, AssetSamples, UnlistedClips
+    from usdvol_lint.facts.files.disk import Files
+    from usdvol_lint.facts.files.marks import PathMarks
+    from usdvol_lint.facts.files.places import Recased
+    from usdvol_lint.facts.files.sequences import SampleSequence
+    from usdvol_lint.facts.grids.changes import GridChanges
+    from usdvol_lint.facts.grids.claims import ClaimReader, FieldClaims
+    from usdvol_lint.facts.grids.contents import ContentReader, Contents, FieldContents
+    from usdvol_lint.facts.layers.composition import Composition
+    from usdvol_lint.facts.particles.apis import ParticleApis
+    from usdvol_lint.facts.particles.arrays import ParticleArrays
+    from usdvol_lint.facts.particles.colour_spaces import ColourSpace
+    from usdvol_lint.facts.particles.extent import Strays
+    from usdvol_lint.facts.prims.attributes import (
         Authored,
         AuthoredReader,
         Misspelt,
         Mistyped,
         Unlisted,
     )
-    from usdvol_lint.facts.changes import GridChanges
-    from usdvol_lint.facts.claims import ClaimReader, FieldClaims
-    from usdvol_lint.facts.clips import Clips, ClipSet
-    from usdvol_lint.facts.colour_spaces import ColourSpace
-    from usdvol_lint.facts.composition import Composition
-    from usdvol_lint.facts.contents import ContentReader, Contents, FieldContents
-    from usdvol_lint.facts.enclosure import Enclosure, Shortfall, Standing
-    from usdvol_lint.facts.encodings import Encoding
-    from usdvol_lint.facts.extents import Limits
-    from usdvol_lint.facts.fields import (
+    from usdvol_lint.facts.prims.encodings import Encoding
+    from usdvol_lint.facts.prims.extents import Limits
+    from usdvol_lint.facts.prims.nesting import Nested, Nesting
+    from usdvol_lint.facts.prims.tables import Chunk, Place, Table, Tables
+    from usdvol_lint.facts.usd.clips import Clips, ClipSet
+    from usdvol_lint.facts.usd.kinds import Key, Kinds
+    from usdvol_lint.facts.usd.values import Values
+    from usdvol_lint.facts.volumes.bindings import (
         Binding,
         BindingReader,
         Bound,
@@ -39,17 +47,9 @@ if TYPE_CHECKING:
         FieldNames,
         Target,
     )
-    from usdvol_lint.facts.files import Files
-    from usdvol_lint.facts.kinds import Key, Kinds
-    from usdvol_lint.facts.mixture import MixedFiles
-    from usdvol_lint.facts.nesting import Nested, Nesting
-    from usdvol_lint.facts.particles import ParticleApis
-    from usdvol_lint.facts.path_marks import PathMarks
-    from usdvol_lint.facts.placement import Displacement, Placement
-    from usdvol_lint.facts.places import Recased
-    from usdvol_lint.facts.sequences import SampleSequence
-    from usdvol_lint.facts.tables import Chunk, Place, Table, Tables
-    from usdvol_lint.facts.values import Values
+    from usdvol_lint.facts.volumes.enclosure import Enclosure, Shortfall, Standing
+    from usdvol_lint.facts.volumes.mixture import MixedFiles
+    from usdvol_lint.facts.volumes.placement import Displacement, Placement
     from usdvol_lint.model import ParticleFieldStats
     from usdvol_lint.volumefile.cache import VolumeFiles
 
@@ -139,7 +139,7 @@ class Facts:
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""
-        from usdvol_lint.facts.contents import FieldContents
+        from usdvol_lint.facts.grids.contents import FieldContents
 
         attribute = self.assets(field, "filePath").attribute
         return FieldContents(attribute, self._one(field, ":contents"))
@@ -151,7 +151,7 @@ class Facts:
         known = self._found[prim]
         key = f":sequence of {name}"
         if key not in known:
-            from usdvol_lint.facts.sequences import read_sequence
+            from usdvol_lint.facts.files.sequences import read_sequence
 
             known[key] = read_sequence(self.assets(prim, name))
         sequence: SampleSequence | None = known[key]
@@ -159,7 +159,7 @@ class Facts:
 
     def recased(self, prim: Any, name: str) -> Recased | None:
         """The samples of an asset attribute that differ by case from what the folders hold."""
-        from usdvol_lint.facts.places import recased
+        from usdvol_lint.facts.files.places import recased
 
         return recased(self.assets(prim, name), self.files)
 
@@ -167,13 +167,13 @@ class Facts:
         """The samples of an asset attribute in a package that name files outside it."""
         if not self._has_packages:
             return None
-        from usdvol_lint.facts.places import outside_package
+        from usdvol_lint.facts.files.places import outside_package
 
         return outside_package(self.assets(prim, name))
 
     def below_layer(self, affected: Affected) -> str | None:
         """The first path in relation to its layer, if the file lies below the layer's folder."""
-        from usdvol_lint.facts.places import below_layer
+        from usdvol_lint.facts.files.places import below_layer
 
         return below_layer(affected)
 
@@ -192,7 +192,7 @@ class Facts:
         """The applied APIs of a prim, those that nobody registers among them."""
         known = self._found[prim]
         if ":apis" not in known:
-            from usdvol_lint.facts.particles import read_particle_apis
+            from usdvol_lint.facts.particles.apis import read_particle_apis
 
             known[":apis"] = read_particle_apis(prim, self.kinds)
         apis: ParticleApis = known[":apis"]
@@ -202,7 +202,7 @@ class Facts:
         """The encoding from before the schema that a prim is in, if it is in one."""
         known = self._found[prim]
         if ":encoding" not in known:
-            from usdvol_lint.facts.encodings import recognise
+            from usdvol_lint.facts.prims.encodings import recognise
 
             known[":encoding"] = recognise(prim)
         encoding: Encoding | None = known[":encoding"]
@@ -212,7 +212,7 @@ class Facts:
         """The arrays of a particle field: empty where SCH011 says that it is no UsdVol."""
         known = self._found[prim]
         if ":arrays" not in known:
-            from usdvol_lint.facts.arrays import read_particle_arrays
+            from usdvol_lint.facts.particles.arrays import read_particle_arrays
 
             is_ours = not self.encoding(prim)
             known[":arrays"] = read_particle_arrays(
@@ -229,7 +229,7 @@ class Facts:
 
     def particle_field_stats(self) -> tuple[ParticleFieldStats, ...]:
         """What each particle field holds, in the order of their paths."""
-        from usdvol_lint.facts.arrays.statistics import stats_of
+        from usdvol_lint.facts.particles.statistics import stats_of
 
         stats = (
             stats_of(self.shown_path(prim), self.arrays(prim))
@@ -239,7 +239,7 @@ class Facts:
 
     def stray_positions(self, prim: Any, slack: float, clamp: float) -> Strays | None:
         """The positions that lie outside the extent at the same time."""
-        from usdvol_lint.facts.arrays.extent import stray_positions
+        from usdvol_lint.facts.particles.extent import stray_positions
 
         extent = prim.GetAttribute("extent")
         positions = next(self.arrays(prim).used("positions"), None)
@@ -249,7 +249,7 @@ class Facts:
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
         """The colour space that a prim names, or the nearest prim above it that names one."""
-        from usdvol_lint.facts.colour_spaces import colour_space
+        from usdvol_lint.facts.particles.colour_spaces import colour_space
 
         return colour_space(prim)
 
@@ -259,31 +259,31 @@ class Facts:
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
-        from usdvol_lint.facts.attributes import mistyped
+        from usdvol_lint.facts.prims.attributes import mistyped
 
         return mistyped(prim, self.authored(prim))
 
     def misspelt(self, prim: Any) -> Iterator[Misspelt]:
         """The attributes of a prim that no schema declares for a slip in their names."""
-        from usdvol_lint.facts.attributes import misspelt
+        from usdvol_lint.facts.prims.attributes import misspelt
 
         return misspelt(prim, self.authored(prim))
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The tokens in attributes of a prim that the schema does not allow there."""
-        from usdvol_lint.facts.attributes import unlisted_tokens
+        from usdvol_lint.facts.prims.attributes import unlisted_tokens
 
         return unlisted_tokens(prim, self.authored(prim))
 
     def values(self, prim: Any, name: str) -> Values:
         """Every value of an attribute, the default first."""
-        from usdvol_lint.facts.values import values_of
+        from usdvol_lint.facts.usd.values import values_of
 
         return values_of(prim.GetAttribute(name))
 
     def extents(self, prim: Any) -> Values:
         """Every `extent` of a prim, the default first; empty where none is authored."""
-        from usdvol_lint.facts.extents import read_extents
+        from usdvol_lint.facts.prims.extents import read_extents
 
         return read_extents(prim.GetAttribute("extent"))
 
@@ -310,7 +310,7 @@ class Facts:
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which replaces its own radiance."""
-        from usdvol_lint.facts.particles import material_is_bound
+        from usdvol_lint.facts.particles.apis import material_is_bound
 
         return material_is_bound(prim)
 
@@ -321,7 +321,7 @@ class Facts:
 
     def unbound_fields(self, volume: Any) -> list[Any]:
         """The field prims below a Volume that no Volume targets."""
-        from usdvol_lint.facts.fields import fields_below
+        from usdvol_lint.facts.volumes.bindings import fields_below
 
         places, used = self._tables.fields, self._field_users
         below = fields_below(volume, self.kinds)
@@ -329,13 +329,13 @@ class Facts:
 
     def hidden_animation(self, prim: Any, name: str) -> str | None:
         """What animates an attribute in vain, in words, because a stronger default hides it."""
-        from usdvol_lint.facts.assets import hidden_animation
+        from usdvol_lint.facts.files.assets import hidden_animation
 
         return hidden_animation(prim.GetAttribute(name), self.clip_sets(prim))
 
     def unlisted_clips(self, prim: Any, name: str) -> UnlistedClips | None:
         """The clips that hold an attribute which their manifest does not declare."""
-        from usdvol_lint.facts.assets import unlisted_clips
+        from usdvol_lint.facts.files.assets import unlisted_clips
 
         return unlisted_clips(prim.GetAttribute(name), self.clip_sets(prim))
 
@@ -349,7 +349,7 @@ class Facts:
 
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How a field is moved in relation to a Volume that binds it, if it is."""
-        from usdvol_lint.facts.placement import read_placements
+        from usdvol_lint.facts.volumes.placement import read_placements
 
         for path, placement in read_placements(volume, field):
             if found := placement.displacement():
@@ -379,7 +379,7 @@ class Facts:
 
     def _stands(self, volume: Any, bound: Bound) -> list[tuple[Contents, Placement]]:
         """The contents of the files that a Volume gets, and where their fields stand."""
-        from usdvol_lint.facts.placement import AT_REST, read_placements
+        from usdvol_lint.facts.volumes.placement import AT_REST, read_placements
 
         if bound.looked_at:
             return [
@@ -403,7 +403,7 @@ class Facts:
         """The different files that the fields of a Volume name at one time, if they do."""
         if len(self.fields(volume).bindings) < 2:
             return None
-        from usdvol_lint.facts.mixture import find_mixed_files
+        from usdvol_lint.facts.volumes.mixture import find_mixed_files
 
         named = [
             (binding.name, self.assets(in_prototype(target.prim), "filePath"))
@@ -418,7 +418,7 @@ class Facts:
         Those are left out that something wrong with a Volume accounts for: they lie below it, or
         a broken relationship was probably meant to target them.
         """
-        from usdvol_lint.facts.fields import fields_below
+        from usdvol_lint.facts.volumes.bindings import fields_below
 
         places, used = self._tables.fields, self._field_users
         self._accounted_for.update(path for path, place in places.items() if place in used)
@@ -444,7 +444,7 @@ class Facts:
     @cached_property
     def without_extent(self) -> list[Any]:
         """The Volumes and particle fields that have no bounds to USD, by their paths."""
-        from usdvol_lint.facts.extents import has_bounds
+        from usdvol_lint.facts.prims.extents import has_bounds
 
         bare = [
             prim
@@ -465,7 +465,7 @@ class Facts:
     @cached_property
     def composition(self) -> Composition:
         """What USD could not compose."""
-        from usdvol_lint.facts.composition import read_composition
+        from usdvol_lint.facts.layers.composition import read_composition
 
         clipped: list[Any] = []
         for table in self._tables.of(*schema.OURS):
@@ -484,7 +484,7 @@ class Facts:
         contents = self.contents(field)
         if len(contents.all.kinds) < 2:
             return None
-        from usdvol_lint.facts.changes import find_grid_changes
+        from usdvol_lint.facts.grids.changes import find_grid_changes
 
         sharing = self._sharing[tuple(contents.all.files)]
         return find_grid_changes(list(map(self.contents, sharing))) if sharing[0] == field else None
@@ -499,31 +499,31 @@ class Facts:
 
     @cached_property
     def _asset_reader(self) -> AssetReader:
-        from usdvol_lint.facts.assets import AssetReader
+        from usdvol_lint.facts.files.assets import AssetReader
 
         return AssetReader(self.files, self._advance)
 
     @cached_property
     def path_marks(self) -> PathMarks:
-        from usdvol_lint.facts.path_marks import PathMarks
+        from usdvol_lint.facts.files.marks import PathMarks
 
         return PathMarks(self.files, self._has_packages)
 
     @cached_property
     def _claim_reader(self) -> ClaimReader:
-        from usdvol_lint.facts.claims import ClaimReader
+        from usdvol_lint.facts.grids.claims import ClaimReader
 
         return ClaimReader()
 
     @cached_property
     def _binding_reader(self) -> BindingReader:
-        from usdvol_lint.facts.fields import BindingReader
+        from usdvol_lint.facts.volumes.bindings import BindingReader
 
         return BindingReader(self.kinds)
 
     @cached_property
     def _content_reader(self) -> ContentReader:
-        from usdvol_lint.facts.contents import ContentReader
+        from usdvol_lint.facts.grids.contents import ContentReader
         from usdvol_lint.volumefile.cache import VolumeFiles
 
         return ContentReader(self._volume_files or VolumeFiles(), self._content, self._advance)
@@ -531,14 +531,14 @@ class Facts:
     @cached_property
     def files(self) -> Files:
         """The state of files, each looked at once."""
-        from usdvol_lint.facts.files import Files
+        from usdvol_lint.facts.files.disk import Files
 
         return Files()
 
     @cached_property
     def _has_packages(self) -> bool:
         """Whether any layer lies in a package."""
-        from usdvol_lint.facts.places import package_of
+        from usdvol_lint.facts.files.places import package_of
 
         return any(map(package_of, self.stage.GetUsedLayers()))
 
@@ -560,7 +560,7 @@ class Facts:
 
     @cached_property
     def _tables(self) -> Tables:
-        from usdvol_lint.facts.tables import Tables
+        from usdvol_lint.facts.prims.tables import Tables
 
         return Tables(self._kept, self.kinds, self._authored_reader)
 
@@ -580,7 +580,7 @@ class Facts:
                 fields = self._tables.fields
                 return self._binding_reader.read_many(usd, authored, fields, self._may_lack)
             case ":limits":
-                from usdvol_lint.facts.extents import read_limits
+                from usdvol_lint.facts.prims.extents import read_limits
 
                 return read_limits(usd)
             case _ if not name.startswith(":"):
@@ -591,7 +591,7 @@ class Facts:
         return self.composition.may_lack(prim)
 
     def _meant_path(self, binding: Binding) -> Any | None:
-        from usdvol_lint.facts.fields import meant_path
+        from usdvol_lint.facts.volumes.bindings import meant_path
 
         path = meant_path(binding)
         volume = binding.property.GetPrim().GetPath()
@@ -599,7 +599,7 @@ class Facts:
 
     @cached_property
     def enclosure(self) -> Enclosure:
-        from usdvol_lint.facts.enclosure import Enclosure
+        from usdvol_lint.facts.volumes.enclosure import Enclosure
 
         return Enclosure()
 
@@ -625,24 +625,24 @@ class Facts:
 
     @cached_property
     def _field_names(self) -> FieldNames:
-        from usdvol_lint.facts.fields import FieldNames
+        from usdvol_lint.facts.volumes.bindings import FieldNames
 
         return FieldNames(self.of(schema.FIELD), self.of(schema.VOLUME))
 
     @cached_property
     def _authored_reader(self) -> AuthoredReader:
-        from usdvol_lint.facts.attributes import AuthoredReader
+        from usdvol_lint.facts.prims.attributes import AuthoredReader
 
         return AuthoredReader(self.kinds, self._clips)
 
     @cached_property
     def nesting(self) -> Nesting:
-        from usdvol_lint.facts.nesting import Nesting
+        from usdvol_lint.facts.prims.nesting import Nesting
 
         return Nesting(self.kinds)
 
     @cached_property
     def _clips(self) -> Clips:
-        from usdvol_lint.facts.clips import Clips
+        from usdvol_lint.facts.usd.clips import Clips
 
         return Clips(self._clipped)

@@ -9,7 +9,7 @@ from usdvol_lint import schema
 
 if TYPE_CHECKING:
     from usdvol_lint.facts import Facts
-    from usdvol_lint.facts.tables import Table
+    from usdvol_lint.facts.prims.tables import Table
 
 
 class Sums:
@@ -24,13 +24,13 @@ class Sums:
 
     def is_mistyped(self, table: Table) -> Iterable[bool]:
         """Whether some spec may have another type than the schema declares."""
-        from usdvol_lint.facts.attributes import may_be_mistyped
+        from usdvol_lint.facts.prims.attributes import may_be_mistyped
 
         return may_be_mistyped(table.usd, table.authored)
 
     def has_odd_tokens(self, table: Table) -> Iterable[bool]:
         """Whether some token may be one that the schema does not allow."""
-        from usdvol_lint.facts.attributes import may_have_unlisted
+        from usdvol_lint.facts.prims.attributes import may_have_unlisted
 
         return may_have_unlisted(table.usd, table.authored)
 

@@ -1,0 +1,70 @@
+"""What the tool says of itself: a rule's page, the list of rules, the settings in force."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+from usdvol_lint.model import UsageError
+from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.packs.page import Page
+from usdvol_lint.report.plain import paint
+
+
+def explain(catalog: Catalog, code_or_name: str) -> Page:
+    """The page of a rule."""
+    rule = catalog.find(code_or_name)
+    page = catalog.page(rule.code)
+    if page is None:
+        raise UsageError(f"{rule.code} ({rule.name}) has no page in its pack")
+    return page
+
+
+def render_page(page: Page, color: bool, width: int) -> str:
+    """The page as Markdown, or laid out for a terminal."""
+    if not color:
+        return page.text
+    from io import StringIO
+
+    from rich.console import Console
+    from rich.markdown import Markdown
+
+    console = Console(file=StringIO(), force_terminal=True, width=min(width, 100))
+    with console.capture() as capture:
+        console.print(Markdown(page.text))
+    return capture.get()
+
+
+def list_rules(catalog: Catalog, color: bool) -> str:
+    """One line a rule: code, severity, name, what is wrong."""
+    lines = []
+    for rule in catalog.rules.values():
+        page = catalog.page(rule.code)
+        level = rule.severity.label if rule.default else f"{rule.severity.label}, off"
+        code = paint(rule.code, "bold", color)
+        lines.append(f"{code}  {level:<12} {rule.name:<28} {page.summary if page else ''}".rstrip())
+    return "\n".join(lines) + "\n"
+
+
+def list_rules_as_json(catalog: Catalog) -> str:
+    """The same for programs."""
+    rules = []
+    for rule in catalog.rules.values():
+        page = catalog.page(rule.code)
+        rules.append(
+            {
+                "code": rule.code,
+                "name": rule.name,
+                "severity": rule.severity.label,
+                "default": rule.default,
+                "since": rule.since,
+                "summary": page.summary if page else None,
+                "options": rule.options,
+            }
+        )
+    return json.dumps(rules, indent=2, ensure_ascii=False) + "\n"
+
+
+def show_settings(settings: Mapping[str, object], source: str | None) -> str:
+    """The settings in force, as JSON, with the file they come from."""
+    return json.dumps({"config_file": source, **settings}, indent=2, ensure_ascii=False) + "\n"

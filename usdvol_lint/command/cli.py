@@ -1,0 +1,290 @@
+"""The command line: argv in, exit code out; no other module knows of either."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from usdvol_lint import __version__
+from usdvol_lint.model import UsageError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+    from subprocess import Popen
+
+    from usdvol_lint.command.output import Destination
+    from usdvol_lint.config import Config
+    from usdvol_lint.model import Report
+    from usdvol_lint.packs.catalog import Catalog
+    from usdvol_lint.report import Options
+
+CLEAN, FINDINGS, FAILED = 0, 1, 2
+
+
+def _complete_code(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
+    from usdvol_lint.packs.catalog import load
+
+    return [code for code in load().rules if code.startswith(typed.upper())]
+
+
+def _complete_from(constant: str) -> Any:
+    """Completes with the values that a constant of `config` allows."""
+
+    def complete(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
+        from usdvol_lint import config
+
+        return [value for value in getattr(config, constant) if value.startswith(typed)]
+
+    return complete
+
+
+# fmt: off
+@click.command(
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog="Exit code: 0 clean, 1 findings at or above --fail-on, 2 the job could not be done.",
+)
+@click.argument("paths", nargs=-1, type=click.Path(), metavar="PATHS...")
+@click.option("--select", multiple=True, metavar="CODES", shell_complete=_complete_code,
+              help="Only these rules: codes, prefixes such as AST, or ALL.")
+@click.option("--ignore", multiple=True, metavar="CODES", shell_complete=_complete_code,
+              help="Not these rules: codes or prefixes.")
+@click.option("--severity", multiple=True, metavar="CODE=LEVEL",
+              help="Report a rule as error, warning or info.")
+@click.option("--fail-on", metavar="LEVEL",
+              shell_complete=_complete_from("FAIL_ON"),
+              help="Exit with 1 from this level on: error (default), warning, info, never.")
+@click.option("--output-format", multiple=True, metavar="FORMAT",
+              shell_complete=_complete_from("OUTPUT_FORMATS"),
+              help="full (default), concise or json; may be repeated, each with its --output.")
+@click.option("--output", multiple=True, type=click.Path(), metavar="FILE",
+              help="Write the report to a file instead of standard output.")
+@click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto",
+              help="Colour the report; auto asks the terminal, NO_COLOR and FORCE_COLOR.")
+@click.option("--quiet", "-q", is_flag=True, help="Print findings only; nothing when clean.")
+@click.option("--verbose", "-v", is_flag=True, help="Add timings, counts and tracebacks.")
+@click.option("--config", "config_file", type=click.Path(), metavar="FILE",
+              help="Use this configuration file.")
+@click.option("--isolated", is_flag=True, help="Use no configuration file.")
+@click.option("--pack", multiple=True, type=click.Path(), metavar="FOLDER",
+              help="Load the rules in a folder too; may be repeated.")
+@click.option("--load", metavar="all|none",
+              shell_complete=_complete_from("LOADS"),
+              help="Load payloads (default: all).")
+@click.option("--content", metavar="all|first|off",
+              shell_complete=_complete_from("CONTENTS"),
+              help="Look into all files of a field (default), the first one, or none.")
+@click.option("--variants", metavar="selected|all",
+              shell_complete=_complete_from("VARIANTS"),
+              help="Check variants as selected (default), or all of them in turn.")
+@click.option("--times", metavar="all|first|ends|N",
+              shell_complete=_complete_from("TIMES"),
+              help="Look at all time samples of particles (default), or at some.")
+@click.option("--statistics", is_flag=True,
+              help="Add what particle fields hold to the JSON report.")
+@click.option("--jobs", "-j", type=click.IntRange(min=1), metavar="N",
+              help="Worker processes (default: one for each processor).")
+@click.option("--timeout", type=float, metavar="SECONDS",
+              help="Time limit for one stage (default: 300).")
+@click.option("--show-settings", is_flag=True, help="Print the settings in force and exit.")
+@click.option("--list-rules", is_flag=True, help="Print every rule and exit.")
+@click.option("--explain", metavar="CODE|NAME", shell_complete=_complete_code,
+              help="Print the page of a rule and exit.")
+@click.version_option(__version__, message="%(prog)s %(version)s")
+def command(paths: tuple[str, ...], **given: Any) -> int:
+    """Find what is broken in the volumes and particle fields of USD stages.
+
+    PATHS are .usd, .usda, .usdc and .usdz files, or folders that are searched for them.
+    """
+    if given["explain"] is not None:
+        return _explain(given)
+    if given["list_rules"]:
+        return _list_rules(given)
+    if given["show_settings"]:
+        return _show_settings(given)
+    if not paths:
+        raise click.UsageError("nothing to check: name a stage or a folder")
+    return _lint(paths, given)
+
+
+# fmt: on
+
+
+def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) -> int:
+    """Runs the command and says its exit code; every failure is one line on standard error.
+
+    `child` is the first worker process, if it was started already.
+    """
+    try:
+        code: int = command.main(
+            arguments, prog_name="usdvol-lint", standalone_mode=False, obj=child
+        )
+        return code
+    except click.ClickException as error:
+        error.show()
+    except UsageError as error:
+        click.echo(f"usdvol-lint: error: {error}", err=True)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("usdvol-lint: interrupted", err=True)
+    except Exception as error:
+        said = " ".join(f"{type(error).__name__}: {error}".split())
+        click.echo(f"usdvol-lint: internal error: {said} (--verbose shows more)", err=True)
+        if not {"-v", "--verbose"}.isdisjoint(sys.argv if arguments is None else arguments):
+            import traceback
+
+            traceback.print_exc()
+    return FAILED
+
+
+def help_text() -> str:
+    """What `--help` prints: `help.txt` holds it, so that nobody has to wait for click's import."""
+    context = click.Context(
+        command, info_name="usdvol-lint", terminal_width=80, **command.context_settings
+    )
+    return command.get_help(context) + "\n"
+
+
+def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
+    from usdvol_lint.command import output
+    from usdvol_lint.command.progress import ProgressBar
+    from usdvol_lint.run.lint import lint
+
+    settled: list[tuple[Config, list[Destination]]] = []
+
+    def settle() -> Config:
+        config, _ = _settle(given)
+        destinations = output.pair(given["output_format"], given["output"], config.output_format)
+        output.check_writable(destinations)
+        settled.append((config, destinations))
+        return config
+
+    with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
+        report = lint(paths, settle, progress, click.get_current_context().obj)
+    config, destinations = settled[0]
+    output.write(report, destinations, _options(given))
+    return _exit_code(report, config.fail_on)
+
+
+def _exit_code(report: Report, fail_on: str) -> int:
+    from usdvol_lint.model import Severity
+    from usdvol_lint.packs.catalog import NOT_IGNORABLE
+
+    findings = [finding for stage in report.stages for finding in stage.findings]
+    if any(finding.code in NOT_IGNORABLE for finding in findings):
+        return FAILED
+    if fail_on == "never":
+        return CLEAN
+    threshold = Severity[fail_on.upper()]
+    return FINDINGS if any(finding.severity >= threshold for finding in findings) else CLEAN
+
+
+def _settle(given: dict[str, Any]) -> tuple[Config, Path | None]:
+    """The configuration file, with the command line on top of it."""
+    from pathlib import Path
+
+    from usdvol_lint import config
+
+    try:
+        here = Path.cwd()
+    except OSError:
+        raise UsageError("the working directory is not there any more") from None
+    file = None
+    if given["config_file"] and given["isolated"]:
+        raise click.UsageError("--config and --isolated exclude each other")
+    if given["config_file"]:
+        file = Path(given["config_file"])
+    elif not given["isolated"]:
+        file = config.find_config_file(here)
+    base = config.read_config(file) if file else config.Config()
+    changes: dict[str, Any] = {"packs": base.packs + given["pack"]}
+    if given["jobs"] is not None:
+        changes["jobs"] = given["jobs"]
+    if given["timeout"] is not None:
+        changes["timeout"] = config.timeout("--timeout", given["timeout"])
+    if given["fail_on"] is not None:
+        changes["fail_on"] = config.one_of("--fail-on", given["fail_on"], config.FAIL_ON)
+    if given["load"] is not None:
+        changes["load"] = config.one_of("--load", given["load"], config.LOADS)
+    if given["content"] is not None:
+        changes["content"] = config.one_of("--content", given["content"], config.CONTENTS)
+    if given["variants"] is not None:
+        changes["variants"] = config.one_of("--variants", given["variants"], config.VARIANTS)
+    if given["times"] is not None:
+        changes["times"] = config.times("--times", given["times"])
+    if given["statistics"]:
+        changes["statistics"] = True
+    for name in given["output_format"]:
+        config.one_of("--output-format", name, config.OUTPUT_FORMATS)
+    select = _codes(given["select"])
+    if select:
+        changes["select"] = select
+    # What is selected here is not ignored for the file's sake.
+    again = {code.upper() for code in select}
+    kept = tuple(code for code in base.ignore if code.strip().upper() not in again)
+    changes["ignore"] = kept + _codes(given["ignore"])
+    changes["severity"] = {**base.severity, **_severities(given["severity"])}
+    return base._replace(**changes), file
+
+
+def _codes(lists: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(code.strip() for codes in lists for code in codes.split(",") if code.strip())
+
+
+def _severities(pairs: tuple[str, ...]) -> dict[str, str]:
+    from usdvol_lint.config import LEVELS, one_of
+
+    severities = {}
+    for pair in _codes(pairs):
+        code, equals, level = (part.strip() for part in pair.partition("="))
+        if not equals:
+            raise UsageError(f"--severity {pair}: write it as CODE=LEVEL, such as AST002=warning")
+        severities[code] = one_of(f"--severity {code}", level, LEVELS)
+    return severities
+
+
+def _options(given: dict[str, Any]) -> Options:
+    from usdvol_lint.command import output
+
+    return output.options_for(given["color"], given["quiet"], given["verbose"])
+
+
+def _explain(given: dict[str, Any]) -> int:
+    from usdvol_lint.command import about, output
+
+    options = _options(given)
+    page = about.explain(_catalog(given), given["explain"])
+    output.print_text(about.render_page(page, options.color, options.width))
+    return CLEAN
+
+
+def _list_rules(given: dict[str, Any]) -> int:
+    from usdvol_lint.command import about, output
+
+    catalog = _catalog(given)
+    as_json = "json" in given["output_format"]
+    text = (
+        about.list_rules_as_json(catalog)
+        if as_json
+        else about.list_rules(catalog, _options(given).color)
+    )
+    output.print_text(text)
+    return CLEAN
+
+
+def _show_settings(given: dict[str, Any]) -> int:
+    from usdvol_lint.command import about, output
+    from usdvol_lint.packs.activation import activate
+    from usdvol_lint.packs.catalog import load
+    from usdvol_lint.run.lint import settings_of
+
+    config, file = _settle(given)
+    settings = settings_of(config, activate(config, load(config.packs)))
+    output.print_text(about.show_settings(settings, str(file) if file else None))
+    return CLEAN
+
+
+def _catalog(given: dict[str, Any]) -> Catalog:
+    from usdvol_lint.packs.catalog import load
+
+    return load(_settle(given)[0].packs)

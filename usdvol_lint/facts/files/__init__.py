@@ -1,0 +1,1 @@
+"""The files that asset attributes name: where each value leads, and what is there."""

@@ -1,0 +1,72 @@
+"""What is remarkable about the values of an asset attribute, for rules that ask for just that."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from enum import Enum
+
+from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.disk import Files
+from usdvol_lint.facts.files.states import AssetState, PathMark
+from usdvol_lint.facts.prims.attributes import Authored
+from usdvol_lint.schema import FILE_EXTENSIONS
+
+_UNPLAIN = re.compile(r"(?s)/|.*[\\:~\s]")
+
+
+class PathMarks:
+    """Finds the marks of a stage's fields; those that name one file, and no other, share theirs.
+
+    `has_packages` says whether some layer of the stage lies in a package.
+    """
+
+    def __init__(self, files: Files, has_packages: bool) -> None:
+        self._files = files
+        self._has_packages = has_packages
+        self._known: dict[tuple[str, str, Authored], frozenset[Enum]] = {}
+
+    def of(self, paths: Iterable[AssetSamples], authored: Authored) -> list[frozenset[Enum]]:
+        """The states and the marks of the values of many prims that are alike."""
+        return [self._of(each, authored) for each in paths]
+
+    def _of(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
+        samples = paths.samples
+        if len(samples) != 1 or samples[0].state is not AssetState.FILE:
+            return self._look(paths, authored)
+        key = (samples[0].path, samples[0].resolved, authored)
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = self._look(paths, authored)
+        return found
+
+    def _look(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
+        found: set[Enum] = set(paths.states)
+        if not paths.names_a_path:
+            found.add(PathMark.NONE)
+        if len(paths.samples) > 1:
+            found.add(PathMark.SEVERAL)
+        wanted = (end for name, end in FILE_EXTENSIONS.items() if name in authored.schemas)
+        extension = next(wanted, "")
+        if any(not sample.path.endswith(extension) for sample in paths.samples):
+            found.add(PathMark.FOREIGN)
+        if any(map(_UNPLAIN.match, (sample.path for sample in paths.samples))):
+            found.add(PathMark.UNPLAIN)
+        if self._has_packages:
+            found.add(PathMark.PACKAGED)
+        if self._is_blind_to_case(paths):
+            found.add(PathMark.CASE_BLIND)
+        if authored.is_clipped:
+            found.add(PathMark.CLIPPED)
+        if authored.is_clipped or authored.is_layered:
+            found.add(PathMark.LAYERED)
+        return frozenset(found)
+
+    def _is_blind_to_case(self, paths: AssetSamples) -> bool:
+        if AssetState.MISSING in paths.states:
+            return True
+        folders: dict[str, Sample] = {}
+        for sample in paths.samples:
+            folders.setdefault(sample.resolved.rpartition("/")[0], sample)
+        resolved = (sample.resolved for sample in folders.values() if sample.resolved)
+        return any(map(self._files.ignores_case, resolved))

@@ -1,0 +1,1 @@
+"""The grids that fields ask for, and those that their files hold."""

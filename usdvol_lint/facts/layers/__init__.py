@@ -1,0 +1,1 @@
+"""The layers that a stage is composed of, and what could not be composed."""

@@ -1,0 +1,1 @@
+"""The particles of particle fields: their APIs, their arrays, their colour spaces."""

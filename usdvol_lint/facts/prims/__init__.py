@@ -1,0 +1,1 @@
+"""What is authored on prims, held against what the schemas declare."""

@@ -1,0 +1,97 @@
+"""Volumes and splats in encodings from before the schema: what gives each away, and what to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
+
+from usdvol_lint.facts.usd.kinds import raw_apis
+
+
+@dataclass(frozen=True, slots=True)
+class Encoding:
+    """What a prim is in and what to do about it; `sign` is what gave it away, in words."""
+
+    origin: str
+    advice: str
+    sign: str = ""
+
+
+_NUREC = Encoding(
+    "NuRec, as 3DGRUT before 2026 and Isaac Sim write it for NVIDIA's renderers alone",
+    "export it again, from the training checkpoint or the PLY, as ParticleField3DGaussianSplat",
+)
+_HOUDINI = Encoding(
+    "a volume of Houdini's own, which no renderer outside Houdini reads",
+    "write the volume to a .vdb file, and name that file with an OpenVDBAsset",
+)
+_LIGHT_FIELD = Encoding(
+    "usdLightField, the proposal of 2025 that became ParticleField",
+    "use the type ParticleField3DGaussianSplat, drop `primvars:` from `primvars:radiance:…`, "
+    "and remove API names that begin with LightField",
+)
+_GAUSSIANS_API = Encoding(
+    "the proposal of July 2025, which put splats on Points",
+    "use the type ParticleField3DGaussianSplat, rename `points` to `positions`, "
+    "and remove GaussiansAPI and SphericalHarmonicsAPI",
+)
+_ADOBE = Encoding(
+    "splats as Adobe's plugins for PLY and SPZ files present them",
+    "export the PLY or SPZ file as ParticleField3DGaussianSplat; do not rename attributes, the "
+    "values mean other things and the extent is a clip box",
+)
+_GSPLAT = Encoding(
+    "splats as tinyusdz and some reconstruction apps write them",
+    "export the PLY or SPZ file as ParticleField3DGaussianSplat; do not rename attributes, they "
+    "may hold raw logits and logarithms",
+)
+
+_BY_TYPE = {
+    "OmniNuRecFieldAsset": _NUREC,
+    "HoudiniFieldAsset": _HOUDINI,
+    "ParticleField_3DGaussianSplat": _LIGHT_FIELD,
+}
+_BY_API = {"GaussiansAPI": _GAUSSIANS_API, "SphericalHarmonicsAPI": _GAUSSIANS_API}
+_Fingerprints: TypeAlias = dict[tuple[str, ...], Encoding]
+"""Encodings by the beginnings of names of properties, which must all be there."""
+
+_RADIANCE_PRIMVARS: _Fingerprints = {("primvars:radiance:sphericalHarmonics",): _LIGHT_FIELD}
+_BY_PROPERTIES: dict[str, _Fingerprints] = {
+    "Points": {
+        ("primvars:gsplat:",): _GSPLAT,
+        ("gsplat:encoding",): _GSPLAT,
+        ("primvars:rot", "primvars:widths1", "primvars:widths2"): _ADOBE,
+    },
+    "ParticleField": _RADIANCE_PRIMVARS,
+    "ParticleField3DGaussianSplat": _RADIANCE_PRIMVARS,
+    "Volume": {("omni:nurec:",): _NUREC},
+}
+
+
+def recognise(prim: Any) -> Encoding | None:
+    """The encoding of a prim; asks little of each, for a stage may hold 100,000 Points."""
+    type_name = prim.GetTypeName()
+    if type_name in _BY_TYPE:
+        return replace(_BY_TYPE[type_name], sign=f"type {type_name!r}")
+    if type_name not in _BY_PROPERTIES:
+        return None
+    for api in raw_apis(prim) if type_name == "Points" else ():
+        if api in _BY_API:
+            return replace(_BY_API[api], sign=f"applied API {api!r}")
+    return _by_properties(prim, _BY_PROPERTIES[type_name])
+
+
+def _by_properties(prim: Any, known: _Fingerprints) -> Encoding | None:
+    names = prim.GetAuthoredPropertyNames()
+    text = " ".join(names)
+    for beginnings, encoding in known.items():
+        if beginnings[0] in text and all(_begins(names, beginning) for beginning in beginnings):
+            if any(child.GetTypeName() in _BY_TYPE for child in prim.GetChildren()):
+                return None  # the field prims below say it
+            first = next(name for name in names if name.startswith(beginnings[0]))
+            return replace(encoding, sign=f"property {first!r}")
+    return None
+
+
+def _begins(names: list[str], beginning: str) -> bool:
+    return any(name.startswith(beginning) for name in names)

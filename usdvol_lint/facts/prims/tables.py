@@ -1,0 +1,239 @@
+"""Prims that are alike, in tables with a column for each fact that is found of many in one go."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from functools import cached_property
+from itertools import chain
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from usdvol_lint import schema
+from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.calls import get_path
+from usdvol_lint.facts.usd.kinds import Key, Kinds
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.prims.attributes import Authored, AuthoredReader, Shape
+
+_MOST_PRIMS = 1024
+"""So many are asked one question after the other: then what is found of them is cached."""
+
+
+class NotTogetherError(Exception):
+    """Of one of some prims it is known that something can't be read: ask for each by itself."""
+
+
+class Table:
+    """Prims of one kind on which the same properties are authored.
+
+    `usd` gives USD's answers about them; what is found of them is kept by name.
+    """
+
+    __slots__ = ("_alone", "_authored", "_columns", "_failed", "_place", "usd")
+
+    def __init__(self, usd: Answers, authored: Authored | Exception) -> None:
+        self.usd = usd
+        self._columns: dict[str, Sequence[Any]] = {}
+        self._authored = authored
+        self._place = authored.__traceback__ if isinstance(authored, Exception) else None
+        self._alone: dict[int, Table] = {}
+        self._failed: set[str] = set()
+
+    @property
+    def prims(self) -> Sequence[Any]:
+        return self.usd.prims
+
+    @property
+    def authored(self) -> Authored:
+        """What is authored on them; raises what USD raised where it can't be read."""
+        if isinstance(self._authored, Exception):
+            raise self._authored.with_traceback(self._place)  # else it grows each time
+        return self._authored
+
+    @property
+    def fault(self) -> Exception | None:
+        """Why what is authored on them can't be read."""
+        return self._authored if isinstance(self._authored, Exception) else None
+
+    def column(self, name: str, read: Read) -> Sequence[Any]:
+        """What is kept under a name, of each prim; raises where that of one can't be read."""
+        if name not in self._columns:
+            if name in self._failed:
+                raise NotTogetherError
+            try:
+                self._columns[name] = read(name, self)
+            except Exception:
+                if len(self.prims) > 1:
+                    self._failed.add(name)
+                raise
+        return self._columns[name]
+
+    def cell(self, row: int, name: str, read: Read) -> Any:
+        """What is kept under a name of one prim, whether or not that of others can be read."""
+        found = self._columns.get(name)
+        if found is None and len(self.prims) > 1:
+            with suppress(Exception):
+                found = self.column(name, read)
+            if found is None:
+                return self.alone(row).column(name, read)[0]
+        return self.column(name, read)[0] if found is None else found[row]
+
+    def readable(
+        self, name: str, read: Read, pass_over: Callable[[Any, Exception], None]
+    ) -> Iterator[tuple[Any, Any]]:
+        """The prims with what is kept under a name, without those of which it can't be read."""
+        try:
+            found = self.column(name, read)
+        except Exception as error:
+            if len(self.prims) == 1:
+                return pass_over(self.prims[0], error)
+            for row in range(len(self.prims)):
+                yield from self.alone(row).readable(name, read, pass_over)
+        else:
+            yield from zip(self.prims, found, strict=True)
+
+    def alone(self, row: int) -> Table:
+        """A table of one of the prims."""
+        if row not in self._alone:
+            self._alone[row] = Table(self.usd.of((row,)), self._authored)
+        return self._alone[row]
+
+
+Read: TypeAlias = Callable[[str, Table], Sequence[Any]]
+"""Finds what is kept under a name, for each prim of a table."""
+
+
+class Chunk:
+    """Some prims of one kind that the walk met in a row, in tables once these are asked for."""
+
+    __slots__ = ("_rows", "prims", "tables")
+
+    def __init__(self, prims: Sequence[Any]) -> None:
+        self.prims = prims
+        self.tables: list[Table] = []
+        self._rows: dict[Any, tuple[Table, int]] = {}
+
+    @property
+    def places(self) -> Iterator[Place]:
+        return ((self, row) for row in range(len(self.prims)))
+
+    def find(self, row: int) -> tuple[Table, int]:
+        """The table of one of the prims, and its row there."""
+        if len(self.tables) == 1:
+            return self.tables[0], row
+        if not self._rows:
+            for table in self.tables:
+                self._rows.update((prim, (table, row)) for row, prim in enumerate(table.prims))
+        return self._rows[self.prims[row]]
+
+
+Place: TypeAlias = tuple["Chunk", int]
+"""A chunk, and which of its prims is meant."""
+
+
+class Tables:
+    """The prims of a stage in tables, and what was found of them."""
+
+    def __init__(
+        self, kept: Mapping[Key, Sequence[Any]], kinds: Kinds, authored: AuthoredReader
+    ) -> None:
+        self._kinds = kinds
+        self._authored = authored
+        self._chunks = {key: list(_chunks(prims)) for key, prims in kept.items()}
+        self._last: list[Table] = []
+        self._asked: Any = None
+
+    def chunks(self, key: Key) -> list[Chunk]:
+        """The prims of a kind, in the order of the walk."""
+        return self._chunks[key]
+
+    def of(self, *schemas: str) -> Iterator[Table]:
+        """The tables of all prims that answer to one of these schemas."""
+        for key, chunks in self._chunks.items():
+            if not self._kinds.names(key).isdisjoint(schemas):
+                for chunk in chunks:
+                    yield from self.tables(chunk)
+
+    def tables(self, chunk: Chunk) -> list[Table]:
+        """The prims of a chunk in tables."""
+        if not chunk.tables:
+            chunk.tables = self._form(chunk.prims)
+        return chunk.tables
+
+    def find(self, prim: Any) -> tuple[Table, int]:
+        """The table of a prim, and its row there; one of its own if the walk did not keep it."""
+        if prim is not self._asked:  # rules ask in a row, and to look a prim up is dear
+            self._asked, self._found = prim, self._look_up(prim)
+        return self._found
+
+    def _look_up(self, prim: Any) -> tuple[Table, int]:
+        place = self._places.get(prim)
+        if place is None:
+            place = self._places[prim] = Chunk((prim,)), 0
+        return self.find_at(place)
+
+    def find_at(self, place: Place) -> tuple[Table, int]:
+        """The table of the prim at a place, and its row there."""
+        chunk, row = place
+        self.tables(chunk)
+        return chunk.find(row)
+
+    @cached_property
+    def fields(self) -> Mapping[Any, Place]:
+        """The places of all live fields, by their paths."""
+        kinds = [key for key in self._chunks if schema.FIELD in self._kinds.names(key)]
+        return {
+            path: place
+            for chunk in chain.from_iterable(self._chunks[key] for key in kinds)
+            for path, place in zip(map(get_path, chunk.prims), chunk.places, strict=True)
+        }
+
+    @cached_property
+    def _places(self) -> dict[Any, Place]:
+        """The places of all prims; to find one is rare where nothing is wrong."""
+        return {
+            prim: place
+            for chunk in chain.from_iterable(self._chunks.values())
+            for prim, place in zip(chunk.prims, chunk.places, strict=True)
+        }
+
+    def _form(self, prims: Sequence[Any]) -> list[Table]:
+        """Puts those together that are alike; one that can't be read does not keep others back."""
+        for table in self._last:
+            table.usd.forget()
+        formed = self._attempt(prims)
+        if isinstance(formed, Exception):
+            if len(prims) > 1:
+                return [table for prim in prims for table in self._form((prim,))]
+            # USD raises once for a manifest of value clips that it can't open; from then on it
+            # goes without, and the manifest is a finding by itself.
+            formed = self._attempt(prims)
+        if isinstance(formed, Exception):
+            return [Table(Answers(prims), formed)]
+        self._last = formed
+        return formed
+
+    def _attempt(self, prims: Sequence[Any]) -> list[Table] | Exception:
+        try:
+            return list(self._alike(Answers(prims)))
+        except Exception as error:
+            return error
+
+    def _alike(self, usd: Answers) -> Iterator[Table]:
+        key = self._kinds.key(usd.prims[0])
+        shapes = self._authored.shapes(usd, key)
+        if shapes.count(shapes[0]) == len(shapes):
+            yield Table(usd, self._authored.read(usd.prims[0], key, shapes[0]))
+            return
+        rows: dict[Shape, list[int]] = defaultdict(list)
+        for row, shape in enumerate(shapes):
+            rows[shape].append(row)
+        for shape, some in rows.items():
+            yield Table(usd.of(some), self._authored.read(usd.prims[some[0]], key, shape))
+
+
+def _chunks(prims: Sequence[Any]) -> Iterator[Chunk]:
+    for start in range(0, len(prims), _MOST_PRIMS):
+        yield Chunk(prims[start : start + _MOST_PRIMS])

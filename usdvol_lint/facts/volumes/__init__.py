@@ -1,0 +1,1 @@
+"""What Volumes bind, where that stands, and whether their extents enclose it."""

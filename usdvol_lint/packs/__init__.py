@@ -1,0 +1,1 @@
+"""Folders of rules and their pages become what is in force."""

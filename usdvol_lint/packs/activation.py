@@ -1,0 +1,51 @@
+"""What of a catalog a configuration switches on: severities and options by code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from usdvol_lint.config import Config, strings
+from usdvol_lint.model import Severity, UsageError
+from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.packs.catalog import NOT_IGNORABLE, Catalog, length
+
+_KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
+
+
+class ActiveRules(NamedTuple):
+    """What of the catalog is switched on: severity and options by code."""
+
+    severities: Mapping[str, Severity]
+    options: Mapping[str, Mapping[str, Any]]
+
+
+def activate(config: Config, catalog: Catalog) -> ActiveRules:
+    """Resolves selection, severities and options against the catalog; unknown ones are errors."""
+    codes = catalog.select(config.select, config.ignore)
+    severities = {code: catalog.rules[code].severity for code in sorted(codes)}
+    for selector, level in sorted(config.severity.items(), key=lambda item: length(item[0])):
+        if selector.strip().upper() in NOT_IGNORABLE:
+            raise UsageError(f"{selector} stays an error: it says that the job was not done")
+        for code in catalog.expand(selector) & severities.keys() - NOT_IGNORABLE:
+            severities[code] = Severity[level.upper()]
+    options: dict[str, dict[str, Any]] = {}
+    for name, given in config.options.items():
+        rule = catalog.find(name)
+        for option, value in given.items():
+            checked = _checked_option(rule.name, rule.options, option, value)
+            options.setdefault(rule.code, {})[option] = checked
+    return ActiveRules(severities, options)
+
+
+def _checked_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> Any:
+    if option not in known:
+        raise UsageError(f"{name} has no option {option!r}{did_you_mean(option, known)}")
+    default = known[option]
+    if isinstance(default, tuple):
+        return tuple(strings(f"{name}: option {option!r}", value))
+    kind = (int, float) if isinstance(default, float) else type(default)
+    if not isinstance(value, kind) or isinstance(value, bool) != isinstance(default, bool):
+        wanted = _KINDS.get(type(default), type(default).__name__)
+        raise UsageError(f"{name}: option {option!r} must be {wanted}, not {value!r}")
+    return value

@@ -1,0 +1,1 @@
+"""Paths become a report, in processes that may die."""

@@ -1,0 +1,96 @@
+"""Paths and a Config become a Report."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Protocol
+
+from usdvol_lint import __version__
+from usdvol_lint.config import Config
+from usdvol_lint.model import Report
+from usdvol_lint.packs.activation import ActiveRules, activate
+from usdvol_lint.packs.catalog import load
+from usdvol_lint.run.discovery import discover
+from usdvol_lint.run.pool import Pool
+from usdvol_lint.run.protocol import Setup
+
+if TYPE_CHECKING:
+    from subprocess import Popen
+
+
+_SHAPING = (
+    *("options", "packs", "fail_on"),
+    *("load", "content", "variants", "variant_limit", "times", "timeout"),
+)
+
+
+class Progress(Protocol):
+    """Whoever shows how far a run is."""
+
+    def begin(self, stages: int) -> None: ...
+    def advance(self, samples: int) -> None: ...
+    def stage_done(self) -> None: ...
+
+
+class _Silent:
+    def begin(self, stages: int) -> None: ...
+    def advance(self, samples: int) -> None: ...
+    def stage_done(self) -> None: ...
+
+
+def lint(
+    paths: Iterable[str],
+    config: Config | Callable[[], Config] | None = None,
+    progress: Progress | None = None,
+    child: Popen[bytes] | None = None,
+) -> Report:
+    """Checks the stages at `paths`, files or folders.
+
+    `config` may be a function: the first worker process then imports USD while it runs.
+    `child` is that process, if it was started already.
+    Raises UsageError for mistakes in the configuration; whatever is wrong with a stage is in the
+    report.
+    """
+    began = time.perf_counter()
+    shown = progress or _Silent()
+    pool = Pool(child)
+    try:
+        settled = config() if callable(config) else config or Config()
+        catalog = load(settled.packs)
+        active = activate(settled, catalog)
+        futures = [pool.submit(path) for path in discover(paths)]
+        for future in futures:
+            future.add_done_callback(lambda _: shown.stage_done())
+        shown.begin(len(futures))
+        selections = settled.variant_limit if settled.variants == "all" else 0
+        setup = Setup(
+            active,
+            settled.packs,
+            settled.load,
+            settled.content,
+            selections,
+            settled.times,
+            settled.statistics,
+        )
+        pool.run(setup, settled.jobs or os.cpu_count() or 1, settled.timeout, shown.advance)
+        stages = tuple(future.result() for future in futures)
+        return Report(
+            version=__version__,
+            usd_version=pool.usd_version,
+            settings=settings_of(settled, active),
+            stages=stages,
+            seconds=time.perf_counter() - began,
+        )
+    finally:
+        pool.close()
+
+
+def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
+    """The settings that shape the findings, as reports and `--show-settings` print them."""
+    chosen = config._asdict()
+    return {
+        "rules": {code: severity.label for code, severity in active.severities.items()},
+        **{key: chosen[key] for key in _SHAPING},
+    }
