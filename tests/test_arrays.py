@@ -19,11 +19,12 @@ from hypothesis import strategies as st
 from process import ROOT, run
 from pxr import Sdf, Usd, Vt
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.facts.particles.arrays import Misfits, chosen, memory
+from usdvol_lint.facts.particles import memory
+from usdvol_lint.facts.particles.arrays import Misfits, chosen
 from usdvol_lint.facts.usd.kinds import Kinds
-from usdvol_lint.facts.usd.values import Value, Values
+from usdvol_lint.facts.usd.values import Value
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
@@ -317,7 +318,7 @@ def test_only_chosen_times_are_looked_at(
     particles = Field(tuple(splats(10) for _ in FRAMES), 0)
     for number in range(len(FRAMES)):
         particles = particles.changed("opacities", _set(3, 7), number)
-    engine = Engine(catalog.rules, activate(Config(), catalog), times=policy)
+    engine = Engine(catalog.rules, activate(Config(), catalog), Depth(times=policy))
     (finding,) = lint(engine, particles, tmp_path / "stage.usdc")
     assert finding.site.frames == frames
     assert finding.message == (
@@ -376,7 +377,7 @@ def test_one_of_a_kind_is_named_in_the_singular(
 ) -> None:
     stage = Usd.Stage.CreateInMemory()
     attribute = stage.DefinePrim("/Splats").CreateAttribute(name, Sdf.ValueTypeNames.FloatArray)
-    misfits = Misfits(Values(attribute, (Value(None, sizes),), 0), name)
+    misfits = Misfits(attribute, (Value(None, sizes),), 0, name)
     assert misfits.words == expected
 
 
@@ -621,7 +622,7 @@ def test_numpy_is_imported_for_particles_alone(tmp_path: Path) -> None:
     program = """
 import sys
 from usdvol_lint.packs.catalog import load
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Depth
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.engine.engine import Engine
 catalog = load()
@@ -641,7 +642,7 @@ sys.exit("numpy" in sys.modules)
 
 @pytest.mark.parametrize("half", [frozenset[str](), frozenset(TYPES)], ids=["float", "half"])
 def test_statistics(half: frozenset[str], catalog: Catalog, tmp_path: Path) -> None:
-    engine = Engine(catalog.rules, activate(Config(), catalog), statistics=True)
+    engine = Engine(catalog.rules, activate(Config(), catalog), Depth(statistics=True))
     arrays = splats(5000, 1)
     arrays["opacities"][:400] = 0.001
     write(Field((arrays,), 1, half), tmp_path / "stage.usdc")
@@ -662,7 +663,7 @@ def test_statistics(half: frozenset[str], catalog: Catalog, tmp_path: Path) -> N
 
 
 def test_statistics_of_next_to_nothing(catalog: Catalog, tmp_path: Path) -> None:
-    engine = Engine(catalog.rules, activate(Config(), catalog), statistics=True)
+    engine = Engine(catalog.rules, activate(Config(), catalog), Depth(statistics=True))
     (tmp_path / "stage.usda").write_text(
         f'#usda 1.0\ndef {SPLAT} "b"\n{{\n}}\ndef {SPLAT} "a"\n{{\n'
         "    point3h[] positionsh = [(nan, 0, 0)]\n    float[] opacities = [nan]\n}\n"

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 import vdbwriter as w
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import activate
@@ -73,7 +73,7 @@ def reading(path: Path) -> Reading:
 
 
 def engine(catalog: Catalog, content: str = "all") -> Engine:
-    return Engine(catalog.rules, activate(Config(select=("ALL",)), catalog), content=content)
+    return Engine(catalog.rules, activate(Config(select=("ALL",)), catalog), Depth(content=content))
 
 
 @pytest.fixture

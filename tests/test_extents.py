@@ -7,8 +7,8 @@ import shutil
 from collections.abc import Callable, Iterator
 from itertools import product
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 import vdbwriter
@@ -16,10 +16,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.prims.extents import Limits
-from usdvol_lint.facts.volumes.enclosure import Enclosure
+from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
 from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement, read_placements
 from usdvol_lint.model import Finding
 from usdvol_lint.packs.activation import activate
@@ -227,13 +227,13 @@ def test_an_extent_that_frames_stick_out_of_is_never_passed_over(
         Grid("g", "g", 0, "float", "t", index_bounds=box, transform=transform)
         for box, transform in zip(boxes, transforms, strict=False)
     ]
-    contents: Any = SimpleNamespace(select_grids=True, grids=lambda: enumerate(grids))
+    timeline = Mock(select_grids=True, grids=lambda: enumerate(grids))
     sides = [-1000.0] * 3 + [1000.0] * 3
     sides[side] = place
     limits = Limits(None, [(None, Vt.Vec3fArray([tuple(sides[:3]), tuple(sides[3:])]))])
     limit = limits.at(None)
     assert limit
-    overhang = Enclosure().overhang(limits, [(contents, AT_REST)])
+    overhang = Hulls(GridBoxes()).overhang(limits, [(timeline, AT_REST)])
     for grid in grids:
         box = grid.world_bounds(0.5)
         assert box
@@ -278,7 +278,7 @@ def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> L
     def run(text: str, code: str = "VOL013", content: str = "all", **options: Any) -> list[Finding]:
         Path("stage.usda").write_text("#usda 1.0\n" + text, encoding="utf-8")
         config = Config(select=(code,), options={code: options} if options else {})
-        engine = Engine(catalog.rules, activate(config, catalog), content=content)
+        engine = Engine(catalog.rules, activate(config, catalog), Depth(content=content))
         return list(engine.lint("stage.usda").findings)
 
     return run

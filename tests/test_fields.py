@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from pxr import Usd
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.walk import walk
-from usdvol_lint.facts import Facts
+from usdvol_lint.facts import Context, Facts
 from usdvol_lint.facts.usd.kinds import Kinds
 from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import activate
@@ -33,7 +33,7 @@ def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> L
         for name, content in {**files, "stage": text}.items():
             Path(f"{name}.usda").write_text("#usda 1.0\n" + content, encoding="utf-8")
         active = activate(Config(select=("VOL", "LNT"), ignore=("VOL011",)), catalog)
-        report: StageReport = Engine(catalog.rules, active, load).lint("stage.usda")
+        report: StageReport = Engine(catalog.rules, active, Depth(load=load)).lint("stage.usda")
         return [(finding.code, finding.message, finding.suggestion) for finding in report.findings]
 
     return run
@@ -211,11 +211,10 @@ def Volume "cloud" {{
 }}
 """
     stage = Usd.Stage.Open(write(tmp_path / "stage.usda", text))
-    kinds = Kinds()
-    walked = walk(stage, [], kinds)
-    facts = Facts(stage, kinds, walked.kept, walked.clipped)
+    walked = walk(stage, [], Kinds())
+    facts = Facts(Context.of(stage), walked.kept, walked.clipped)
     cloud, density = stage.GetPrimAtPath("/cloud"), stage.GetPrimAtPath("/cloud/density")
-    assert not facts.is_shared(cloud, density)
+    assert not facts.volumes.is_shared(cloud, density)
 
 
 def write(path: Path, text: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from stages import findings, said, volume
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import activate
@@ -24,7 +24,7 @@ def test_payloads_that_were_not_loaded(
     (tmp_path / "lib.usda").write_text(volume("asset filePath = @./gone.vdb@"))
     payload = 'def "p{}" (\n    payload = @./lib.usda@</cloud>\n)\n{{\n}}\n'
     (tmp_path / "stage.usda").write_text("#usda 1.0\n" + "".join(map(payload.format, range(5))))
-    engine = Engine(catalog.rules, activate(Config(select=("ALL",)), catalog), load="none")
+    engine = Engine(catalog.rules, activate(Config(select=("ALL",)), catalog), Depth(load="none"))
     assert said(engine.lint("stage.usda")) == [
         "LNT005 5 payloads not loaded, what is below was not checked: /p0, /p1, /p2, …"
     ]

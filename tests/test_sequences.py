@@ -10,7 +10,7 @@ from zipfile import ZipFile
 
 import pytest
 
-from usdvol_lint.facts.files.disk import Files
+from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.sequences import Numbering, number
 from usdvol_lint.model import StageReport
 
@@ -325,11 +325,11 @@ def test_case_where_the_file_system_ignores_it(
         str(tmp_path / "cache"): ("smoke.0001.vdb", "Smoke.0002.vdb"),
         str(tmp_path / "Cache"): ("smoke.0001.vdb", "Smoke.0002.vdb"),
     }
-    monkeypatch.setattr(Files, "listing", lambda self, folder: listings.get(folder, ()))
+    monkeypatch.setattr(Disk, "listing", lambda self, folder: listings.get(folder, ()))
     names = ["./cache/smoke.0001.vdb", "./cache/smoke.0002.vdb"]
     stage = sampled(enumerate(names, start=1))
     assert said(lint_text(stage)) == []
-    monkeypatch.setattr(Files, "ignores_case", lambda self, path: True)
+    monkeypatch.setattr(Disk, "ignores_case", lambda self, path: True)
     assert said(lint_text(stage)) == [
         (
             "AST009",
@@ -346,9 +346,9 @@ def test_case_where_the_file_system_ignores_it(
 def test_a_folder_says_whether_it_ignores_case(tmp_path: Path) -> None:
     write(tmp_path, "a.vdb")
     other = (tmp_path / "A.VDB").exists()
-    assert Files().ignores_case(str(tmp_path / "a.vdb")) is other
-    assert Files().ignores_case("/nope/a.vdb") is False
-    assert Files().ignores_case("/nope/p.usdz[a.vdb]") is False
+    assert Disk().ignores_case(str(tmp_path / "a.vdb")) is other
+    assert Disk().ignores_case("/nope/a.vdb") is False
+    assert Disk().ignores_case("/nope/p.usdz[a.vdb]") is False
 
 
 def test_packages(lint_text: Lint, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import pytest
 from process import Ran, run
 from pxr import Sdf, Tf
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.model import Severity, StageReport
@@ -33,7 +33,7 @@ def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> L
     def call(selections: int = LIMIT, load: str = "all", **layers: str) -> StageReport:
         write(layers)
         active = activate(Config(select=RULES), catalog)
-        engine = Engine(catalog.rules, active, load, selections=selections)
+        engine = Engine(catalog.rules, active, Depth(load=load, selections=selections))
         report = engine.lint(f"{next(iter(layers))}.usda")
         assert report.status == "checked"
         return report
@@ -258,7 +258,7 @@ def test_the_session_layer_is_never_blamed(lint: Lint, tmp_path: Path) -> None:
 
     rule = Rule("SEE001", "seen", ("MaterialBindingAPI",), Severity.INFO, "1", counts, {})
     active = ActiveRules({"SEE001": Severity.INFO}, {})
-    engine = Engine({"SEE001": rule}, active, selections=LIMIT)
+    engine = Engine({"SEE001": rule}, active, Depth(selections=LIMIT))
     meta = 'prepend apiSchemas = ["MaterialBindingAPI"]'
     text = prim("model", variant_set("look", a="", b=volume("1")), meta=meta, look="a")
     write({"stage": text.replace("def Xform", "def")})
@@ -384,7 +384,7 @@ def test_a_rule_that_fails_under_every_selection_is_one_finding(lint: Lint, tmp_
 
     rule = Rule("SEE001", "seen", ("Volume",), Severity.INFO, "1", breaks, {})
     active = ActiveRules({"SEE001": Severity.INFO}, {})
-    engine = Engine({"SEE001": rule}, active, selections=LIMIT)
+    engine = Engine({"SEE001": rule}, active, Depth(selections=LIMIT))
     looks = variant_set("look", a="", b=volume("1"), c=volume("2") + volume("2", "w"))
     write({"stage": prim("model", looks, look="a")})
     assert found(engine.lint("stage.usda")) == [
@@ -462,7 +462,7 @@ def test_pages_say_the_same_in_both_modes(
     monkeypatch.chdir(tmp_path)
     active = activate(Config(select=("ALL",)), catalog)
     selected = Engine(catalog.rules, active)
-    every = Engine(catalog.rules, active, selections=LIMIT)
+    every = Engine(catalog.rules, active, Depth(selections=LIMIT))
     for code in catalog.rules:
         page = catalog.page(code)
         for number, example in enumerate(page.examples() if page else ()):

@@ -12,14 +12,7 @@ from pathlib import Path
 import pytest
 import vdbwriter as w
 
-from usdvol_lint.volumefile import (
-    VolumeFileError,
-    file_key,
-    read_volume_file,
-    tokens,
-    vdb,
-    window,
-)
+from usdvol_lint.volumefile import VolumeFileError, file_key, read_volume_file, tokens, vdb, window
 
 SAMPLES = Path(__file__).parent / "samples"
 

@@ -10,9 +10,10 @@ import pytest
 from process import ROOT
 from pxr import Usd
 
+from usdvol_lint.engine.assign import assign
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.engine.walk import assign, walk
-from usdvol_lint.facts import Facts
+from usdvol_lint.engine.walk import Walk, walk
+from usdvol_lint.facts import Context, Facts
 from usdvol_lint.facts.usd.kinds import Kinds
 from usdvol_lint.model import Severity
 from usdvol_lint.packs.catalog import Catalog
@@ -29,6 +30,15 @@ def write_stage(folder: Path, text: str, **layers: str) -> str:
     path = folder / "stage.usda"
     path.write_text(f"#usda 1.0\n{text}", encoding="utf-8")
     return str(path)
+
+
+def assigned(stage: Usd.Stage, found: Walk, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
+    """Each rule with each prim that it is handed; no precondition fails."""
+    facts = Facts(Context.of(stage), found.kept, found.clipped)
+    failed: list[tuple[Rule, Exception]] = []
+    pairs = list(assign(found, rules, facts, {}, lambda *failure: failed.append(failure)))
+    assert failed == []
+    return pairs
 
 
 def walked(
@@ -155,12 +165,8 @@ def Sphere "ball"
     ]
     rules = [asks(name, name) for name, _ in asked]
     rules.append(asks("TWO001", "Volume", "Gprim", "MaterialBindingAPI"))
-    kinds = Kinds()
-    found = walk(stage, rules, kinds)
-    pairs = Counter(
-        (rule.code, prim.GetName())
-        for rule, prim in assign(found, rules, Facts(stage, kinds, found.kept, found.clipped), {})
-    )
+    found = walk(stage, rules, Kinds())
+    pairs = Counter((rule.code, prim.GetName()) for rule, prim in assigned(stage, found, rules))
     assert pairs == Counter(
         (code, name)
         for code, names in [*asked, ("TWO001", "ball volume")]
@@ -187,10 +193,8 @@ def Volume "cloud"
     rel field:density = </cloud/density>
 """
     stage = Usd.Stage.Open(write_stage(tmp_path, f"{cloud}{field}}}\n"))
-    kinds = Kinds()
     rules = list(catalog.rules.values())
-    found = walk(stage, rules, kinds)
-    pairs = assign(found, rules, Facts(stage, kinds, found.kept, found.clipped), {})
+    pairs = assigned(stage, walk(stage, rules, Kinds()), rules)
     assert [rule.code for rule, _ in pairs if rule.when] == []
 
 

@@ -50,6 +50,28 @@ class Config(NamedTuple):
     times: str | int = "all"
     statistics: bool = False
 
+    @property
+    def depth(self) -> Depth:
+        """How much of each stage is looked at."""
+        selections = self.variant_limit if self.variants == "all" else 0
+        return Depth(self.load, self.content, self.times, self.statistics, selections)
+
+
+class Depth(NamedTuple):
+    """How much of each stage is looked at.
+
+    `load` says whether payloads are, `content` how many of a field's files (all, first or off),
+    `times` which time samples of particles (all, first, ends, or so many), `selections` how many
+    variant selections besides the authored ones at most; `statistics` asks for the numbers of
+    particle fields too.
+    """
+
+    load: str = "all"
+    content: str = "all"
+    times: str | int = "all"
+    statistics: bool = False
+    selections: int = 0
+
 
 def find_config_file(start: Path) -> Path | None:
     """The nearest configuration from a folder upward; pyproject.toml counts with our table."""

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import KW_ONLY, dataclass
 from enum import Enum
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 from usdvol_lint.facts import Facts
+from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.files.states import AssetState, FileFault, PathMark
-from usdvol_lint.facts.sums import Sums
+from usdvol_lint.facts.found import column, summary
+from usdvol_lint.facts.grids import Grids
+from usdvol_lint.facts.prims import Prims
+from usdvol_lint.facts.volumes import Volumes
 from usdvol_lint.facts.volumes.states import BindingMark, Emptiness, TargetState
 from usdvol_lint.model import Severity, format_time, frame_ranges, quoted
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
@@ -24,16 +28,23 @@ __all__ = [
     "AssetState",
     "BindingMark",
     "Content",
+    "ContentClass",
     "Emptiness",
     "Facts",
     "FileFault",
+    "Files",
+    "Grids",
     "NotChecked",
+    "Occurrence",
     "PathMark",
     "Prim",
+    "Prims",
     "Problem",
     "Problems",
     "Rule",
+    "Sample",
     "TargetState",
+    "Volumes",
     "When",
     "authored",
     "bindings",
@@ -45,25 +56,43 @@ __all__ = [
     "rule",
 ]
 
+if TYPE_CHECKING:
+    from usdvol_lint.facts.files.assets import Sample
+    from usdvol_lint.facts.grids.contents import Content
+    from usdvol_lint.facts.grids.contents import Kind as ContentClass
+else:
+    Content = ContentClass = Sample = Any  # so that rules can be loaded where pxr is not imported
+
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 
 Prim: TypeAlias = Any
 """A `pxr.Usd.Prim`; spelt so that rules can be loaded where pxr is not imported."""
 
-Content: TypeAlias = Any
-"""A `usdvol_lint.facts.grids.contents.Content`, spelt so for the same reason."""
+
+class Occurrence(Protocol):
+    """Where something stands in the values of an attribute: most of what facts find is one.
+
+    `times` are time codes of the stage; `at_default` adds USD's default time; `asset` is the asset
+    path there, as authored, if that is what the line should point to.
+    """
+
+    @property
+    def attribute(self) -> Any: ...
+    @property
+    def times(self) -> tuple[float, ...]: ...
+    @property
+    def at_default(self) -> bool: ...
+    @property
+    def asset(self) -> str | None: ...
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
-    """What a rule yields: what is wrong, and where.
+class _Said:
+    """What a rule says, and of what.
 
-    `at` is a `Usd.Prim` or a `Usd.Property`; the layer and line are those of its strongest
-    opinion (at the first of `times`), unless `spec` names the `Sdf` spec that is to blame.
-    `times` are time codes of the stage; `at_default` adds USD's default time.
-    `asset` is an asset path, as authored, that stands in the layer where the line should point.
-    `severity` may lower the rule's own for a milder case, never raise it.
-    `holds` is asked when all of the stage was looked at, other variant selections too.
+    `at` is a `Usd.Prim`, a `Usd.Property`, or an occurrence, which knows the attribute, `times`,
+    `at_default` and `asset`.  The layer and line are those of the strongest opinion there (at the
+    first of `times`), unless `spec` names the `Sdf` spec that is to blame.
     """
 
     message: str
@@ -74,25 +103,32 @@ class Problem:
     suggestion: str | None = None
     spec: Any = None
     asset: str | None = None
+
+    def __post_init__(self) -> None:
+        occurrence = self.at
+        if hasattr(occurrence, "at_default"):
+            object.__setattr__(self, "at", occurrence.attribute)
+            object.__setattr__(self, "times", occurrence.times)
+            object.__setattr__(self, "at_default", occurrence.at_default)
+            object.__setattr__(self, "asset", occurrence.asset)
+
+
+@dataclass(frozen=True, slots=True)
+class Problem(_Said):
+    """What a rule yields: what is wrong, and where.
+
+    `severity` may lower the rule's own for a milder case, never raise it.
+    `holds` is asked when all of the stage was looked at, other variant selections too.
+    """
+
+    _: KW_ONLY
     severity: Severity | None = None
     holds: Callable[[], bool] | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class NotChecked:
-    """What a rule yields where it could not look: reported as LNT005, never as an error.
-
-    The fields are those of `Problem`.
-    """
-
-    message: str
-    _: KW_ONLY
-    at: Any
-    times: tuple[float, ...] = ()
-    at_default: bool = False
-    suggestion: str | None = None
-    spec: Any = None
-    asset: str | None = None
+class NotChecked(_Said):
+    """What a rule yields where it could not look: reported as LNT005, never as an error."""
 
 
 Problems: TypeAlias = Iterator[Problem | NotChecked]
@@ -100,38 +136,51 @@ Check: TypeAlias = Callable[..., Problems]
 
 
 class When(NamedTuple):
-    """What must hold for a rule to be handed a prim, so that it costs nothing on all others.
+    """A precondition: a rule is handed only prims whose key it holds for.
 
-    `fact` is a method of `usdvol_lint.facts.sums.Sums`, which sums prims up; those that have a lot
-    in common share what it gives, and `holds` is asked once for each such sum. It is given the
-    rule's options too.
+    `keys` is declared in a wing, such as `Files.path_marks`.  `holds` is called once for each key,
+    with those of the rule's options that it names, and may say yes too often, which costs time,
+    but never no wrongly, which loses findings.  A rule has to be right without it.
     """
 
-    fact: str
+    keys: column[Any, Any] | summary[Any, Any]
     holds: Callable[..., bool]
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """The names of the options that `holds` is given: its parameters but for the key."""
+        code = getattr(self.holds, "__code__", None)
+        return code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount] if code else ()
 
 
 def authored(*names: str) -> When:
     """When one of these attributes is authored, or has values in clips."""
-    return When("authored", lambda authored: not authored.declared.keys().isdisjoint(names))
+    return When(Prims.authored, lambda authored: not authored.declared.keys().isdisjoint(names))
 
 
 def file_paths(*marks: Enum) -> When:
     """When the values of `filePath` have one of these states or marks about them."""
-    return When("file_path_marks", lambda found: not found.isdisjoint(marks))
+    return When(Files.path_marks, lambda found: not found.isdisjoint(marks))
 
 
 def bindings(*marks: Enum) -> When:
     """When the `field:` namespace of a Volume has one of these states or marks about it."""
-    return When("binding_marks", lambda found: not found.isdisjoint(marks))
+    return When(Volumes.binding_marks, lambda found: not found.isdisjoint(marks))
 
 
 def contents(*keys: Callable[[Content], Hashable | None]) -> When:
     """When the content of one of a field's files has one of these keys."""
-    return When(
-        "content_kinds",
-        lambda kinds: any(kind.answer(key) is not None for kind in kinds for key in keys),
-    )
+    return When(Grids.content_classes, AnyKey(keys))
+
+
+@dataclass(frozen=True, slots=True)
+class AnyKey:
+    """Whether one of some classes of contents has one of these keys."""
+
+    keys: tuple[Callable[[Content], Hashable | None], ...]
+
+    def __call__(self, classes: Iterable[ContentClass]) -> bool:
+        return any(each.answer(key) is not None for each in classes for key in self.keys)
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,10 +217,14 @@ def rule(
 ) -> Callable[[Check], Rule]:
     """Makes the decorated generator a rule, named after it: `file_missing` is `file-missing`."""
 
-    if when and not hasattr(Sums, when.fact):
-        raise ValueError(f"{code}: there is no fact {when.fact!r} that `when` could go by")
+    if when and not isinstance(when.keys, column | summary):
+        raise ValueError(f"{code}: `when` names no column or summary of a wing, but {when.keys!r}")
 
     def decorate(check: Check) -> Rule:
+        options = dict(check.__kwdefaults__ or {})
+        for name in when.options if when else ():
+            if name not in options:
+                raise ValueError(f"{code}: `when` asks for {name!r}, no option of the rule")
         return Rule(
             code=code,
             name=check.__name__.replace("_", "-"),
@@ -179,7 +232,7 @@ def rule(
             severity=severity,
             since=since,
             check=check,
-            options=dict(check.__kwdefaults__ or {}),
+            options=options,
             default=default,
             when=when,
         )

@@ -5,14 +5,12 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR003", on="ParticleField", severity=WARNING, since="0.1")
 def array_too_long(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     for array in arrays.used("orientations", "scales", "opacities"):
         long = arrays.long(array)
         if long:
             yield Problem(
                 long.words,
-                at=long.attribute,
-                times=long.times,
-                at_default=long.at_default,
+                at=long,
                 suggestion="author one element for each position",
             )

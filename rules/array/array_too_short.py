@@ -5,14 +5,12 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR002", on="ParticleField", severity=ERROR, since="0.1")
 def array_too_short(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     for array in arrays.used("orientations", "scales", "opacities"):
         short = arrays.short(array)
         if short:
             yield Problem(
                 short.words,
-                at=short.attribute,
-                times=short.times,
-                at_default=short.at_default,
+                at=short,
                 suggestion="author one element for each position",
             )

@@ -5,7 +5,7 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, quoted, ru
 
 @rule("ARR016", on="ParticleField", severity=WARNING, since="0.1")
 def colour_space_unknown(particles: Prim, facts: Facts) -> Problems:
-    space = facts.colour_space(particles)
+    space = facts.particles.colour_space(particles)
     if space and not space.is_known:
         yield Problem(
             f"USD knows no colour space {quoted(space.name)}",

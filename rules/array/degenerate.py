@@ -5,7 +5,7 @@ from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR014", on="ParticleField", severity=WARNING, since="0.1")
 def degenerate(particles: Prim, facts: Facts, *, many: float = 0.1) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     if arrays.most == 1:
         return  # a placeholder
     looked_for = (
@@ -17,9 +17,7 @@ def degenerate(particles: Prim, facts: Facts, *, many: float = 0.1) -> Problems:
         if found:
             yield Problem(
                 f"{found.amount} {what}, {found.first}",
-                at=found.attribute,
-                times=found.times,
-                at_default=found.at_default,
+                at=found,
                 severity=None if found.share > many else INFO,
                 suggestion="leave these particles out of the export, in all arrays",
             )

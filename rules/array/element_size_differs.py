@@ -5,7 +5,7 @@ from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR015", on="ParticleField", severity=INFO, since="0.1")
 def element_size_differs(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     degree, each = arrays.degree, arrays.degree.coefficients
     if each is None or arrays.fitting_degree not in (None, degree.value):
         return  # ARR004 names the degree that fits

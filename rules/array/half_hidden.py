@@ -5,7 +5,7 @@ from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR012", on="ParticleField", severity=WARNING, since="0.1")
 def half_hidden(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     for pair in arrays.pairs.values():
         if not pair.used or not pair.hidden:
             continue

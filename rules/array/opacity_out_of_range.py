@@ -5,15 +5,13 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR008", on="ParticleField", severity=ERROR, since="0.1")
 def opacity_out_of_range(particles: Prim, facts: Facts, *, tolerance: float = 1e-3) -> Problems:
-    for array in facts.arrays(particles).used("opacities"):
+    for array in facts.particles.arrays(particles).used("opacities"):
         found = array.outside(-tolerance, 1 + tolerance)
         if found and array.low and array.high:
             (low,), (high,) = array.low, array.high
             yield Problem(
                 f"{found.amount} outside of 0 to 1, from {low:.6g} to {high:.6g}, {found.first}",
-                at=found.attribute,
-                times=found.times,
-                at_default=found.at_default,
+                at=found,
                 suggestion=_remedy(low, high, found.share),
             )
 
@@ -21,10 +19,7 @@ def opacity_out_of_range(particles: Prim, facts: Facts, *, tolerance: float = 1e
 def _remedy(low: float, high: float, share: float) -> str:
     """Logits rarely leave -15 to 15, bytes reach far beyond; few strays are neither."""
     if share > 0.5 and low > -100 and high < 32:
-        return (
-            "these look like the logits of a PLY file: apply the sigmoid, 1 / (1 + exp(-x)), "
-            "before the export"
-        )
+        return "these look like the logits of a PLY file: apply the sigmoid, 1 / (1 + exp(-x)), before the export"
     if share > 0.5 and low >= 0 and high <= 255:
         return "these look like bytes: divide them by 255 before the export"
     return "clamp them to 0 and 1 before the export"

@@ -5,13 +5,11 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR010", on="ParticleField", severity=ERROR, since="0.1")
 def orientation_zero(particles: Prim, facts: Facts) -> Problems:
-    for array in facts.arrays(particles).used("orientations"):
+    for array in facts.particles.arrays(particles).used("orientations"):
         found = array.without_direction()
         if found:
             yield Problem(
                 f"{found.amount} of no length, {found.first}",
-                at=found.attribute,
-                times=found.times,
-                at_default=found.at_default,
+                at=found,
                 suggestion="author (1, 0, 0, 0) where there is no rotation",
             )

@@ -12,14 +12,11 @@ def outside_extent(
     half_slack: float = 2**-10,
     clamp: float = 50_000.0,
 ) -> Problems:
-    for array in facts.arrays(particles).used("positions"):
-        strays = facts.stray_positions(particles, half_slack if array.is_half else slack, clamp)
+    for array in facts.particles.arrays(particles).used("positions"):
+        strays = facts.particles.stray_positions(particles, half_slack if array.is_half else slack, clamp)
         if strays:
             yield Problem(
-                f"{strays.found.amount} outside of the extent, {strays.shown_extent}, "
-                f"{strays.found.first}",
-                at=strays.extent_attribute,
-                times=strays.times,
-                at_default=strays.at_default,
+                f"{strays.found.amount} outside of the extent, {strays.shown_extent}, {strays.found.first}",
+                at=strays,
                 suggestion=f"the positions span {strays.shown_positions}: author at least that",
             )

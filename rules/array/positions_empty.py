@@ -5,10 +5,10 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR001", on="ParticleField", severity=WARNING, since="0.1")
 def positions_empty(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
-    if not arrays.lack_positions or facts.composition.may_lack_values(particles):
+    arrays = facts.particles.arrays(particles)
+    if not arrays.lack_positions or facts.layers.may_lack_values(particles):
         return
-    if any(slip.meant.startswith("positions") for slip in facts.misspelt(particles)):
+    if any(slip.meant.startswith("positions") for slip in facts.prims.misspelt(particles)):
         return  # SCH004 says it
     yield Problem(
         "no particles at any time",

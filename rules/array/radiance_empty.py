@@ -5,12 +5,12 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR017", on="ParticleField", severity=WARNING, since="0.1")
 def radiance_empty(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     if not arrays.lack_coefficients or not arrays.most:
         return
-    if facts.material_is_bound(particles) or facts.composition.may_lack_values(particles):
+    if facts.particles.material_is_bound(particles) or facts.layers.may_lack_values(particles):
         return
-    if any("Coefficients" in slip.meant for slip in facts.misspelt(particles)):
+    if any("Coefficients" in slip.meant for slip in facts.prims.misspelt(particles)):
         return  # SCH004 says it
     has_colour = particles.GetAttribute("primvars:displayColor").HasAuthoredValue()
     yield Problem(

@@ -5,18 +5,15 @@ from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rul
 
 @rule("ARR009", on="ParticleField", severity=ERROR, since="0.1")
 def scale_negative(particles: Prim, facts: Facts) -> Problems:
-    for array in facts.arrays(particles).used("scales"):
+    for array in facts.particles.arrays(particles).used("scales"):
         found = array.outside(0.0, float("inf"))
         if found and array.low and array.high:
             low, high, are_most = min(array.low), max(array.high), found.share > 0.5
             yield Problem(
                 f"{found.amount} below 0, from {low:.6g} to {high:.6g}, {found.first}",
-                at=found.attribute,
-                times=found.times,
-                at_default=found.at_default,
+                at=found,
                 severity=None if are_most else WARNING,
-                suggestion="these look like the logarithms of a PLY file: apply exp(x) before "
-                "the export"
+                suggestion="these look like the logarithms of a PLY file: apply exp(x) before the export"
                 if are_most and low > -50 and high < 20
                 else "author sizes from 0",
             )

@@ -5,10 +5,12 @@ from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rul
 
 @rule("ARR004", on="ParticleField", severity=ERROR, since="0.1")
 def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
     authored = "" if degree.is_authored else ", what USD falls back to,"
-    for array in arrays.used("coefficients") if each else ():
+    if not each:
+        return  # ARR005 says it
+    for array in arrays.used("coefficients"):
         for misfits, severity in (
             (arrays.short(array, each), None),
             (arrays.long(array, each), WARNING),
@@ -16,9 +18,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             if misfits:
                 yield Problem(
                     f"{misfits.words}, and degree {degree.value}{authored} takes {each:,} for each",
-                    at=misfits.attribute,
-                    times=misfits.times,
-                    at_default=misfits.at_default,
+                    at=misfits,
                     severity=severity,
                     suggestion=f"author {each:,} coefficient{'s' * (each > 1)} for each position"
                     if fitting is None

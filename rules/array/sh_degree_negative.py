@@ -5,7 +5,7 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR005", on="ParticleField", severity=ERROR, since="0.1")
 def sh_degree_negative(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     degree, fitting = arrays.degree, arrays.fitting_degree
     if degree.value is not None and degree.value < 0:
         yield Problem(

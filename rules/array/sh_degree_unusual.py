@@ -5,7 +5,7 @@ from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR006", on="ParticleField", severity=INFO, since="0.1")
 def sh_degree_unusual(particles: Prim, facts: Facts, *, largest: int = 3) -> Problems:
-    arrays = facts.arrays(particles)
+    arrays = facts.particles.arrays(particles)
     degree, fitting = arrays.degree, arrays.fitting_degree
     if degree.value is None or degree.value <= largest or fitting not in (None, degree.value):
         return  # ARR004 names the degree that fits

@@ -1,21 +1,11 @@
 """AST014: the manifest of value clips must declare what the clips hold."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    Facts,
-    PathMark,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    quoted,
-    rule,
-)
+from usdvol_lint.rule import ERROR, Facts, PathMark, Prim, Problem, Problems, file_paths, quoted, rule
 
 
 @rule("AST014", on="FieldAsset", when=file_paths(PathMark.CLIPPED), severity=ERROR, since="0.1")
 def clip_manifest_incomplete(field: Prim, facts: Facts) -> Problems:
-    unlisted = facts.unlisted_clips(field, "filePath")
+    unlisted = facts.files.unlisted_clips(field)
     if unlisted:
         yield Problem(
             f"the clip {quoted(unlisted.clip)} holds filePath, but the manifest "

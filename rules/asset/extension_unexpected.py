@@ -2,36 +2,17 @@
 
 import re
 
-from usdvol_lint.rule import (
-    WARNING,
-    AssetState,
-    Facts,
-    PathMark,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    rule,
-)
+from usdvol_lint.rule import WARNING, AssetState, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 from usdvol_lint.schema import FILE_EXTENSIONS
 
 _TYPES = {extension: name for name, extension in FILE_EXTENSIONS.items()}
-_WITHOUT = {
-    extension: re.compile(rf"(?is)(?!.*\{extension}(?:\]*\Z|:SDF_FORMAT_ARGS:))")
-    for extension in _TYPES
-}
+_WITHOUT = {extension: re.compile(rf"(?is)(?!.*\{extension}(?:\]*\Z|:SDF_FORMAT_ARGS:))") for extension in _TYPES}
 
 
-@rule(
-    "AST006",
-    on=tuple(_TYPES.values()),
-    when=file_paths(PathMark.FOREIGN),
-    severity=WARNING,
-    since="0.1",
-)
+@rule("AST006", on=tuple(_TYPES.values()), when=file_paths(PathMark.FOREIGN), severity=WARNING, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
-    wanted = ".vdb" if facts.is_a(field, "OpenVDBAsset") else ".f3d"
-    other = facts.assets(field, "filePath").matching(_WITHOUT[wanted], AssetState.FILE)
+    wanted = ".vdb" if facts.prims.is_a(field, "OpenVDBAsset") else ".f3d"
+    other = facts.files.paths(field).matching(_WITHOUT[wanted], {AssetState.FILE})
     if other:
         extension = _extension(other.first.path)
         if (extension, wanted) == (".nvdb", ".vdb"):
@@ -44,10 +25,7 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
             advice += f", or make the prim an {_TYPES[extension]}"
         yield Problem(
             f"{other.shown} {what}{other.count}",
-            at=other.attribute,
-            times=other.times,
-            at_default=other.at_default,
-            asset=other.first.authored,
+            at=other,
             suggestion=advice,
         )
 

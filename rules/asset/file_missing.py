@@ -1,28 +1,15 @@
 """AST002: the file that a field names must exist."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    AssetState,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    quoted,
-    rule,
-)
+from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, quoted, rule
 
 
 @rule("AST002", on="FieldAsset", when=file_paths(AssetState.MISSING), severity=ERROR, since="0.1")
 def file_missing(field: Prim, facts: Facts) -> Problems:
-    missing = facts.assets(field, "filePath").of(AssetState.MISSING)
+    missing = facts.files.paths(field).of(AssetState.MISSING)
     if missing:
         reason, similar = facts.files.absence(missing.anchored(), missing.first.path)
         yield Problem(
             f"no file at {missing.shown}{reason}{missing.count}",
-            at=missing.attribute,
-            times=missing.times,
-            at_default=missing.at_default,
-            asset=missing.first.authored,
+            at=missing,
             suggestion=f"did you mean {quoted(similar)}?" if similar else None,
         )

@@ -1,24 +1,14 @@
 """AST001: a field must name a file at some time."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    AssetState,
-    Facts,
-    PathMark,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    rule,
-)
+from usdvol_lint.rule import ERROR, AssetState, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 
 
 @rule("AST001", on="FieldAsset", when=file_paths(PathMark.NONE), severity=ERROR, since="0.1")
 def file_path_missing(field: Prim, facts: Facts) -> Problems:
-    paths = facts.assets(field, "filePath")
-    if paths.names_a_path or facts.unlisted_clips(field, "filePath"):
+    paths = facts.files.paths(field)
+    if paths.names_a_path or facts.files.unlisted_clips(field):
         return
-    if facts.composition.may_lack_values(field):
+    if facts.layers.may_lack_values(field):
         return
     if paths.of(AssetState.EMPTY):
         message = "filePath is empty"
@@ -26,6 +16,4 @@ def file_path_missing(field: Prim, facts: Facts) -> Problems:
         message = "filePath is blocked"
     else:
         message = "filePath has no value" if paths.attribute.IsAuthored() else "no filePath"
-    yield Problem(
-        message, at=paths.attribute, suggestion="author the path of the file that holds the field"
-    )
+    yield Problem(message, at=paths.attribute, suggestion="author the path of the file that holds the field")

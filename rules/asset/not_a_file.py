@@ -1,16 +1,6 @@
 """AST005: what a field names must be a file with content that can be read."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    AssetState,
-    Facts,
-    FileFault,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    rule,
-)
+from usdvol_lint.rule import ERROR, AssetState, Facts, FileFault, Prim, Problem, Problems, file_paths, rule
 
 _ADVICE = {
     FileFault.FOLDER: "name a file in it",
@@ -21,17 +11,12 @@ _ADVICE = {
 }
 
 
-@rule(
-    "AST005", on="FieldAsset", when=file_paths(AssetState.NOT_A_FILE), severity=ERROR, since="0.1"
-)
+@rule("AST005", on="FieldAsset", when=file_paths(AssetState.NOT_A_FILE), severity=ERROR, since="0.1")
 def not_a_file(field: Prim, facts: Facts) -> Problems:
-    for found in facts.assets(field, "filePath").by_detail(AssetState.NOT_A_FILE):
+    for found in facts.files.paths(field).by_detail(AssetState.NOT_A_FILE):
         fault = FileFault(found.first.detail)
         yield Problem(
             f"{found.shown} is {fault}{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
+            at=found,
             suggestion=_ADVICE.get(fault),
         )

@@ -5,13 +5,10 @@ from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, 
 
 @rule("AST015", on="FieldAsset", when=file_paths(PathMark.PACKAGED), severity=WARNING, since="0.1")
 def outside_package(field: Prim, facts: Facts) -> Problems:
-    outside = facts.outside_package(field, "filePath")
+    outside = facts.files.outside_package(field)
     if outside:
         yield Problem(
             f"{outside.shown} lies outside the package that names it{outside.count}",
-            at=outside.attribute,
-            times=outside.times,
-            at_default=outside.at_default,
-            asset=outside.first.authored,
+            at=outside,
             suggestion="add the file to the package, and name it in relation to the layer",
         )

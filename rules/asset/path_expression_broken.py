@@ -1,17 +1,6 @@
 """AST004: a variable expression must evaluate to a path."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    WARNING,
-    AssetState,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    quoted,
-    rule,
-)
+from usdvol_lint.rule import ERROR, WARNING, AssetState, Facts, Prim, Problem, Problems, file_paths, quoted, rule
 
 
 @rule(
@@ -22,26 +11,18 @@ from usdvol_lint.rule import (
     since="0.1",
 )
 def path_expression_broken(field: Prim, facts: Facts) -> Problems:
-    paths = facts.assets(field, "filePath")
+    paths = facts.files.paths(field)
     for broken in paths.by_detail(AssetState.BROKEN_EXPRESSION):
         reason = broken.first.detail[:1].lower() + broken.first.detail[1:]
         yield Problem(
-            f"the expression {quoted(broken.first.authored)} can't be evaluated: "
-            f"{reason}{broken.count}",
-            at=broken.attribute,
-            times=broken.times,
-            at_default=broken.at_default,
-            asset=broken.first.authored,
+            f"the expression {quoted(broken.first.authored)} can't be evaluated: {reason}{broken.count}",
+            at=broken,
         )
     for unset in paths.by_detail(AssetState.UNSET_VARIABLE):
         variables = unset.first.detail
         yield Problem(
-            f"the expression {quoted(unset.first.authored)} needs a variable that is not set: "
-            f"{variables}{unset.count}",
-            at=unset.attribute,
-            times=unset.times,
-            at_default=unset.at_default,
-            asset=unset.first.authored,
+            f"the expression {quoted(unset.first.authored)} needs a variable that is not set: {variables}{unset.count}",
+            at=unset,
             suggestion=f"set {variables} in expressionVariables of the root layer; USD does not "
             "read those of sublayers",
             severity=WARNING,

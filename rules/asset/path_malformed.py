@@ -3,20 +3,8 @@
 import re
 from collections.abc import Iterator
 
-from usdvol_lint.rule import (
-    WARNING,
-    AssetState,
-    Facts,
-    PathMark,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    quoted,
-    rule,
-)
+from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, Sample, file_paths, quoted, rule
 
-_STATES = (AssetState.FILE, AssetState.MISSING, AssetState.NOT_A_FILE, AssetState.PATTERN)
 _SUSPECT = re.compile(r"[A-Za-z]:|~|\s|[^\\]*+(?:\\|(?<=\s)\Z)")
 _HOME = re.compile(r"~[^/\\]*[/\\]")
 _ROOT = re.compile(r"[A-Za-z]:|\\\\")
@@ -24,33 +12,23 @@ _ROOT = re.compile(r"[A-Za-z]:|\\\\")
 
 @rule("AST008", on="FieldAsset", when=file_paths(PathMark.UNPLAIN), severity=WARNING, since="0.1")
 def path_malformed(field: Prim, facts: Facts) -> Problems:
-    paths = facts.assets(field, "filePath")
-    suspect = paths.matching(_SUSPECT, *_STATES)
-    if suspect is None:
-        return
-    # A file may well be called '~x', and is if it is there.
-    malformed = paths.affected(
-        sample
-        for sample in suspect.samples
-        if any(_defects(sample.path, sample.state is AssetState.FILE))
-    )
+    paths = facts.files.paths(field)
+    suspect = paths.matching(_SUSPECT)
+    malformed = suspect and paths.affected(sample for sample in suspect.samples if any(_defects(sample)))
     if malformed:
-        path = malformed.first.path
-        defects = _defects(path, malformed.first.state is AssetState.FILE)
+        defects = ", and ".join(_defects(malformed.first))
         yield Problem(
-            f"{malformed.shown} {', and '.join(defects)}{malformed.count}",
-            at=malformed.attribute,
-            times=malformed.times,
-            at_default=malformed.at_default,
-            asset=malformed.first.authored,
-            suggestion=_advice(path),
+            f"{malformed.shown} {defects}{malformed.count}",
+            at=malformed,
+            suggestion=_advice(malformed.first.path),
         )
 
 
-def _defects(path: str, is_there: bool) -> Iterator[str]:
+def _defects(sample: Sample) -> Iterator[str]:
+    path = sample.path
     if path[1:2] == ":" and path[0].isalpha():
         yield "begins with a drive letter, which only Windows has"
-    if _HOME.match(path) and not is_there:
+    if _HOME.match(path) and not sample.is_there:  # a file may well be called so
         yield "begins with '~', which USD does not expand"
     if "\\" in path:
         yield "has backslashes, which separate names on Windows alone"

@@ -9,14 +9,11 @@ _MOST = 1000
 
 @rule("AST003", on="FieldAsset", when=file_paths(AssetState.PATTERN), severity=ERROR, since="0.1")
 def path_pattern(field: Prim, facts: Facts) -> Problems:
-    for found in facts.assets(field, "filePath").by_detail(AssetState.PATTERN):
-        frames = facts.files.frames(found.anchored(), found.first.path)
+    for found in facts.files.paths(field).by_detail(AssetState.PATTERN):
+        frames = facts.files.frames(found)
         yield Problem(
             f"no file at {found.shown}: USD does not replace {found.first.detail!r}{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
+            at=found,
             suggestion=_time_samples(frames) if frames else _advice(found.first.path),
         )
 

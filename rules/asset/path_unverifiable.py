@@ -1,16 +1,6 @@
 """AST010: a path that nothing here resolves can't be checked, or not rendered elsewhere."""
 
-from usdvol_lint.rule import (
-    INFO,
-    WARNING,
-    AssetState,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    rule,
-)
+from usdvol_lint.rule import INFO, WARNING, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
 
 @rule(
@@ -21,23 +11,17 @@ from usdvol_lint.rule import (
     since="0.1",
 )
 def path_unverifiable(field: Prim, facts: Facts) -> Problems:
-    paths = facts.assets(field, "filePath")
+    paths = facts.files.paths(field)
     for live in paths.by_detail(AssetState.LIVE_SESSION):
         yield Problem(
             f"{live.shown} exists in a running Houdini session alone{live.count}",
-            at=live.attribute,
-            times=live.times,
-            at_default=live.at_default,
-            asset=live.first.authored,
+            at=live,
             suggestion="save the volume to a .vdb file and name that",
         )
     for found in paths.by_detail(AssetState.UNVERIFIABLE):
         scheme = f"{found.first.detail}:"
         yield Problem(
             f"{found.shown} was not checked: no resolver here answers for {scheme!r}{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
+            at=found,
             severity=INFO,
         )

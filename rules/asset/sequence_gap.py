@@ -1,21 +1,11 @@
 """AST011: a run of samples should have no holes."""
 
-from usdvol_lint.rule import (
-    WARNING,
-    Facts,
-    PathMark,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    frame_ranges,
-    rule,
-)
+from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, frame_ranges, rule
 
 
 @rule("AST011", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def sequence_gap(field: Prim, facts: Facts) -> Problems:
-    sequence = facts.sequence(field, "filePath")
+    sequence = facts.files.sequence(field)
     missing = sequence.missing() if sequence else None
     if sequence and missing:
         samples = "no sample" if len(missing.times) == 1 else "no samples"

@@ -1,25 +1,14 @@
 """AST012: the samples should cover the time range of the stage."""
 
-from usdvol_lint.rule import (
-    INFO,
-    WARNING,
-    Facts,
-    PathMark,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    format_time,
-    rule,
-)
+from usdvol_lint.rule import INFO, WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, format_time, rule
 
 
 @rule("AST012", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
-    sequence = facts.sequence(field, "filePath")
-    if sequence is None or facts.time_range is None or not sequence.is_animated:
+    sequence = facts.files.sequence(field)
+    if sequence is None or facts.layers.time_range is None or not sequence.is_animated:
         return
-    start, end = facts.time_range
+    start, end = facts.layers.time_range
     first, last = sequence.times[0], sequence.times[-1]
     ranges = (
         f"the samples are at {format_time(first)}-{format_time(last)}, "

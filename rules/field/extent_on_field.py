@@ -1,8 +1,8 @@
 """FLD008: a field has no extent, its Volume has."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import INFO, Facts, Prim, Prims, Problem, Problems, When, rule
 
-_HAS_EXTENT = When("authored", lambda authored: "extent" in authored.strange)
+_HAS_EXTENT = When(Prims.authored, lambda authored: "extent" in authored.strange)
 
 
 @rule("FLD008", on="VolumeFieldBase", when=_HAS_EXTENT, severity=INFO, since="0.1")

@@ -8,17 +8,15 @@ _ROLE, _DATA_TYPE = "vectorDataRoleHint", "fieldDataType"
 
 @rule("FLD003", on="FieldAsset", when=authored(_ROLE), severity=INFO, since="0.1")
 def role_hint_on_scalar(field: Prim, facts: Facts) -> Problems:
-    declared = facts.authored(field).declared
-    types = list(facts.values(field, _DATA_TYPE))
+    declared = facts.prims.authored(field).declared
+    types = list(facts.prims.values(field, _DATA_TYPE))
     if not all(isinstance(name, str) and name in SCALAR_DATA_TYPES for name in types):
         return
     roles = [token for token in declared[_ROLE].tokens if token != "None"]
-    for role, held in facts.values(field, _ROLE).apart(lambda value: _among(roles, value)):
+    for role, held in facts.prims.values(field, _ROLE).apart(lambda value: _among(roles, value)):
         yield Problem(
             f"{_ROLE} {role!r} on a field of type {types[0]!r}, which is no vector{held.count}",
-            at=held.attribute,
-            times=held.times,
-            at_default=held.at_default,
+            at=held,
             suggestion=f"remove it, or correct {_DATA_TYPE}",
         )
 

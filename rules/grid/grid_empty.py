@@ -3,18 +3,15 @@
 from usdvol_lint.rule import INFO, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 
 
-def _empty(content: Content) -> object:
+def _empty(content: Content) -> str | None:
     grid = content.grid
     return grid.label if grid is not None and grid.is_empty else None
 
 
 @rule("GRD008", on="FieldAsset", when=contents(_empty), severity=INFO, since="0.1")
 def grid_empty(field: Prim, facts: Facts) -> Problems:
-    for content, found in facts.contents(field).grouped(_empty):
+    for label, _, found in facts.grids.contents(field).grouped(_empty):
         yield Problem(
-            f"grid {quoted(content.grid.label)} in {found.shown} has no active voxels{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
+            f"grid {quoted(label)} in {found.shown} has no active voxels{found.count}",
+            at=found,
         )

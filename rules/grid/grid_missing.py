@@ -6,7 +6,7 @@ from usdvol_lint.schema import nearest
 _PARTS = [tuple(f"{mark}{part}" for part in "xyz") for mark in (".", "_", ":", "")]
 
 
-def _missing(content: Content) -> object:
+def _missing(content: Content) -> tuple[str, str, bool] | None:
     """What is missing, where nothing of that name may lie in what was not read."""
     file, claim = content.file, content.claim
     if file is None or not file.complete or not claim.name or content.grids:
@@ -16,25 +16,20 @@ def _missing(content: Content) -> object:
 
 @rule("GRD003", on="FieldAsset", when=contents(_missing), severity=ERROR, since="0.1")
 def grid_missing(field: Prim, facts: Facts) -> Problems:
-    for content, found in facts.contents(field).grouped(_missing):
-        name, purpose = content.claim.name, content.claim.purpose
+    for (name, purpose, _), content, found in facts.grids.contents(field).grouped(_missing):
         where = f" of {purpose!r}" if purpose else ""
         yield Problem(
-            f"no grid {quoted(name)}{where} in {found.shown}, which holds {content.holds}"
-            f"{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
-            suggestion=_suggestion(name, {grid.unique_name for grid in content.file.grids}),
+            f"no grid {quoted(name)}{where} in {found.shown}, which holds {content.holds}{found.count}",
+            at=found,
+            suggestion=_suggestion(name, content.grid_names),
         )
 
 
-def _suggestion(name: str, names: set[str]) -> str | None:
+def _suggestion(name: str, names: frozenset[str]) -> str | None:
     for parts in _PARTS:
         split = [name + part for part in parts]
         if names.issuperset(split):
             listed = ", ".join(map(quoted, split))
             return f"{quoted(name)} is split into {listed}: write it as one vector"
-    meant = nearest(name, frozenset(names - {""}))
+    meant = nearest(name, names - {""})
     return f"did you mean {quoted(meant)}?" if meant else None

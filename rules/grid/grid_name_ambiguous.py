@@ -1,16 +1,6 @@
 """GRD009: one grid of the file, and no other, should answer to the field's name."""
 
-from usdvol_lint.rule import (
-    WARNING,
-    Content,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    contents,
-    quoted,
-    rule,
-)
+from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 
 
 def _ambiguity(content: Content) -> tuple[str, str] | None:
@@ -33,8 +23,7 @@ def _ambiguity(content: Content) -> tuple[str, str] | None:
         return "a grid without a name, which no fieldName can select", "name it in the file"
     if grid.name != grid.unique_name:
         return (
-            f"a grid listed as {quoted(grid.unique_name)} "
-            f"whose own metadata name it {quoted(grid.name)}",
+            f"a grid listed as {quoted(grid.unique_name)} whose own metadata name it {quoted(grid.name)}",
             "write the file again: readers go by the one or the other",
         )
     return None
@@ -42,13 +31,9 @@ def _ambiguity(content: Content) -> tuple[str, str] | None:
 
 @rule("GRD009", on="FieldAsset", when=contents(_ambiguity), severity=WARNING, since="0.1")
 def grid_name_ambiguous(field: Prim, facts: Facts) -> Problems:
-    for content, found in facts.contents(field).grouped(_ambiguity):
-        reason, suggestion = _ambiguity(content)
+    for (reason, suggestion), _, found in facts.grids.contents(field).grouped(_ambiguity):
         yield Problem(
             f"{found.shown} holds {reason}{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
+            at=found,
             suggestion=suggestion,
         )

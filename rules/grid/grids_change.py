@@ -1,24 +1,21 @@
 """GRD013: the files of a sequence should hold the same grids."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import WARNING, Facts, Grids, Prim, Problem, Problems, When, rule
 
 
 @rule(
     "GRD013",
     on="FieldAsset",
-    when=When("content_kinds", lambda kinds: len(kinds) > 1),
+    when=When(Grids.content_classes, lambda kinds: len(kinds) > 1),
     severity=WARNING,
     since="0.1",
 )
 def grids_change(field: Prim, facts: Facts) -> Problems:
-    changes = facts.grid_changes(field)
+    changes = facts.grids.changes(field)
     if changes:
         found = changes.found
         yield Problem(
             f"{found.shown} {changes.difference}, unlike most of the sequence{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
+            at=found,
             suggestion="look whether the frames come from one simulation",
         )

@@ -1,42 +1,44 @@
 """GRD010: the version of a file must be one that readers know."""
 
-from collections.abc import Callable
-from functools import cache
-from typing import Any
+from dataclasses import dataclass
 
-from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import WARNING, Content, ContentClass, Facts, Grids, Prim, Problem, Problems, When, rule
 
 
-@cache
-def _reason(newest: int) -> Callable[[Content], str | None]:
-    def reason(content: Content) -> str | None:
+@dataclass(frozen=True)
+class _Reason:
+    """Why readers may not know the version of a file; `newest` is what they know of OpenVDB."""
+
+    newest: int
+
+    def __call__(self, content: Content) -> str | None:
         if content.fault is not None:
             return content.fault.message if content.fault.code == "version-unsupported" else None
         file = content.file
         if file is None:
             return None
         if file.format == "openvdb":
-            newer = f"file version {file.version} is newer than {newest}"
-            return newer if file.version_number > newest else None
+            newer = f"file version {file.version} is newer than {self.newest}"
+            return newer if file.version_number > self.newest else None
         warnings = (warning.message for warning in file.warnings if warning.code == "version-newer")
         return next(warnings, None)
 
-    return reason
+
+def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> bool:
+    return any(each.answer(_Reason(newest)) is not None for each in classes)
 
 
-def _holds(kinds: tuple[Any, ...], newest: int) -> bool:
-    return any(kind.answer(_reason(newest)) is not None for kind in kinds)
-
-
-@rule("GRD010", on="FieldAsset", when=When("content_kinds", _holds), severity=WARNING, since="0.1")
+@rule(
+    "GRD010",
+    on="FieldAsset",
+    when=When(Grids.content_classes, _some_are_unsupported),
+    severity=WARNING,
+    since="0.1",
+)
 def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
-    reason = _reason(newest)
-    for content, found in facts.contents(field).grouped(reason):
+    for reason, _, found in facts.grids.contents(field).grouped(_Reason(newest)):
         yield Problem(
-            f"{found.shown}: {reason(content)}{found.count}",
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
-            asset=found.first.authored,
+            f"{found.shown}: {reason}{found.count}",
+            at=found,
             suggestion="write it again with another version of the library",
         )

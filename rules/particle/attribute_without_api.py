@@ -6,7 +6,7 @@ from usdvol_lint.schema import API_ATTRIBUTES
 
 @rule("PRT007", on="ParticleField", severity=WARNING, since="0.1")
 def attribute_without_api(particles: Prim, facts: Facts) -> Problems:
-    apis = facts.apis(particles)
+    apis = facts.particles.apis(particles)
     declared = frozenset(particles.GetPrimDefinition().GetPropertyNames())
     for api, names in API_ATTRIBUTES.items():
         if apis.has(api):
@@ -15,8 +15,7 @@ def attribute_without_api(particles: Prim, facts: Facts) -> Problems:
         authored = [attribute for attribute in attributes if attribute.HasAuthoredValue()]
         if authored:
             yield Problem(
-                f"{', '.join(repr(attribute.GetName()) for attribute in authored)} without "
-                f"{api!r}{apis.doubt}",
+                f"{', '.join(repr(attribute.GetName()) for attribute in authored)} without {api!r}{apis.doubt}",
                 at=authored[0],
                 severity=INFO if apis.third_party else None,
                 suggestion=f"apply {api}",

@@ -6,13 +6,13 @@ from usdvol_lint.schema import API_PROVIDERS, RADIANCE_BASE
 
 @rule("PRT004", on="ParticleField", severity=WARNING, since="0.1")
 def base_api_alone(particles: Prim, facts: Facts) -> Problems:
-    apis = facts.apis(particles)
+    apis = facts.particles.apis(particles)
     if apis.third_party or not apis.built_in_type:
         return
     for base, providers in API_PROVIDERS.items():
         if base not in apis.applied or apis.providers(base) or any(map(apis.has, providers)):
             continue
-        if base == RADIANCE_BASE and facts.material_is_bound(particles):
+        if base == RADIANCE_BASE and facts.particles.material_is_bound(particles):
             continue
         yield Problem(
             f"{base!r} is applied, but nothing that provides its data",

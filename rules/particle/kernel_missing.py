@@ -6,7 +6,7 @@ from usdvol_lint.schema import KERNEL_BASE
 
 @rule("PRT002", on="ParticleField", severity=ERROR, since="0.1")
 def kernel_missing(particles: Prim, facts: Facts) -> Problems:
-    apis = facts.apis(particles)
+    apis = facts.particles.apis(particles)
     if KERNEL_BASE not in apis.applied:
         yield Problem(
             f"no applied API provides a kernel{apis.doubt}",

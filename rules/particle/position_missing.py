@@ -6,7 +6,7 @@ from usdvol_lint.schema import POSITION_BASE
 
 @rule("PRT001", on="ParticleField", severity=ERROR, since="0.1")
 def position_missing(particles: Prim, facts: Facts) -> Problems:
-    apis = facts.apis(particles)
+    apis = facts.particles.apis(particles)
     if POSITION_BASE not in apis.applied:
         yield Problem(
             f"no applied API provides positions{apis.doubt}",

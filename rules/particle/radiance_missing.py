@@ -6,10 +6,10 @@ from usdvol_lint.schema import RADIANCE_BASE
 
 @rule("PRT003", on="ParticleField", severity=ERROR, since="0.1")
 def radiance_missing(particles: Prim, facts: Facts) -> Problems:
-    apis = facts.apis(particles)
+    apis = facts.particles.apis(particles)
     if RADIANCE_BASE in apis.applied:
         return
-    bound = facts.material_is_bound(particles)
+    bound = facts.particles.material_is_bound(particles)
     material = "; the bound material serves only renderers that prefer it" if bound else ""
     yield Problem(
         f"no applied API provides radiance{material}{apis.doubt}",

@@ -5,11 +5,10 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("PRT006", on="ParticleField", severity=WARNING, since="0.1")
 def unknown_api(particles: Prim, facts: Facts) -> Problems:
-    misspelt = facts.apis(particles).misspelt
-    if misspelt and not facts.encoding(particles):
+    misspelt = facts.particles.apis(particles).misspelt
+    if misspelt and not facts.prims.encoding(particles):
         yield Problem(
             f"USD knows no API {', '.join(map(repr, misspelt))}",
             at=particles,
-            suggestion="write "
-            + ", ".join(f"{meant!r} for {name!r}" for name, meant in misspelt.items()),
+            suggestion="write " + ", ".join(f"{meant!r} for {name!r}" for name, meant in misspelt.items()),
         )

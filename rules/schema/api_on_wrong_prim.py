@@ -6,12 +6,12 @@ from usdvol_lint.schema import PARTICLE_FIELD, PARTICLE_FIELD_ONLY_APIS, misspel
 
 @rule("SCH010", on=PARTICLE_FIELD_ONLY_APIS, severity=ERROR, since="0.1")
 def api_on_wrong_prim(prim: Prim, facts: Facts) -> Problems:
-    if facts.is_a(prim, PARTICLE_FIELD):
+    if facts.prims.is_a(prim, PARTICLE_FIELD):
         return
     type_name = prim.GetTypeName()
-    applied = [api for api in facts.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS]
+    applied = [api for api in facts.particles.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS]
     names = ", ".join(map(repr, applied))
-    if not facts.is_a(prim, UNKNOWN_TYPE):
+    if not facts.prims.is_a(prim, UNKNOWN_TYPE):
         yield Problem(
             f"{names} on {type_name!r}" if type_name else f"{names} on a prim without a type",
             at=prim,

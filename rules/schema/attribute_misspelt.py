@@ -1,18 +1,18 @@
 """SCH004: an attribute whose name is not quite one of the schema's is read by nobody."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
 
 @rule(
     "SCH004",
     on=("Volume", "VolumeFieldBase", "ParticleField"),
-    when=When("authored", lambda authored: bool(authored.meant)),
+    when=When(Prims.authored, lambda authored: bool(authored.meant)),
     severity=WARNING,
     since="0.1",
 )
 def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
-    for attribute, meant in facts.misspelt(prim):
-        if facts.encoding(prim):
+    for attribute, meant in facts.prims.misspelt(prim):
+        if facts.prims.encoding(prim):
             return
         yield Problem(
             f"{prim.GetTypeName()} has no attribute {attribute.GetName()!r}",

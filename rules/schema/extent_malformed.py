@@ -4,25 +4,23 @@ from math import isfinite
 from operator import le
 from typing import Any
 
-from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import ERROR, Facts, Prim, Prims, Problem, Problems, When, rule
 
 
 @rule(
     "SCH008",
     on=("Volume", "ParticleField"),
-    when=When("has_odd_extent", bool),
+    when=When(Prims.have_malformed_extents, bool),
     severity=ERROR,
     since="0.1",
 )
 def extent_malformed(prim: Prim, facts: Facts) -> Problems:
-    for fault, held in facts.extents(prim).apart(_fault):
+    for fault, held in facts.prims.extents(prim).apart(_fault):
         first = next(iter(held))
         corners = f": {first.low}, {first.high}" if first.size == 2 else ""
         yield Problem(
             f"extent {fault}{corners}{held.count}",
-            at=held.attribute,
-            times=held.times,
-            at_default=held.at_default,
+            at=held,
             suggestion="author the lower corner, then the upper one: [(0, 0, 0), (1, 1, 1)]",
         )
 

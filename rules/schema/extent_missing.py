@@ -7,10 +7,11 @@ _NAMED = 20
 
 @rule("SCH007", on=STAGE, severity=WARNING, since="0.1")
 def extent_missing(stage: Prim, facts: Facts) -> Problems:
-    prims = facts.without_extent
+    bare = facts.prims.without_extent
+    prims = [prim for prim in bare if not facts.layers.may_lack_values(prim)]
     if not prims:
         return
-    names = [f"{prim.GetTypeName()} <{facts.shown_path(prim)}>" for prim in prims[:_NAMED]]
+    names = [f"{prim.GetTypeName()} <{facts.prims.shown_path(prim)}>" for prim in prims[:_NAMED]]
     more = f" and {len(prims) - _NAMED} more" if len(prims) > _NAMED else ""
     yield Problem(
         f"no extent, so USD takes the bounds for empty: {', '.join(names)}{more}",

@@ -1,24 +1,18 @@
 """SCH009: Volumes and particle fields are Gprims, and Gprims do not nest."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
 
-@rule(
-    "SCH009",
-    on=("Volume", "ParticleField"),
-    when=When("is_nested", bool),
-    severity=WARNING,
-    since="0.1",
-)
+@rule("SCH009", on=("Volume", "ParticleField"), when=When(Prims.are_nested, bool), severity=WARNING, since="0.1")
 def nested_gprim(prim: Prim, facts: Facts) -> Problems:
-    above = facts.gprim_above(prim)
+    above = facts.prims.gprim_above(prim)
     if above:
         yield Problem(
             f"{prim.GetTypeName()} below {_named(above, facts)}, which is a Gprim too",
             at=prim,
             suggestion="move it beside that prim, below a common Xform",
         )
-    for gprim, place in facts.gprims_below(prim):
+    for gprim, place in facts.prims.gprims_below(prim):
         held = "" if gprim == place else f", which holds {_named(gprim, facts)},"
         what = gprim.GetTypeName() if gprim == place else "an instance"
         yield Problem(
@@ -30,4 +24,4 @@ def nested_gprim(prim: Prim, facts: Facts) -> Problems:
 
 
 def _named(prim: Prim, facts: Facts) -> str:
-    return f"{prim.GetTypeName()} <{facts.shown_path(prim)}>"
+    return f"{prim.GetTypeName()} <{facts.prims.shown_path(prim)}>"

@@ -1,18 +1,18 @@
 """SCH006: a uniform attribute has one value, and time samples are no such thing."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
 
 @rule(
     "SCH006",
     on=("Volume", "VolumeFieldBase", "ParticleField"),
-    when=When("authored", lambda authored: bool(authored.uniform)),
+    when=When(Prims.authored, lambda authored: bool(authored.uniform)),
     severity=WARNING,
     since="0.1",
 )
 def uniform_attribute_animated(prim: Prim, facts: Facts) -> Problems:
-    for name in facts.authored(prim).uniform:
-        values = facts.values(prim, name)
+    for name in facts.prims.authored(prim).uniform:
+        values = facts.prims.values(prim, name)
         if values.total:
             samples = "a time sample" if values.total == 1 else f"{values.total} time samples"
             yield Problem(

@@ -7,7 +7,7 @@ from usdvol_lint.schema import misspelt_type
 @rule("SCH001", on=UNKNOWN_TYPE, severity=WARNING, since="0.1")
 def unknown_type(prim: Prim, facts: Facts) -> Problems:
     meant = misspelt_type(prim.GetTypeName())
-    if meant and not facts.encoding(prim):
+    if meant and not facts.prims.encoding(prim):
         yield Problem(
             f"USD knows no type {prim.GetTypeName()!r}",
             at=prim,

@@ -5,6 +5,6 @@ from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rul
 
 @rule("STG002", on=STAGE, severity=WARNING, since="0.1")
 def composition_error(root: Prim, facts: Facts) -> Problems:
-    for error in facts.composition.errors:
+    for error in facts.layers.errors:
         where = f" (on {len(error.prims)} prims)" if len(error.prims) > 1 else ""
         yield Problem(error.message + where, at=error.prim, spec=error.spec)

@@ -6,7 +6,7 @@ from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rul
 @rule("STG003", on=STAGE, severity=WARNING, since="0.1")
 def empty_stage(root: Prim, facts: Facts) -> Problems:
     layers = facts.stage.GetLayerStack(False)
-    if not any(layer.rootPrims for layer in layers) and not facts.composition.missing_layers:
+    if not any(layer.rootPrims for layer in layers) and not facts.layers.missing:
         sublayers = ", nor in its sublayers" if len(layers) > 1 else ""
         yield Problem(
             f"no prims at all in this layer{sublayers}",

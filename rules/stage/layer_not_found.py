@@ -7,7 +7,7 @@ _NAMED = 3
 
 @rule("STG001", on=STAGE, severity=ERROR, since="0.1")
 def layer_not_found(root: Prim, facts: Facts) -> Problems:
-    for missing in facts.composition.missing_layers:
+    for missing in facts.layers.missing:
         layer = f"the {missing.arc} {quoted(missing.asset)}"
         where = f" (on {len(missing.prims)} prims)" if len(missing.prims) > 1 else ""
         if missing.is_uri:
@@ -28,7 +28,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             asset=missing.asset,
             suggestion=f"did you mean {quoted(similar)}?" if similar else None,
         )
-    unloaded = [str(prim.GetPath()) for prim in facts.composition.unloaded]
+    unloaded = [str(prim.GetPath()) for prim in facts.layers.unloaded]
     if unloaded:
         more = ", …" if len(unloaded) > _NAMED else ""
         yield NotChecked(

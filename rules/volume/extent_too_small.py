@@ -1,15 +1,15 @@
 """VOL013: the extent of a Volume must enclose the grids that its fields name."""
 
-from usdvol_lint.rule import ERROR, INFO, Facts, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import ERROR, INFO, Facts, Prim, Problem, Problems, Volumes, When, rule
 
 
 def _sticks_out(overhang: float, relative_slack: float) -> bool:
     return overhang > relative_slack
 
 
-@rule("VOL013", on="Volume", when=When("overhang", _sticks_out), severity=ERROR, since="0.1")
+@rule("VOL013", on="Volume", when=When(Volumes.overhangs, _sticks_out), severity=ERROR, since="0.1")
 def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5) -> Problems:
-    found = facts.extent_shortfall(volume, relative_slack)
+    found = facts.volumes.shortfall(volume, relative_slack)
     if found:
         grid = found.worst.shown
         reach = f"{grid} reaches out of the extent"
@@ -17,11 +17,8 @@ def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5
         nothing = f"the extent is the empty range, and {grid} has voxels"
         missed = cut if found.only_half_voxels else reach
         yield Problem(
-            (nothing if found.is_of_empty_extent else f"{missed} by {found.worst.amounts}")
-            + found.count,
-            at=found.attribute,
-            times=found.times,
-            at_default=found.at_default,
+            (nothing if found.is_of_empty_extent else f"{missed} by {found.worst.amounts}") + found.count,
+            at=found,
             suggestion=f"write '{found.fitting}'",
             severity=INFO if found.only_half_voxels else None,
         )

@@ -12,11 +12,11 @@ from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, 
     default=False,
 )
 def field_outside_volume(volume: Prim, facts: Facts) -> Problems:
-    for binding, target in facts.fields(volume).outside(volume):
-        if not facts.is_shared(volume, target.prim):
+    for binding, target in facts.volumes.bindings(volume).outside(volume):
+        if not facts.volumes.is_shared(volume, target.prim):
             yield Problem(
                 f"'field:{binding.name}' binds the field <{target.shown}>, which no other Volume "
                 "uses and which does not lie below this one",
                 at=binding.property,
-                suggestion=f"move the field below <{facts.shown_path(volume)}>",
+                suggestion=f"move the field below <{facts.prims.shown_path(volume)}>",
             )

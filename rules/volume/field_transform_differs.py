@@ -5,8 +5,8 @@ from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, 
 
 @rule("VOL015", on="Volume", when=bindings(BindingMark.OUTSIDE), severity=INFO, since="0.1")
 def field_transform_differs(volume: Prim, facts: Facts) -> Problems:
-    for binding, target in facts.fields(volume).outside(volume):
-        displacement = facts.displacement(volume, target.prim)
+    for binding, target in facts.volumes.bindings(volume).outside(volume):
+        displacement = facts.volumes.displacement(volume, target.prim)
         if displacement:
             yield Problem(
                 f"'field:{binding.name}' binds the field <{target.shown}>, which does not move "

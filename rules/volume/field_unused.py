@@ -5,10 +5,10 @@ from usdvol_lint.rule import INFO, STAGE, Facts, Prim, Problem, Problems, rule
 
 @rule("VOL012", on=STAGE, severity=INFO, since="0.1")
 def field_unused(root: Prim, facts: Facts) -> Problems:
-    for field in facts.unused_fields:
+    for field in facts.volumes.unused_fields:
         yield Problem(
             f"no Volume of this stage targets the field {field.GetName()!r}",
             at=field,
-            holds=facts.stays_unused(field),
+            holds=facts.volumes.stays_unused(field),
             suggestion=f"bind it with 'rel field:{field.GetName()}' on a Volume, or remove it",
         )

@@ -5,7 +5,7 @@ from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, 
 
 @rule("VOL014", on="Volume", when=bindings(BindingMark.SEVERAL), severity=INFO, since="0.1")
 def mixed_files(volume: Prim, facts: Facts) -> Problems:
-    mixed = facts.mixed_files(volume)
+    mixed = facts.volumes.mixed_files(volume)
     if mixed:
         yield Problem(
             f"the fields name {len(mixed.fields)} files at one time, {mixed.shown}, of which some "

@@ -1,22 +1,12 @@
 """VOL009: what follows `field:` must be one name, since USD uses only the last part."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    WARNING,
-    BindingMark,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    bindings,
-    rule,
-)
+from usdvol_lint.rule import ERROR, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
 @rule("VOL009", on="Volume", when=bindings(BindingMark.NESTED), severity=ERROR, since="0.1")
 def name_nested(volume: Prim, facts: Facts) -> Problems:
-    relationships = [each for each in facts.fields(volume).relationships if each.target]
-    for binding in facts.fields(volume).relationships:
+    relationships = [each for each in facts.volumes.bindings(volume).relationships if each.target]
+    for binding in facts.volumes.bindings(volume).relationships:
         if ":" not in binding.name:
             continue
         rivals = [each.name for each in relationships if each.key == binding.key]

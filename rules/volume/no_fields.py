@@ -1,24 +1,14 @@
 """VOL010: a Volume without fields shows nothing, unless a renderer fills it by other means."""
 
-from usdvol_lint.rule import (
-    INFO,
-    WARNING,
-    BindingMark,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    bindings,
-    rule,
-)
+from usdvol_lint.rule import INFO, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
 @rule("VOL010", on="Volume", when=bindings(BindingMark.NONE), severity=WARNING, since="0.1")
 def no_fields(volume: Prim, facts: Facts) -> Problems:
-    fields = facts.fields(volume)
-    if fields.bindings or fields.strays or facts.composition.may_lack(volume):
+    fields = facts.volumes.bindings(volume)
+    if fields.bindings or fields.strays or facts.layers.may_lack(volume):
         return
-    unbound = facts.unbound_fields(volume)
+    unbound = facts.volumes.unbound_fields(volume)
     if not unbound:
         yield Problem("the Volume has no field", at=volume, severity=INFO)
         return

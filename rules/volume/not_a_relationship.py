@@ -1,16 +1,6 @@
 """VOL006: a field must be bound by a relationship in the `field:` namespace."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    WARNING,
-    BindingMark,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    bindings,
-    rule,
-)
+from usdvol_lint.rule import ERROR, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
 @rule(
@@ -21,7 +11,7 @@ from usdvol_lint.rule import (
     since="0.1",
 )
 def not_a_relationship(volume: Prim, facts: Facts) -> Problems:
-    fields = facts.fields(volume)
+    fields = facts.volumes.bindings(volume)
     for binding in fields.bindings:
         if not binding.is_relationship:
             yield Problem(

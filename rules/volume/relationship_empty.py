@@ -1,16 +1,6 @@
 """VOL003: a field relationship must have a target."""
 
-from usdvol_lint.rule import (
-    INFO,
-    WARNING,
-    Emptiness,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    bindings,
-    rule,
-)
+from usdvol_lint.rule import INFO, WARNING, Emptiness, Facts, Prim, Problem, Problems, bindings, rule
 
 
 @rule(
@@ -21,8 +11,8 @@ from usdvol_lint.rule import (
     since="0.1",
 )
 def relationship_empty(volume: Prim, facts: Facts) -> Problems:
-    for binding in facts.fields(volume).relationships:
-        meant = facts.meant_field(binding) if binding.emptiness else None
+    for binding in facts.volumes.bindings(volume).relationships:
+        meant = facts.volumes.meant_field(binding) if binding.emptiness else None
         if binding.emptiness is Emptiness.UNAUTHORED:
             behind = f" behind <{binding.forwards_to}>" if binding.forwards_to else ""
             yield Problem(
@@ -32,8 +22,7 @@ def relationship_empty(volume: Prim, facts: Facts) -> Problems:
             )
         elif binding.emptiness is Emptiness.CIRCULAR:
             yield Problem(
-                f"'field:{binding.name}' forwards to <{binding.forwards_to}>, which leads round in "
-                "a circle",
+                f"'field:{binding.name}' forwards to <{binding.forwards_to}>, which leads round in a circle",
                 at=binding.property,
                 suggestion=f"did you mean <{meant}>?" if meant else "target a field",
             )

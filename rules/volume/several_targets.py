@@ -1,23 +1,11 @@
 """VOL004: a field relationship must have one target only."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    BindingMark,
-    Facts,
-    Prim,
-    Problem,
-    Problems,
-    TargetState,
-    bindings,
-    rule,
-)
+from usdvol_lint.rule import ERROR, BindingMark, Facts, Prim, Problem, Problems, TargetState, bindings, rule
 
 
-@rule(
-    "VOL004", on="Volume", when=bindings(BindingMark.SEVERAL_TARGETS), severity=ERROR, since="0.1"
-)
+@rule("VOL004", on="Volume", when=bindings(BindingMark.SEVERAL_TARGETS), severity=ERROR, since="0.1")
 def several_targets(volume: Prim, facts: Facts) -> Problems:
-    for binding in facts.fields(volume).bindings:
+    for binding in facts.volumes.bindings(volume).bindings:
         if len(binding.targets) > 1:
             targets = ", ".join(f"<{target.shown}>" for target in binding.targets)
             fields = [each for each in binding.targets if each.state is TargetState.FIELD]

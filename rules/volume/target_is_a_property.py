@@ -5,8 +5,8 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState,
 
 @rule("VOL005", on="Volume", when=bindings(TargetState.PROPERTY), severity=ERROR, since="0.1")
 def target_is_a_property(volume: Prim, facts: Facts) -> Problems:
-    for binding, target in facts.fields(volume).with_target(TargetState.PROPERTY):
-        meant = facts.meant_field(binding)
+    for binding, target in facts.volumes.bindings(volume).with_target(TargetState.PROPERTY):
+        meant = facts.volumes.meant_field(binding)
         if meant and target.shown.startswith(f"{meant}."):
             suggestion = f"target the prim <{meant}>"
         else:

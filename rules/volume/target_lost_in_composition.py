@@ -5,7 +5,7 @@ from usdvol_lint.rule import ERROR, Emptiness, Facts, Prim, Problem, Problems, b
 
 @rule("VOL007", on="Volume", when=bindings(Emptiness.LOST), severity=ERROR, since="0.1")
 def target_lost_in_composition(volume: Prim, facts: Facts) -> Problems:
-    for binding in facts.fields(volume).relationships:
+    for binding in facts.volumes.bindings(volume).relationships:
         if binding.emptiness is Emptiness.LOST:
             spec = binding.lost[0]
             target = spec.targetPathList.GetAddedOrExplicitItems()[0]
@@ -14,6 +14,5 @@ def target_lost_in_composition(volume: Prim, facts: Facts) -> Problems:
                 f"the prim that is referenced in {spec.layer.GetDisplayName()!r}",
                 at=binding.property,
                 spec=spec,
-                suggestion="move the field below the prim that is referenced, or reference a prim "
-                "that holds both",
+                suggestion="move the field below the prim that is referenced, or reference a prim that holds both",
             )

@@ -1,16 +1,6 @@
 """VOL001: the prim that a field relationship targets must exist."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    Facts,
-    NotChecked,
-    Prim,
-    Problem,
-    Problems,
-    TargetState,
-    bindings,
-    rule,
-)
+from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, rule
 
 
 @rule(
@@ -21,9 +11,9 @@ from usdvol_lint.rule import (
     since="0.1",
 )
 def target_missing(volume: Prim, facts: Facts) -> Problems:
-    bindings = facts.fields(volume)
+    bindings = facts.volumes.bindings(volume)
     for binding, target in bindings.with_target(TargetState.MISSING):
-        meant = facts.meant_field(binding)
+        meant = facts.volumes.meant_field(binding)
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>, and there is no such prim",
             at=binding.property,
@@ -31,7 +21,6 @@ def target_missing(volume: Prim, facts: Facts) -> Problems:
         )
     for binding, target in bindings.with_target(TargetState.UNLOADED):
         yield NotChecked(
-            f"'field:{binding.name}' targets <{target.shown}>, which lies in a payload that was "
-            "not loaded",
+            f"'field:{binding.name}' targets <{target.shown}>, which lies in a payload that was not loaded",
             at=binding.property,
         )

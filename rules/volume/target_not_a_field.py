@@ -1,16 +1,6 @@
 """VOL002: a field relationship must target a field."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    Facts,
-    NotChecked,
-    Prim,
-    Problem,
-    Problems,
-    TargetState,
-    bindings,
-    rule,
-)
+from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, rule
 from usdvol_lint.schema import misspelt_type
 
 
@@ -22,10 +12,10 @@ from usdvol_lint.schema import misspelt_type
     since="0.1",
 )
 def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
-    bindings = facts.fields(volume)
+    bindings = facts.volumes.bindings(volume)
     for binding, target in bindings.with_target(TargetState.NOT_A_FIELD):
-        type_name = target.prim.GetTypeName()
-        meant = facts.meant_field(binding)
+        type_name = target.type_name
+        meant = facts.volumes.meant_field(binding)
         advice = None if type_name else "give it a type, such as 'OpenVDBAsset'"
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>, which "
@@ -34,8 +24,8 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
             suggestion=f"did you mean <{meant}>?" if meant else advice,
         )
     for binding, target in bindings.with_target(TargetState.UNKNOWN_TYPE):
-        type_name = target.prim.GetTypeName()
-        if not misspelt_type(type_name) and not facts.encoding(target.prim):
+        type_name = target.type_name
+        if not misspelt_type(type_name) and not facts.prims.encoding(target.prim):
             yield NotChecked(
                 f"'field:{binding.name}' targets <{target.shown}> of type {type_name!r}, which no "
                 "installed plugin declares",

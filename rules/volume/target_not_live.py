@@ -11,7 +11,7 @@ _WHY = {
 
 @rule("VOL008", on="Volume", when=bindings(*_WHY), severity=ERROR, since="0.1")
 def target_not_live(volume: Prim, facts: Facts) -> Problems:
-    for binding, target in facts.fields(volume).with_target(*_WHY):
+    for binding, target in facts.volumes.bindings(volume).with_target(*_WHY):
         what, advice = _WHY[target.state]
         below = "" if target.culprit == target.shown else f" below <{target.culprit}>"
         yield Problem(

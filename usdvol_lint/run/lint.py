@@ -64,16 +64,7 @@ def lint(
         for future in futures:
             future.add_done_callback(lambda _: shown.stage_done())
         shown.begin(len(futures))
-        selections = settled.variant_limit if settled.variants == "all" else 0
-        setup = Setup(
-            active,
-            settled.packs,
-            settled.load,
-            settled.content,
-            selections,
-            settled.times,
-            settled.statistics,
-        )
+        setup = Setup(active, settled.packs, settled.depth)
         pool.run(setup, settled.jobs or os.cpu_count() or 1, settled.timeout, shown.advance)
         stages = tuple(future.result() for future in futures)
         return Report(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from usdvol_lint.config import Depth
 from usdvol_lint.model import Finding
 from usdvol_lint.packs.activation import ActiveRules
 
@@ -13,11 +14,7 @@ class Setup(NamedTuple):
 
     active: ActiveRules
     packs: tuple[str, ...]
-    load: str
-    content: str
-    selections: int
-    times: str | int
-    statistics: bool
+    depth: Depth
 
 
 class Ready(NamedTuple):

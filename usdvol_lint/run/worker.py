@@ -22,7 +22,8 @@ def main() -> None:
         from pxr import Usd  # noqa: F401
     except ImportError as error:
         return _send(replies, Refusal(f"USD can't be imported ({error}); install usd-core"))
-    from usdvol_lint.engine.engine import Engine, usd_version
+    from usdvol_lint.engine.engine import Engine
+    from usdvol_lint.engine.usd_version import usd_version
 
     setup: Setup | None = _next(requests)
     if setup is None:
@@ -34,13 +35,9 @@ def main() -> None:
     engine = Engine(
         rules,
         setup.active,
-        setup.load,
-        setup.content,
+        setup.depth,
         lambda samples: _send(replies, Advance(samples)),
         lambda findings: _send(replies, Found(findings)),
-        setup.selections,
-        setup.times,
-        setup.statistics,
     )
     _send(replies, Ready(usd_version()))
     while path := _next(requests):

@@ -1,1 +1,109 @@
 """The files that asset attributes name: where each value leads, and what is there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from enum import Enum
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from usdvol_lint.facts.found import Wing, column, fact, summary
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.files.assets import Affected, AssetReader, AssetSamples, UnlistedClips
+    from usdvol_lint.facts.files.disk import Absence, Disk
+    from usdvol_lint.facts.files.marks import PathMarks
+    from usdvol_lint.facts.files.places import Recased
+    from usdvol_lint.facts.files.sequences import SampleSequence
+    from usdvol_lint.facts.prims.tables import Table, Tables
+    from usdvol_lint.facts.usd.clips import Clips
+
+
+class Files(Wing):
+    """What the `filePath` of fields names.
+
+    `disk` has the state of files; `advance` is told of progress in long sequences.
+    """
+
+    def __init__(
+        self, tables: Tables, stage: Any, clips: Clips, disk: Disk, advance: Callable[[int], None]
+    ) -> None:
+        super().__init__(tables)
+        self._stage = stage
+        self._clips = clips
+        self._disk = disk
+        self._advance = advance
+
+    @column
+    def paths(self, table: Table) -> Sequence[AssetSamples]:
+        """Every value of `filePath`, resolved and classified."""
+        return self._reader.read(table.usd, "filePath")
+
+    @summary
+    def path_marks(self, table: Table) -> Sequence[frozenset[Enum]]:
+        """The states of the values of `filePath`, and what is remarkable about them."""
+        return self._marks.of(self.paths.each(table), table.authored)
+
+    @fact
+    def sequence(self, field: Any) -> SampleSequence | None:
+        """The time samples of `filePath` as a sequence, or None if there are not two."""
+        from usdvol_lint.facts.files.sequences import read_sequence
+
+        return read_sequence(self.paths(field))
+
+    def absence(self, path: str, authored: str) -> Absence:
+        """What is known of an absolute path where nothing is; `authored` is how it was written."""
+        return self._disk.absence(path, authored)
+
+    def frames(self, found: Affected) -> list[tuple[int, str]]:
+        """The files that a path with a placeholder for the frame stands for, by frame number."""
+        return self._disk.frames(found.anchored(), found.first.path)
+
+    def recased(self, field: Any) -> Recased | None:
+        """The samples of `filePath` that differ by case from what the folders hold."""
+        from usdvol_lint.facts.files.places import recased
+
+        return recased(self.paths(field), self._disk)
+
+    def outside_package(self, field: Any) -> Affected | None:
+        """The samples of a `filePath` in a package that name files outside it."""
+        from usdvol_lint.facts.files.places import outside_package
+
+        return outside_package(self.paths(field)) if self._has_packages else None
+
+    def below_layer(self, found: Affected) -> str | None:
+        """The first path in relation to its layer, if the file lies below the layer's folder."""
+        from usdvol_lint.facts.files.places import below_layer
+
+        return below_layer(found)
+
+    def hidden_animation(self, field: Any) -> str | None:
+        """What animates `filePath` in vain, in words, because a stronger default hides it."""
+        from usdvol_lint.facts.files.assets import hidden_animation
+
+        return hidden_animation(self.paths(field).attribute, self._clips.reaching(field))
+
+    def unlisted_clips(self, field: Any) -> UnlistedClips | None:
+        """The clips that hold a `filePath` which their manifest does not declare."""
+        from usdvol_lint.facts.files.assets import unlisted_clips
+
+        return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
+
+    @cached_property
+    def _reader(self) -> AssetReader:
+        from usdvol_lint.facts.files.assets import AssetReader
+
+        return AssetReader(self._disk, self._advance)
+
+    @cached_property
+    def _marks(self) -> PathMarks:
+        from usdvol_lint.facts.files.marks import PathMarks
+
+        return PathMarks(self._disk, self._has_packages)
+
+    @cached_property
+    def _has_packages(self) -> bool:
+        """Whether any layer lies in a package."""
+        from usdvol_lint.facts.files.places import package_of
+
+        return any(map(package_of, self._stage.GetUsedLayers()))

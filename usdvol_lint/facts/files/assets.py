@@ -5,21 +5,21 @@ from __future__ import annotations
 import os
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any, NamedTuple
 
 from pxr import Ar, Sdf, Usd
 
-from usdvol_lint.facts.files.disk import Files
+from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.patterns import find_pattern
-from usdvol_lint.facts.files.states import AssetState, FileFault
+from usdvol_lint.facts.files.states import PLACES, AssetState, FileFault
 from usdvol_lint.facts.usd.answers import Answers
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
-from usdvol_lint.facts.usd.values import read_values
+from usdvol_lint.facts.usd.values import Occurrences, read_values
 from usdvol_lint.model import frame_ranges, quoted
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
@@ -46,6 +46,11 @@ class Sample(NamedTuple):
     state: AssetState
     detail: str = ""
 
+    @property
+    def is_there(self) -> bool:
+        """Whether it is a readable file with content."""
+        return self.state is AssetState.FILE
+
 
 class AssetSamples(NamedTuple):
     """All samples of one asset attribute in ascending time, the default first.
@@ -63,7 +68,9 @@ class AssetSamples(NamedTuple):
             return None
         return self.affected(sample for sample in self.samples if sample.state in states)
 
-    def matching(self, pattern: re.Pattern[str], *states: AssetState) -> Affected | None:
+    def matching(
+        self, pattern: re.Pattern[str], states: Collection[AssetState] = PLACES
+    ) -> Affected | None:
         """The samples in one of these states whose paths match from their start."""
         if not any(map(pattern.match, map(_PATH_OF, self.samples))):  # no loop of ours: most do not
             return None
@@ -99,28 +106,18 @@ class AssetSamples(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Affected:
-    """Some of an attribute's samples, never none, with what a finding says of them.
+class Affected(Occurrences):
+    """Some of an attribute's samples, with what a finding says of them."""
 
-    `total` is how many time samples the attribute has.
-    """
-
-    attribute: Any
     samples: tuple[Sample, ...]
-    total: int
 
     @property
     def first(self) -> Sample:
         return self.samples[0]
 
     @property
-    def times(self) -> tuple[float, ...]:
-        """The stage times of the samples, without the default."""
-        return tuple(sample.time for sample in self.samples if sample.time is not None)
-
-    @property
-    def at_default(self) -> bool:
-        return self.samples[0].time is None
+    def asset(self) -> str:
+        return self.first.authored
 
     @property
     def shown(self) -> str:
@@ -129,39 +126,28 @@ class Affected:
         origin = "" if first.authored == first.path else f" (from {quoted(first.authored)})"
         return f"{quoted(first.path)}{origin}"
 
-    @property
-    def count(self) -> str:
-        """Empty for a single value, else ` (4 of 240 samples)`.
-
-        Says the frames as authored where they differ, and the layers where there are several.
-        """
-        if self.total == 0:
-            return ""
-        times = self.times
-        if not times:
-            return f" (the default alone, none of the {self.total} time samples)"
-        words = [f"{len(times)} of {self.total} samples"]
-        authored = self._authored_times()
+    def _more(self, times: Sequence[float]) -> Iterator[str]:
+        """The frames as authored where they differ, and the layers where there are several."""
+        authored = self._authored(times)
         if authored != times:
             frames = "frame" if len(authored) == 1 else "frames"
-            words.append(f"authored as {frames} {frame_ranges(authored)}")
-        layers = self._layers()
+            yield f"authored as {frames} {frame_ranges(authored)}"
+        layers = self._layers(times)
         if len(layers) > 1:
             more = f" and {len(layers) - _LAYERS_NAMED} more" if len(layers) > _LAYERS_NAMED else ""
-            words.append(f"in {len(layers)} layers: {', '.join(layers[:_LAYERS_NAMED])}{more}")
-        return f" ({', '.join(words)})"
+            yield f"in {len(layers)} layers: {', '.join(layers[:_LAYERS_NAMED])}{more}"
 
-    def _authored_times(self) -> tuple[float, ...]:
+    def _authored(self, times: Sequence[float]) -> Sequence[float]:
         """The times as the layer of the first sample has them, before its layer offset."""
-        held = opinion(self.attribute, self.times[0])
+        held = opinion(self.attribute, times[0])
         if held is None or held.offset.IsIdentity():
-            return self.times
+            return times
         inverse = held.offset.GetInverse()
-        return tuple(sorted(inverse * time for time in self.times))
+        return tuple(sorted(inverse * time for time in times))
 
-    def _layers(self) -> list[str]:
+    def _layers(self, times: Sequence[float]) -> list[str]:
         """The names of the layers that hold the samples; only clips spread them over several."""
-        from_clips = is_from_clips(self.attribute, self.times[0])
+        from_clips = is_from_clips(self.attribute, times[0])
         asked = self.samples if from_clips else (self.samples[0], self.samples[-1])
         held = (opinion(self.attribute, sample.time) for sample in asked)
         return list(dict.fromkeys(found.spec.layer.GetDisplayName() for found in held if found))
@@ -177,8 +163,8 @@ class AssetReader:
     `advance` is told how many samples were read since its last call.
     """
 
-    def __init__(self, files: Files, advance: Callable[[int], None]) -> None:
-        self._files = files
+    def __init__(self, disk: Disk, advance: Callable[[int], None]) -> None:
+        self._disk = disk
         self._advance = advance
         self._alone: dict[Any, tuple[Sample]] = {}
         """Defaults that name files, which are the same wherever they are authored."""
@@ -201,14 +187,14 @@ class AssetReader:
             return AssetSamples(attribute, samples, frozenset(each.state for each in samples))
         if value is None and not attribute.GetResolveInfo().ValueIsBlocked():
             return AssetSamples(attribute, (), frozenset())
-        alone = (_classify(attribute, None, value, self._files),)
+        alone = (_classify(attribute, None, value, self._disk),)
         if alone[0].state is AssetState.FILE and _FORMAT_ARGUMENTS not in alone[0].path:
             self._alone[value] = alone
         return AssetSamples(attribute, alone, frozenset({alone[0].state}))
 
     def _classified(self, attribute: Any) -> Iterator[Sample]:
         for number, (time, value) in enumerate(read_values(attribute), start=1):
-            yield _classify(attribute, time, value, self._files)
+            yield _classify(attribute, time, value, self._disk)
             if number % _READ_TOGETHER == 0:
                 self._advance(_READ_TOGETHER)
 
@@ -267,7 +253,7 @@ def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips 
     return None
 
 
-def _classify(attribute: Any, time: float | None, value: Any, files: Files) -> Sample:
+def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Sample:
     if value is None:
         return Sample(time, "", "", "", AssetState.BLOCKED)
     if not isinstance(value, Sdf.AssetPath):
@@ -275,7 +261,7 @@ def _classify(attribute: Any, time: float | None, value: Any, files: Files) -> S
     path, resolved = value.path, value.resolvedPath
     if _FORMAT_ARGUMENTS in path:
         resolved = _resolved_without_arguments(attribute, time, path)
-    fault = files.fault(resolved) if resolved else None
+    fault = disk.fault(resolved) if resolved else None
     if fault is FileFault.BROKEN_LINK:
         resolved, fault = "", None  # USD takes a link for a file, wherever it leads
     if resolved and not fault:

@@ -31,8 +31,8 @@ class Absence(NamedTuple):
     similar: str | None
 
 
-class Files:
-    """What is wrong with a resolved file as such, and what lies beside a missing one."""
+class Disk:
+    """The state of files: what is wrong with one as such, and what lies beside a missing one."""
 
     def __init__(self) -> None:
         self._faults: dict[str, str | None] = {}

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from enum import Enum
 
 from usdvol_lint.facts.files.assets import AssetSamples, Sample
-from usdvol_lint.facts.files.disk import Files
+from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.states import AssetState, PathMark
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.schema import FILE_EXTENSIONS
@@ -21,8 +21,8 @@ class PathMarks:
     `has_packages` says whether some layer of the stage lies in a package.
     """
 
-    def __init__(self, files: Files, has_packages: bool) -> None:
-        self._files = files
+    def __init__(self, disk: Disk, has_packages: bool) -> None:
+        self._disk = disk
         self._has_packages = has_packages
         self._known: dict[tuple[str, str, Authored], frozenset[Enum]] = {}
 
@@ -69,4 +69,4 @@ class PathMarks:
         for sample in paths.samples:
             folders.setdefault(sample.resolved.rpartition("/")[0], sample)
         resolved = (sample.resolved for sample in folders.values() if sample.resolved)
-        return any(map(self._files.ignores_case, resolved))
+        return any(map(self._disk.ignores_case, resolved))

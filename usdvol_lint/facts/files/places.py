@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from pxr import Ar
 
 from usdvol_lint.facts.files.assets import Affected, AssetSamples, Sample
-from usdvol_lint.facts.files.disk import Files
+from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
 
@@ -25,16 +25,16 @@ class Recased(NamedTuple):
     path: str
 
 
-def recased(paths: AssetSamples, files: Files) -> Recased | None:
+def recased(paths: AssetSamples, disk: Disk) -> Recased | None:
     """The samples whose file, or a folder above it, has its name in another case.
 
     What resolves is looked at only where the file system ignores case.
     """
-    folders = _Folders(paths, files)
+    folders = _Folders(paths, disk)
     affected = paths.affected(filter(folders.have_in_another_case, paths.samples))
     if affected is None:
         return None
-    path = files.recased(folders.place(affected.first), affected.first.path)
+    path = disk.recased(folders.place(affected.first), affected.first.path)
     return Recased(affected, path or affected.first.path)
 
 
@@ -115,9 +115,9 @@ class _Folder(NamedTuple):
 class _Folders:
     """The folders that samples lead to, each looked at once, however many samples there are."""
 
-    def __init__(self, paths: AssetSamples, files: Files) -> None:
+    def __init__(self, paths: AssetSamples, disk: Disk) -> None:
         self._paths = paths
-        self._files = files
+        self._disk = disk
         self._layers = _Layers(paths)
         self._known: dict[tuple[str, str, float | None], _Folder | None] = {}
 
@@ -141,13 +141,13 @@ class _Folders:
         return sample.resolved or self._paths.anchored(sample)
 
     def _look(self, sample: Sample, head: str) -> _Folder | None:
-        if sample.resolved and not self._files.ignores_case(sample.resolved):
+        if sample.resolved and not self._disk.ignores_case(sample.resolved):
             return None
         place = self.place(sample)
         if Ar.IsPackageRelativePath(place):
             package, inner = Ar.SplitPackageRelativePathOuter(place)
             folder, slash, _ = inner.rpartition("/")
-            return _Folder(self._files.names(package), folder + slash, differs=False)
+            return _Folder(self._disk.names(package), folder + slash, differs=False)
         folder = os.path.dirname(place)
-        there = self._files.in_case(folder, head)
-        return _Folder(self._files.names(there), "", there != folder) if there else None
+        there = self._disk.in_case(folder, head)
+        return _Folder(self._disk.names(there), "", there != folder) if there else None

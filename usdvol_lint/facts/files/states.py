@@ -31,6 +31,10 @@ class AssetState(Enum):
     """A value that is no asset path."""
 
 
+PLACES = frozenset({AssetState.FILE, AssetState.MISSING, AssetState.NOT_A_FILE, AssetState.PATTERN})
+"""What a value can turn out to be that names a place on disk, whether or not a file is there."""
+
+
 class PathMark(Enum):
     """What else the values of an asset attribute have about them, beside their states."""
 

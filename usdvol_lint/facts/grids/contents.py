@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Hashable, Iterable, Iterator
-from typing import Any, NamedTuple, TypeAlias
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeVar
 
 from pxr import Ar
 
@@ -39,6 +40,11 @@ class Content(NamedTuple):
     def fault(self) -> Fault | None:
         """What is wrong with a file that was read."""
         return None if self.unread else self.reading.fault
+
+    @property
+    def fault_message(self) -> str:
+        """The same in words; empty where nothing is wrong."""
+        return self.fault.message if self.fault else ""
 
     @property
     def unread(self) -> str | None:
@@ -102,6 +108,16 @@ class Content(NamedTuple):
         return grids[index] if 0 <= index < len(grids) else None
 
     @property
+    def grid_names(self) -> frozenset[str]:
+        """The names of the grids in the file, as far as they can be relied on."""
+        return frozenset(grid.unique_name for grid in self.file.grids) if self.file else frozenset()
+
+    @property
+    def label(self) -> str:
+        """The label of the grid that is selected, in quotes; empty where there is none."""
+        return quoted(self.grid.label) if self.grid else ""
+
+    @property
     def data_types(self) -> tuple[str, ...]:
         """The data types that fit the grid, the best one first."""
         return tokens.data_types(self.grid.value_type, self.grid.half) if self.grid else ()
@@ -110,6 +126,11 @@ class Content(NamedTuple):
     def field_class(self) -> str:
         """The class of the grid; unknown where it says none, or its format has none."""
         return tokens.field_class(self.grid.grid_class) if self.grid else "unknown"
+
+    @property
+    def written_class(self) -> str:
+        """The same as the file has it."""
+        return self.grid.grid_class if self.grid else ""
 
     @property
     def role_hints(self) -> tuple[str, ...]:
@@ -121,8 +142,7 @@ class Content(NamedTuple):
         return hints.fitting if hints.strength == "strong" else ()
 
 
-Key: TypeAlias = Callable[[Content], Hashable | None]
-"""What a rule asks of a content; a function of a module, so that it is known again."""
+_K = TypeVar("_K", bound=Hashable)
 
 
 class Kind:
@@ -135,16 +155,19 @@ class Kind:
 
     def __init__(self, content: Content) -> None:
         self.content = content
-        self._answers: dict[Key, Hashable | None] = {}
+        self._answers: dict[Hashable, Any] = {}
 
-    def answer(self, key: Key) -> Hashable | None:
+    def answer(self, key: Callable[[Content], _K | None]) -> _K | None:
+        """What a rule asks of these contents; `key` is known again if it is equal to itself."""
         answers = self._answers
         if key not in answers:
             answers[key] = key(self.content)
-        return answers[key]
+        found: _K | None = answers[key]
+        return found
 
 
-class Contents(NamedTuple):
+@dataclass(frozen=True, slots=True, eq=False)
+class Timeline:
     """The contents of all files that a field names, by kind, in ascending time, the default first.
 
     `total` is at how many times it was looked for them.  Fields that name the same single file and
@@ -195,27 +218,29 @@ class Contents(NamedTuple):
         return [(sample.time, sample.resolved) for sample, *_ in self.contents]
 
 
-_NOTHING = Contents((), 0)
+_NOTHING = Timeline((), 0)
 
 
 class FieldContents(NamedTuple):
     """The contents of a field's files, and the attribute that names them."""
 
     attribute: Any
-    all: Contents
+    all: Timeline
 
-    def grouped(self, key: Key) -> Iterable[tuple[Content, Affected]]:
-        """The first content and all samples of each key that the contents have, None aside.
+    def grouped(
+        self, key: Callable[[Content], _K | None]
+    ) -> Iterable[tuple[_K, Content, Affected]]:
+        """Each key that the contents have, None aside, with its first content and all samples.
 
         The key is asked for once among contents of one kind: it can't depend on bounds,
         transforms and the numbers in messages, nor on the sample.
         """
-        found: dict[Hashable, list[list[Content]]] = {}
+        found: dict[_K, list[list[Content]]] = {}
         for kind, contents in self.all.kinds:
             value = kind.answer(key)
             if value is not None:
                 found.setdefault(value, []).append(contents)
-        return [self._affected(groups) for groups in found.values()] if found else ()
+        return [(value, *self._affected(groups)) for value, groups in found.items()]
 
     def _affected(self, groups: list[list[Content]]) -> tuple[Content, Affected]:
         together = [content for contents in groups for content in contents]
@@ -237,21 +262,21 @@ class ContentReader:
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
         self._kinds: dict[Hashable, Kind] = {}
-        self._alone: dict[tuple[Sample, FieldClaims, Format], Contents] = {}
+        self._alone: dict[tuple[Sample, FieldClaims, Format], Timeline] = {}
 
     def read(
         self,
         samples: Iterable[AssetSamples],
         claims: Iterable[FieldClaims],
         authored: Authored,
-    ) -> list[Contents]:
+    ) -> list[Timeline]:
         """The contents of the files in the samples of `filePath` of many fields that are alike."""
         wanted = self._wanted(authored.schemas)
         if not wanted or self._extent == "off":
             return [_NOTHING for _ in samples]
         return [self._contents(*each, wanted) for each in zip(samples, claims, strict=True)]
 
-    def _contents(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Contents:
+    def _contents(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Timeline:
         if AssetState.FILE not in samples.states:
             return _NOTHING
         if len(samples.samples) > 1:
@@ -262,7 +287,7 @@ class ContentReader:
             found = self._alone[key] = self._read(samples, claims, wanted)
         return found
 
-    def _read(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Contents:
+    def _read(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Timeline:
         kinds: dict[Kind, list[Content]] = {}
         total = read = 0
         for sample, claim in _moments(samples, claims):
@@ -276,7 +301,7 @@ class ContentReader:
                     break
                 if read % _READ_TOGETHER == 0:
                     self._advance(_READ_TOGETHER)
-        return Contents(tuple(kinds.items()), total)
+        return Timeline(tuple(kinds.items()), total)
 
     def _wanted(self, schemas: frozenset[str]) -> Format | None:
         """The format of files that fields of these schemas ask for."""

@@ -32,27 +32,14 @@ class Sample(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
-    """Elements of an array that have something in common, in all of its samples.
+class Found(Values):
+    """Elements of an array that have something in common: those in each sample.
 
-    `spots` are those in each sample, never none; `sizes` are the samples', `noun` their elements'.
+    `sizes` are the samples', `noun` their elements'.
     """
 
-    spots: Values
     sizes: tuple[int, ...]
     noun: str
-
-    @property
-    def attribute(self) -> Any:
-        return self.spots.attribute
-
-    @property
-    def times(self) -> tuple[float, ...]:
-        return self.spots.times
-
-    @property
-    def at_default(self) -> bool:
-        return self.spots.at_default
 
     @property
     def share(self) -> float:
@@ -67,12 +54,12 @@ class Found:
     @property
     def first(self) -> str:
         """`first 1.5 at [17] (4 of 240 samples)`."""
-        spot = next(iter(self.spots))
-        return f"first {written(spot.value)} at [{spot.first}]{self.spots.count}"
+        spot = next(iter(self))
+        return f"first {written(spot.value)} at [{spot.first}]{self.count}"
 
     @property
     def _count(self) -> int:
-        return sum(spot.count for spot in self.spots)
+        return sum(spot.count for spot in self)
 
 
 class ParticleArray:
@@ -228,7 +215,7 @@ class ParticleArray:
             return None
         values = tuple(Value(sample.time, spot) for sample, spot in found)
         sizes = tuple(sample.size for sample, _ in found)
-        return Found(Values(self.attribute, values, self.total), sizes, self.noun)
+        return Found(self.attribute, values, self.total, sizes, self.noun)
 
 
 def written(row: Row) -> str:

@@ -39,30 +39,17 @@ _TYPES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Misfits:
+class Misfits(Values):
     """When an array has not as many elements as the particles take: by time both numbers."""
 
-    sizes: Values
     noun: str
-
-    @property
-    def attribute(self) -> Any:
-        return self.sizes.attribute
-
-    @property
-    def times(self) -> tuple[float, ...]:
-        return self.sizes.times
-
-    @property
-    def at_default(self) -> bool:
-        return self.sizes.at_default
 
     @property
     def words(self) -> str:
         """`12 opacities for 16 particles (4 of 240 samples)`."""
-        size, particles = next(iter(self.sizes))
+        size, particles = next(iter(self))
         elements, owners = _counted(size, self.noun), _counted(particles, "particles")
-        return f"{elements} for {owners}{self.sizes.count}"
+        return f"{elements} for {owners}{self.count}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,7 +180,7 @@ class ParticleArrays:
         )
         if not found:
             return None
-        return Misfits(Values(array.attribute, found, len(self._times)), array.noun)
+        return Misfits(array.attribute, found, len(self._times), array.noun)
 
     def _sizes(self, array: ParticleArray) -> Iterator[tuple[Time, int, int]]:
         """By time how many elements the array has, and how many particles there are."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 from usdvol_lint.facts.particles import memory
 from usdvol_lint.facts.particles.array import Found, ParticleArray, Sample, written
@@ -28,10 +28,12 @@ class Strays:
     """
 
     found: Found
-    extent_attribute: Any
+    attribute: Any
+    """The extent."""
     when: tuple[Time, ...]
     extent: Box
     positions: Box
+    asset: ClassVar[None] = None
 
     @property
     def times(self) -> tuple[float, ...]:
@@ -73,7 +75,7 @@ def stray_positions(
     strays = positions.picked(masks) if masks else None
     if not strays or not positions.low or not positions.high:
         return None
-    first = strays.spots.values[0].time
+    first = strays.samples[0].time
     return Strays(strays, extent, tuple(when), boxes[first], (positions.low, positions.high))
 
 

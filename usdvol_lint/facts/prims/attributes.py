@@ -11,12 +11,7 @@ from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.answers import Answers
-from usdvol_lint.facts.usd.calls import (
-    get_attribute,
-    get_prim_stack,
-    own_attribute,
-    type_of_spec,
-)
+from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.kinds import Key, Kinds
 from usdvol_lint.facts.usd.values import Values, values_of

@@ -97,7 +97,7 @@ def read_extents(attribute: Any) -> Values:
     values = values_of(attribute)
     extents = [
         Value(time, _extent(value))
-        for time, value in values.values
+        for time, value in values.samples
         if isinstance(value, Vt.Vec3fArray)
     ]
     return Values(attribute, tuple(extents), values.total)

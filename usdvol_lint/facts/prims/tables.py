@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.answers import Answers
@@ -15,7 +15,11 @@ from usdvol_lint.facts.usd.calls import get_path
 from usdvol_lint.facts.usd.kinds import Key, Kinds
 
 if TYPE_CHECKING:
+    from usdvol_lint.facts.found import Wing, column
     from usdvol_lint.facts.prims.attributes import Authored, AuthoredReader, Shape
+
+_T = TypeVar("_T")
+_W = TypeVar("_W", bound="Wing")
 
 _MOST_PRIMS = 1024
 """So many are asked one question after the other: then what is found of them is cached."""
@@ -28,18 +32,18 @@ class NotTogetherError(Exception):
 class Table:
     """Prims of one kind on which the same properties are authored.
 
-    `usd` gives USD's answers about them; what is found of them is kept by name.
+    `usd` gives USD's answers about them; what is found of them is kept by what declares it.
     """
 
     __slots__ = ("_alone", "_authored", "_columns", "_failed", "_place", "usd")
 
     def __init__(self, usd: Answers, authored: Authored | Exception) -> None:
         self.usd = usd
-        self._columns: dict[str, Sequence[Any]] = {}
+        self._columns: dict[column[Any, Any], Sequence[Any]] = {}
         self._authored = authored
         self._place = authored.__traceback__ if isinstance(authored, Exception) else None
         self._alone: dict[int, Table] = {}
-        self._failed: set[str] = set()
+        self._failed: set[column[Any, Any]] = set()
 
     @property
     def prims(self) -> Sequence[Any]:
@@ -57,40 +61,40 @@ class Table:
         """Why what is authored on them can't be read."""
         return self._authored if isinstance(self._authored, Exception) else None
 
-    def column(self, name: str, read: Read) -> Sequence[Any]:
-        """What is kept under a name, of each prim; raises where that of one can't be read."""
-        if name not in self._columns:
-            if name in self._failed:
+    def each(self, declared: column[_W, _T], wing: _W) -> Sequence[_T]:
+        """A fact of each prim; raises where that of one can't be found."""
+        if declared not in self._columns:
+            if declared in self._failed:
                 raise NotTogetherError
             try:
-                self._columns[name] = read(name, self)
+                self._columns[declared] = declared.find(wing, self)
             except Exception:
                 if len(self.prims) > 1:
-                    self._failed.add(name)
+                    self._failed.add(declared)
                 raise
-        return self._columns[name]
+        return self._columns[declared]
 
-    def cell(self, row: int, name: str, read: Read) -> Any:
-        """What is kept under a name of one prim, whether or not that of others can be read."""
-        found = self._columns.get(name)
+    def cell(self, row: int, declared: column[_W, _T], wing: _W) -> _T:
+        """A fact of one prim, whether or not that of others can be found."""
+        found: Sequence[_T] | None = self._columns.get(declared)
         if found is None and len(self.prims) > 1:
             with suppress(Exception):
-                found = self.column(name, read)
+                found = self.each(declared, wing)
             if found is None:
-                return self.alone(row).column(name, read)[0]
-        return self.column(name, read)[0] if found is None else found[row]
+                return self.alone(row).each(declared, wing)[0]
+        return self.each(declared, wing)[0] if found is None else found[row]
 
     def readable(
-        self, name: str, read: Read, pass_over: Callable[[Any, Exception], None]
-    ) -> Iterator[tuple[Any, Any]]:
-        """The prims with what is kept under a name, without those of which it can't be read."""
+        self, declared: column[_W, _T], wing: _W, unreadable: list[tuple[Any, Exception]]
+    ) -> Iterator[tuple[Any, _T]]:
+        """The prims with a fact of each; those of which it can't be found become `unreadable`."""
         try:
-            found = self.column(name, read)
+            found = self.each(declared, wing)
         except Exception as error:
             if len(self.prims) == 1:
-                return pass_over(self.prims[0], error)
+                return unreadable.append((self.prims[0], error))
             for row in range(len(self.prims)):
-                yield from self.alone(row).readable(name, read, pass_over)
+                yield from self.alone(row).readable(declared, wing, unreadable)
         else:
             yield from zip(self.prims, found, strict=True)
 
@@ -99,10 +103,6 @@ class Table:
         if row not in self._alone:
             self._alone[row] = Table(self.usd.of((row,)), self._authored)
         return self._alone[row]
-
-
-Read: TypeAlias = Callable[[str, Table], Sequence[Any]]
-"""Finds what is kept under a name, for each prim of a table."""
 
 
 class Chunk:
@@ -144,10 +144,19 @@ class Tables:
         self._chunks = {key: list(_chunks(prims)) for key, prims in kept.items()}
         self._last: list[Table] = []
         self._asked: Any = None
+        self._found: tuple[Table, int] | None = None
+        self.unreadable: list[tuple[Any, Exception]] = []
+        """Prims that facts about the whole stage do without, because USD raised for them."""
 
     def chunks(self, key: Key) -> list[Chunk]:
         """The prims of a kind, in the order of the walk."""
         return self._chunks[key]
+
+    def prims(self, schema_name: str) -> list[Any]:
+        """The prims that answer to a schema."""
+        keys = (key for key in self._chunks if schema_name in self._kinds.names(key))
+        chunks = chain.from_iterable(self._chunks[key] for key in keys)
+        return [prim for chunk in chunks for prim in chunk.prims]
 
     def of(self, *schemas: str) -> Iterator[Table]:
         """The tables of all prims that answer to one of these schemas."""
@@ -164,7 +173,8 @@ class Tables:
 
     def find(self, prim: Any) -> tuple[Table, int]:
         """The table of a prim, and its row there; one of its own if the walk did not keep it."""
-        if prim is not self._asked:  # rules ask in a row, and to look a prim up is dear
+        if prim is not self._asked or self._found is None:
+            # Several rules ask about one prim in turn, and to hash a prim takes a microsecond.
             self._asked, self._found = prim, self._look_up(prim)
         return self._found
 

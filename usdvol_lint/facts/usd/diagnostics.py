@@ -5,6 +5,11 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from pxr import Tf
+
+UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
+"""What USD raises for what it can't read: a string that is no text reaches Python as the latter."""
+
 _UNEXPECTED = r"(?s)parse error matching .*? at '(?P<text>.*)'(?= in <)"
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -21,42 +21,59 @@ class Value(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Values:
-    """Some of an attribute's values in ascending time, the default first.
+class Occurrences:
+    """Where something stands in the values of an attribute: `Occurrence`, as rules hand it on.
 
+    `samples` are never none, in ascending time, the default first; each has its `time`.
     `total` is how many time samples the attribute has.
     """
 
     attribute: Any
-    values: tuple[Value, ...]
+    samples: tuple[Any, ...]
     total: int
-
-    def __iter__(self) -> Iterator[Any]:
-        return (value for _, value in self.values)
 
     @property
     def times(self) -> tuple[float, ...]:
-        """The stage times of the values, without the default."""
-        return tuple(time for time, _ in self.values if time is not None)
+        """The stage times, without the default."""
+        return tuple(each.time for each in self.samples if each.time is not None)
 
     @property
     def at_default(self) -> bool:
-        return self.values[0].time is None
+        return self.samples[0].time is None
+
+    @property
+    def asset(self) -> str | None:
+        """The asset path that the line should point to, as authored."""
+        return None
 
     @property
     def count(self) -> str:
         """Empty for a single value, else ` (4 of 240 samples)`."""
         if self.total == 0:
             return ""
-        times = len(self.times)
+        times = self.times
         if not times:
             return f" (the default alone, none of the {self.total} time samples)"
-        return f" ({times} of {self.total} samples)"
+        return f" ({', '.join([f'{len(times)} of {self.total} samples', *self._more(times)])})"
+
+    def _more(self, times: Sequence[float]) -> Iterator[str]:
+        """What else to say where some of the time samples are meant."""
+        yield from ()
+
+
+@dataclass(frozen=True, slots=True)
+class Values(Occurrences):
+    """Some of an attribute's values."""
+
+    samples: tuple[Value, ...]
+
+    def __iter__(self) -> Iterator[Any]:
+        return (value for _, value in self.samples)
 
     def apart(self, key: Callable[[Any], Any]) -> Iterator[tuple[Any, Values]]:
         """The values apart for each key that they have, without those whose key is None."""
         found: dict[Any, list[Value]] = defaultdict(list)
-        for value in self.values:
+        for value in self.samples:
             name = key(value.value)
             if name is not None:
                 found[name].append(value)

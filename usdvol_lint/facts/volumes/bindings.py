@@ -60,6 +60,11 @@ class Target(NamedTuple):
         return shown_path(self.stage, self.path)
 
     @builtins.property
+    def type_name(self) -> str:
+        """The type of the prim; empty where it has none."""
+        return str(self.prim.GetTypeName()) if self.prim else ""
+
+    @builtins.property
     def culprit(self) -> str:
         """The path of the prim to blame."""
         return self.shown if self.to_blame is self.prim else shown(self.to_blame).path
@@ -117,6 +122,12 @@ class FieldBindings(NamedTuple):
         for binding in self.bindings:
             if binding.target and binding.target.state in states:
                 yield binding, binding.target
+
+    def with_files(self) -> Iterator[tuple[Binding, Target]]:
+        """The bindings of fields that name files, with those fields."""
+        for binding, target in self.with_target(TargetState.FIELD):
+            if schema.FIELD_ASSET in target.schemas:
+                yield binding, target
 
     def outside(self, volume: Any) -> Iterator[tuple[Binding, Target]]:
         """The bindings of fields that do not lie below the Volume, with those fields."""
@@ -289,6 +300,11 @@ class FieldNames:
             self._by_name[path.name].append(path)
             self._by_parent[path.GetParentPath()][path.name] = path
 
+    def meant_by(self, binding: Binding) -> Any | None:
+        """The path of the field that a binding of none was probably meant to target."""
+        path = _meant_path(binding)
+        return self.nearest(path, binding.property.GetPrim().GetPath()) if path else None
+
     def nearest(self, path: Any, volume: Any) -> Any | None:
         """A sibling of nearly the same name, or the closest field of exactly that name.
 
@@ -311,7 +327,7 @@ class FieldNames:
         return closest[0] if above <= {volume} else None
 
 
-def meant_path(binding: Binding) -> Any | None:
+def _meant_path(binding: Binding) -> Any | None:
     """Where one would look for the field of a binding that has none; None if it names a prim."""
     if not binding.targets:
         return binding.property.GetPrim().GetPath().AppendChild(binding.key)

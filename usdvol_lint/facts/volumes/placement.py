@@ -80,6 +80,14 @@ class Placement(NamedTuple):
 AT_REST = Placement((), (), ())
 
 
+def displacement(volume: Any, field: Any) -> Displacement | None:
+    """How a field is moved in relation to a Volume that binds it, where it first is."""
+    for path, placement in read_placements(volume, field):
+        if found := placement.displacement():
+            return found._replace(words=f"{found.words} in <{path}>") if path else found
+    return None
+
+
 def read_placements(volume: Any, field: Any) -> Iterator[tuple[str, Placement]]:
     """Reads the transforms between a field and a Volume that binds it.
 

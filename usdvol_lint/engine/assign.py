@@ -1,0 +1,147 @@
+"""Each rule with the prims that it is handed: those it asked for, as far as its `when` holds."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from operator import itemgetter
+from typing import Any, TypeAlias
+
+from usdvol_lint import schema
+from usdvol_lint.engine.walk import Walk
+from usdvol_lint.facts import Facts
+from usdvol_lint.facts.prims.tables import Chunk, Table
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
+from usdvol_lint.facts.usd.kinds import Key
+from usdvol_lint.rule import Rule, When
+
+Options: TypeAlias = Mapping[str, Mapping[str, Any]]
+"""The options of rules, by code."""
+Failed: TypeAlias = Callable[[Rule, Exception], None]
+"""Is told of a rule whose precondition raised: the rule is handed the prims all the same."""
+
+
+def assign(
+    walked: Walk, rules: Iterable[Rule], facts: Facts, options: Options, failed: Failed
+) -> Iterator[tuple[Rule, Any]]:
+    """Each rule with each kept prim that it asked for.
+
+    A prim that nothing is remarkable about is handed to few: `Rule.when` is asked once for all
+    prims that share a key, and keys are found for those prims alone that some rule asks for.
+    """
+    rules = list(rules)
+    subscribed = {
+        key: _Subscription(facts.kinds.names(key), rules, facts, options, failed)
+        for key in walked.kept
+    }
+    for key, chunk in _fields_first(walked, facts):
+        for prim in chunk.prims:
+            for rule in subscribed[key].always:
+                yield rule, prim
+        if subscribed[key].by_keys:
+            for table in facts.tables.tables(chunk):
+                for rules_by_key in subscribed[key].by_keys:
+                    yield from rules_by_key.chosen(table)
+
+
+class _Subscription:
+    """The rules that ask for prims of a kind: `always`, or those chosen by the prims' keys."""
+
+    def __init__(
+        self,
+        names: frozenset[str],
+        rules: Iterable[Rule],
+        facts: Facts,
+        options: Options,
+        failed: Failed,
+    ) -> None:
+        self.always: list[Rule] = []
+        narrowed: dict[Any, list[tuple[Rule, When]]] = defaultdict(list)
+        for rule in rules:
+            if names.isdisjoint(rule.on):
+                continue
+            if rule.when:
+                narrowed[rule.when.keys].append((rule, rule.when))
+            else:
+                self.always.append(rule)
+        self.by_keys = [
+            _RulesByKey(declared, facts, chosen, options, failed)
+            for declared, chosen in narrowed.items()
+        ]
+
+
+class _RulesByKey:
+    """The rules whose preconditions look at one thing, chosen once for each key that it gives."""
+
+    def __init__(
+        self,
+        declared: Any,
+        facts: Facts,
+        rules: list[tuple[Rule, When]],
+        options: Options,
+        failed: Failed,
+    ) -> None:
+        self._declared = declared
+        self._wing = facts.wing(declared.owner)
+        self._rules = rules
+        self._options = options
+        self._failed = failed
+        self._known: dict[Any, list[Rule]] = {}
+
+    def chosen(self, table: Table) -> Iterator[tuple[Rule, Any]]:
+        """The prims, each with its rules."""
+        keys = self._keys(table)
+        if keys is None:
+            yield from self._one_by_one(table)
+            return
+        chosen = {key: self._rules_for(key) for key in set(keys)}
+        if any(chosen.values()):
+            for prim, key in zip(table.prims, keys, strict=True):
+                for rule in chosen[key]:
+                    yield rule, prim
+
+    def _one_by_one(self, table: Table) -> Iterator[tuple[Rule, Any]]:
+        """The same where some key can't be found; who has none is handed to all of the rules."""
+        if len(table.prims) == 1:
+            yield from ((rule, table.prims[0]) for rule, _ in self._rules)
+            return
+        for row in range(len(table.prims)):
+            yield from self.chosen(table.alone(row))
+
+    def _keys(self, table: Table) -> list[Any] | None:
+        try:
+            return list(self._declared.keys(self._wing, table))
+        except UNREADABLE:
+            pass  # the rules find that out by themselves
+        except Exception as error:
+            if len(table.prims) == 1:
+                for rule, _ in self._rules:
+                    self._failed(rule, error)
+        return None
+
+    def _rules_for(self, key: Any) -> list[Rule]:
+        if key not in self._known:
+            self._known[key] = [rule for rule, when in self._rules if self._holds(rule, when, key)]
+        return self._known[key]
+
+    def _holds(self, rule: Rule, when: When, key: Any) -> bool:
+        given = {**rule.options, **self._options.get(rule.code, {})}
+        try:
+            return when.holds(key, **{name: given[name] for name in when.options})
+        except Exception as error:
+            self._failed(rule, error)
+            return True
+
+
+def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[Key, Chunk]]:
+    """The kept prims by kind, some at a time, roughly in the order of the walk.
+
+    What Volumes are asked needs what their fields hold: of prims that the walk met together,
+    fields come first, while what USD said of them is still in the processor's cache.
+    """
+    order = []
+    for key in walked.kept:
+        later = schema.FIELD not in facts.kinds.names(key)
+        chunks = facts.tables.chunks(key)
+        order += [((n / len(chunks), later, key), chunk) for n, chunk in enumerate(chunks, 1)]
+    yield from ((key, chunk) for (_, _, key), chunk in sorted(order, key=itemgetter(0)))

@@ -1,0 +1,103 @@
+"""One stage under its variant selections: walked, handed to the rules, and what they find."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any
+
+from pxr import Tf
+
+from usdvol_lint import schema
+from usdvol_lint.engine.assign import Options, assign
+from usdvol_lint.engine.failures import Failures
+from usdvol_lint.engine.stamp import Found, Stamp
+from usdvol_lint.engine.usd_version import usd_version
+from usdvol_lint.engine.variants import Identity, OtherSelections
+from usdvol_lint.engine.walk import Walk, walk
+from usdvol_lint.facts import Context, Facts
+from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
+from usdvol_lint.rule import STAGE, Problem, Rule
+
+
+class StageCheck:
+    """Checks one stage; iterating is checking, so that findings can be told as they come."""
+
+    def __init__(
+        self, context: Context, rules: Sequence[Rule], options: Options, stamp: Stamp
+    ) -> None:
+        self._context = context
+        self._rules = rules
+        self._options = options
+        self._stamp = stamp
+
+    def walk(self) -> Walk:
+        """The prims that the rules ask for, under the selection that is composed now."""
+        return walk(self._context.stage, self._rules, self._context.kinds)
+
+    def facts(self, walked: Walk) -> Facts:
+        """The facts under the selection that is composed now."""
+        return Facts(self._context, walked.kept, walked.clipped)
+
+    def usd(self, facts: Facts) -> Iterator[Found]:
+        """Whether the installed USD knows what the stage uses."""
+        if not facts.kinds.knows_particle_fields and facts.prims.of(schema.PARTICLE_FIELD):
+            since = ".".join(map(str, schema.PARTICLE_FIELD_SINCE[1:]))
+            too_old = Problem(
+                f"USD {usd_version()} knows no particle fields, which came with {since}: they are "
+                "checked by the names of their types, APIs and attributes",
+                at=facts.stage.GetPseudoRoot(),
+                suggestion=f"install usd-core {since} or later",
+            )
+            yield from self._stamp.stamp(USD_TOO_OLD, too_old)
+
+    def selection(self, walked: Walk, facts: Facts) -> Iterator[Found]:
+        """What the rules find under one selection, and where they failed."""
+        failures = Failures()
+        for rule, prim in self._work(walked, facts, failures):
+            options = self._options.get(rule.code, {})
+            try:
+                for said in rule.check(prim, facts, **options):
+                    yield from self._stamp.stamp(rule, said)
+            except Exception as error:
+                failures.add(rule, prim, error)
+        for prim, fault in facts.tables.unreadable:
+            failures.add(NOT_CHECKED, prim, fault)
+        yield from failures.found(self._stamp.sites)
+
+    def others(self, selections: OtherSelections, known: set[Identity]) -> Iterator[Found]:
+        """What only other variant selections show, each with the first that does."""
+        for selection, error in selections:
+            for found in self._other(error):
+                if found.identity not in known:
+                    known.add(found.identity)
+                    site = replace(found.finding.site, variant=selection)
+                    yield found._replace(finding=replace(found.finding, site=site))
+        for left_out in selections.not_checked():
+            yield from self._stamp.stamp(NOT_CHECKED, left_out)
+
+    def _other(self, fault: Tf.ErrorException | None) -> Iterator[Found]:
+        """What one selection shows, or why it can't be told."""
+        if not fault:
+            try:
+                walked = self.walk()
+            except Tf.ErrorException as error:
+                fault = error
+            else:
+                yield from self.selection(walked, self.facts(walked))
+        if fault:
+            failures = Failures()
+            failures.add(NOT_CHECKED, self._context.stage.GetPseudoRoot(), fault)
+            yield from failures.found(self._stamp.sites)
+
+    def _work(self, walked: Walk, facts: Facts, failures: Failures) -> Iterator[tuple[Rule, Any]]:
+        """Each rule with each prim it asked for."""
+        root = facts.stage.GetPseudoRoot()
+
+        def failed(rule: Rule, error: Exception) -> None:
+            failures.add_precondition(rule, root, error)
+
+        yield from assign(walked, self._rules, facts, self._options, failed)
+        for rule in self._rules:
+            if STAGE in rule.on:
+                yield rule, root

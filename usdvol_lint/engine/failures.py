@@ -1,0 +1,103 @@
+"""Rules that raised become findings, so that a report says what was not checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from pxr import Tf
+
+from usdvol_lint.engine.site import Sites
+from usdvol_lint.engine.stage import in_usds_words
+from usdvol_lint.engine.stamp import Found
+from usdvol_lint.engine.variants import Identity
+from usdvol_lint.facts.usd.diagnostics import without_grammar
+from usdvol_lint.model import Finding, Severity
+from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
+from usdvol_lint.rule import NotChecked, Rule
+
+_LONGEST_MESSAGE = 300
+
+
+@dataclass(slots=True)
+class _Failure:
+    """One kind of failure: the rule and the prim where it came first, and on how many it came."""
+
+    rule: Rule
+    prim: Any
+    error: Exception
+    count: int = 0
+    of_precondition: bool = False
+
+    @property
+    def is_usds(self) -> bool:
+        return isinstance(self.error, Tf.ErrorException)
+
+    @property
+    def message(self) -> str:
+        if self.is_usds and not self.of_precondition:
+            said = "; ".join(map(without_grammar, in_usds_words(self.error)))
+            return f"USD can't read what is here: {said}"
+        rule, error = self.rule, self.error
+        said = " ".join(f"{type(error).__name__}: {error}".split())
+        if self.of_precondition:
+            what = f"the precondition of rule {rule.code} ({rule.name})"
+            return f"{what} failed, so the rule looked at every prim that it asks for: {said}"
+        others = f", and on {self.count - 1} more prims" if self.count > 1 else ""
+        return f"rule {rule.code} ({rule.name}) failed here{others}: {said}"
+
+
+class Failures:
+    """Rules that raised, each kind of failure once, however many prims it hit.
+
+    Where USD raised, the stage holds what USD can't read, whichever rule asks for it.
+    """
+
+    def __init__(self) -> None:
+        self._failures: dict[Identity, _Failure] = {}
+
+    def add(self, rule: Rule, prim: Any, error: Exception) -> None:
+        """Keeps what a rule raised on a prim."""
+        key: Identity = (rule.code, type(error).__name__, str(_line(error)))
+        if isinstance(error, Tf.ErrorException):
+            key = (str(prim.GetPath()), *in_usds_words(error))
+        self._failures.setdefault(key, _Failure(rule, prim, error)).count += 1
+
+    def add_precondition(self, rule: Rule, root: Any, error: Exception) -> None:
+        """Keeps what the precondition of a rule raised, whatever prims it was asked of."""
+        failure = _Failure(rule, root, error, of_precondition=True)
+        self._failures.setdefault((rule.code, "when"), failure)
+
+    def found(self, sites: Sites) -> Iterator[Found]:
+        """What to report of them."""
+        for key, failure in self._failures.items():
+            by_usd = failure.is_usds and not failure.of_precondition
+            code = STAGE_UNREADABLE if by_usd else RULE_FAILED
+            finding = Finding(
+                code=code.code,
+                name=code.name,
+                severity=Severity.ERROR,
+                message=failure.message[:_LONGEST_MESSAGE],
+                site=sites.locate(NotChecked("", at=failure.prim)).site,
+                suggestion="the layer is probably corrupt: copy or export it again"
+                if by_usd
+                else "a bug of the rule, not of the stage; --verbose shows the traceback",
+                help=help_for(code),
+                detail=_traceback(failure.error),
+            )
+            yield Found(finding, key)
+
+
+def _line(error: Exception) -> int:
+    """Where it was raised: what it says may name the prim, and so differ on each."""
+    place = error.__traceback__
+    while place and place.tb_next:
+        place = place.tb_next
+    return place.tb_lineno if place else 0
+
+
+def _traceback(error: Exception) -> str:
+    import traceback  # costs start-up time, and rules rarely fail
+
+    return "".join(traceback.format_exception(error))
