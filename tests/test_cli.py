@@ -755,7 +755,7 @@ def test_the_parent_imports_neither_usd_nor_numpy(two: Path) -> None:
     )
     assert done.returncode == 1
     imported = {line.rpartition("|")[2].strip() for line in done.stderr.splitlines()}
-    assert {"usdvol_lint.run.pool", "usdvol_lint.report.plain"} <= imported
+    assert {"usdvol_lint.run.pool", "usdvol_lint.report.style"} <= imported
     roots = {name.partition(".")[0] for name in imported}
     assert roots.isdisjoint({"pxr", "numpy", "rich"})
 

@@ -17,7 +17,6 @@ from usdvol_lint.config import Config
 from usdvol_lint.engine import walk
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.prims import tables
-from usdvol_lint.facts.usd import answers
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog

@@ -11,7 +11,7 @@ _LINTS_NOTHING = {"--version", "-h", "--help", "--explain", "--list-rules", "--s
 
 
 def main() -> None:
-    """Answers what needs no more than this, or has the command line do it."""
+    """PrimBatch what needs no more than this, or has the command line do it."""
     arguments = sys.argv[1:]
     if arguments == ["--version"]:
         _say(f"usdvol-lint {__version__}\n")

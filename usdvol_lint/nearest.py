@@ -8,7 +8,7 @@ CLOSE = 0.84
 """How alike two words must be, from 0 to 1, for one to be offered in place of the other."""
 
 
-def nearest_word(
+def closest_match(
     word: str,
     known: Iterable[str],
     cutoff: float = CLOSE,
@@ -24,5 +24,5 @@ def nearest_word(
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """`; did you mean 'x'?` for what somebody typed, or nothing if nothing known is near."""
-    meant = nearest_word(word, known, cutoff=0.6)
+    meant = closest_match(word, known, cutoff=0.6)
     return f"; did you mean {meant!r}?" if meant else ""

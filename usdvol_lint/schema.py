@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from usdvol_lint.nearest import CLOSE, nearest_word
+from usdvol_lint.nearest import CLOSE, closest_match
 
 VOLUME = "Volume"
 FIELD = "VolumeFieldBase"
@@ -57,8 +57,8 @@ CONCRETE_TYPES = frozenset(TYPE_BASES) - ABSTRACT_TYPES
 POSITION_BASE = "ParticleFieldPositionBaseAPI"
 KERNEL_BASE = "ParticleFieldKernelBaseAPI"
 RADIANCE_BASE = "ParticleFieldRadianceBaseAPI"
-POSITIONS = "ParticleFieldPositionAttributeAPI"
-HARMONICS = "ParticleFieldSphericalHarmonicsAttributeAPI"
+POSITIONS_API = "ParticleFieldPositionAttributeAPI"
+HARMONICS_API = "ParticleFieldSphericalHarmonicsAttributeAPI"
 
 API_INCLUDES: dict[str, tuple[str, ...]] = {
     POSITION_BASE: (),
@@ -298,7 +298,7 @@ def attributes_of(schemas: Iterable[str]) -> dict[str, Attribute]:
 
 def misspelt_type(name: str) -> str | None:
     """The type of UsdVol that an unregistered type name was probably meant to be."""
-    return PRE_STANDARD_TYPES.get(name) or nearest(name, CONCRETE_TYPES)
+    return PRE_STANDARD_TYPES.get(name) or closest_name(name, CONCRETE_TYPES)
 
 
 def misspelt_api(name: str) -> str | None:
@@ -307,7 +307,7 @@ def misspelt_api(name: str) -> str | None:
     The names share most of their letters, so a third party's own may look alike: a near one
     differs by a letter or two.
     """
-    return PRE_STANDARD_APIS.get(name) or nearest(name, tuple(API_INCLUDES), cutoff=0.95)
+    return PRE_STANDARD_APIS.get(name) or closest_name(name, tuple(API_INCLUDES), cutoff=0.95)
 
 
 def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
@@ -327,7 +327,7 @@ def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
         names = frozenset(candidate for candidate in names if ":" in candidate)
     if any(name.startswith(other) and name[len(other) :][:1].isupper() for other in names):
         return None
-    return nearest(name, names, cutoff=0.81)
+    return closest_name(name, names, cutoff=0.81)
 
 
 def is_alike(one: str, other: str) -> bool:
@@ -344,10 +344,10 @@ def misspelt_token(attribute: str, token: str, allowed: tuple[str, ...]) -> str 
     if folded.startswith("tree"):
         folded = folded.removeprefix("tree").rstrip("0123456789") or folded
     guess = GUESSED_TOKENS.get(attribute, {}).get(folded)
-    return guess if guess in allowed else nearest(folded, frozenset(allowed), cutoff=0.8)
+    return guess if guess in allowed else closest_name(folded, frozenset(allowed), cutoff=0.8)
 
 
-def nearest(
+def closest_name(
     name: str, candidates: tuple[str, ...] | frozenset[str], cutoff: float = CLOSE
 ) -> str | None:
     """The candidate that `name` is most likely a misspelling of, if one is close enough.
@@ -356,7 +356,7 @@ def nearest(
     """
     digits = _digits(name)
     alike = (other for other in sorted(candidates) if digits in ("", _digits(other)))
-    return nearest_word(name, alike, cutoff, _fold)
+    return closest_match(name, alike, cutoff, _fold)
 
 
 def _nature(type_name: str) -> tuple[bool, bool]:

@@ -13,7 +13,7 @@ def outside_extent(
     clamp: float = 50_000.0,
 ) -> Problems:
     for array in facts.particles.arrays(particles).used("positions"):
-        strays = facts.particles.stray_positions(particles, half_slack if array.is_half else slack, clamp)
+        strays = facts.particles.positions_outside_extent(particles, half_slack if array.is_half else slack, clamp)
         if strays:
             yield Problem(
                 f"{strays.found.amount} outside of the extent, {strays.shown_extent}, {strays.found.first}",

@@ -2,7 +2,7 @@
 
 from usdvol_lint.rule import INFO, Facts, Prim, Prims, Problem, Problems, When, rule
 
-_HAS_EXTENT = When(Prims.authored, lambda authored: "extent" in authored.strange)
+_HAS_EXTENT = When(Prims.authored, lambda authored: "extent" in authored.undeclared)
 
 
 @rule("FLD008", on="VolumeFieldBase", when=_HAS_EXTENT, severity=INFO, since="0.1")

@@ -1,7 +1,7 @@
 """GRD003: the grid that a field names must be in its file."""
 
 from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
-from usdvol_lint.schema import nearest
+from usdvol_lint.schema import closest_name
 
 _PARTS = [tuple(f"{mark}{part}" for part in "xyz") for mark in (".", "_", ":", "")]
 
@@ -31,5 +31,5 @@ def _suggestion(name: str, names: frozenset[str]) -> str | None:
         if names.issuperset(split):
             listed = ", ".join(map(quoted, split))
             return f"{quoted(name)} is split into {listed}: write it as one vector"
-    meant = nearest(name, names - {""})
+    meant = closest_name(name, names - {""})
     return f"did you mean {quoted(meant)}?" if meant else None

@@ -11,7 +11,7 @@ def _unread(content: Content) -> str | None:
 
 
 def _stranger(content: Content) -> str | None:
-    return content.stranger
+    return content.unexpected_format
 
 
 def _fault(content: Content) -> tuple[str, bool] | None:

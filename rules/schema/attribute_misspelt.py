@@ -6,7 +6,7 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Prims, Problem, Problems, Whe
 @rule(
     "SCH004",
     on=("Volume", "VolumeFieldBase", "ParticleField"),
-    when=When(Prims.authored, lambda authored: bool(authored.meant)),
+    when=When(Prims.authored, lambda authored: bool(authored.misspellings)),
     severity=WARNING,
     since="0.1",
 )

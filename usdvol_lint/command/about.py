@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from usdvol_lint.model import UsageError
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.packs.page import Page
-from usdvol_lint.report.plain import paint
+from usdvol_lint.report.style import paint
 
 
 def explain(catalog: Catalog, code_or_name: str) -> Page:

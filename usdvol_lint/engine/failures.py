@@ -9,10 +9,10 @@ from typing import Any
 from pxr import Tf
 
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.engine.stage import in_usds_words
+from usdvol_lint.engine.stage import messages
 from usdvol_lint.engine.stamp import Found
 from usdvol_lint.engine.variants import Identity
-from usdvol_lint.facts.usd.diagnostics import without_grammar
+from usdvol_lint.facts.usd.diagnostics import without_parser_rule
 from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.rule import NotChecked, Rule
@@ -37,7 +37,7 @@ class _Failure:
     @property
     def message(self) -> str:
         if self.is_usds and not self.of_precondition:
-            said = "; ".join(map(without_grammar, in_usds_words(self.error)))
+            said = "; ".join(map(without_parser_rule, messages(self.error)))
             return f"USD can't read what is here: {said}"
         rule, error = self.rule, self.error
         said = " ".join(f"{type(error).__name__}: {error}".split())
@@ -61,7 +61,7 @@ class Failures:
         """Keeps what a rule raised on a prim."""
         key: Identity = (rule.code, type(error).__name__, str(_line(error)))
         if isinstance(error, Tf.ErrorException):
-            key = (str(prim.GetPath()), *in_usds_words(error))
+            key = (str(prim.GetPath()), *messages(error))
         self._failures.setdefault(key, _Failure(rule, prim, error)).count += 1
 
     def add_precondition(self, rule: Rule, root: Any, error: Exception) -> None:

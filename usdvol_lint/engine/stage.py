@@ -12,7 +12,7 @@ from pxr import Sdf, Tf, Usd
 from usdvol_lint.engine.trouble import Unreadable
 from usdvol_lint.facts.files.disk import LFS_SIGNATURE
 from usdvol_lint.facts.usd.clips import tells_of_clips
-from usdvol_lint.facts.usd.diagnostics import raw_words, without_grammar
+from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
 from usdvol_lint.model import quoted
 from usdvol_lint.paths import SUFFIXES, display
 
@@ -48,7 +48,7 @@ def open_stage(path: str, load: str, session: Any | None = None) -> Any:
         layer = Sdf.Layer.FindOrOpen(os.path.abspath(path))
         stage = _open(layer, session, policy) if layer else None
     except Tf.ErrorException as error:
-        raise _explain(path, in_usds_words(error), head) from error
+        raise _explain(path, messages(error), head) from error
     if stage is None and head.startswith(_ZIP):
         raise Unreadable("a package in which USD finds no layer to open", "package it again")
     if stage is None:
@@ -199,17 +199,17 @@ def _in_one_line(path: str, error: str) -> str:
     """An error of USD's without the path that the finding names anyway, and without C++."""
     for mention in (f", while reading {display(path)}", "Encountered: "):
         error = error.replace(mention, "")
-    return without_grammar(error)
+    return without_parser_rule(error)
 
 
-def in_usds_words(error: Any) -> list[str]:
+def messages(error: Any) -> list[str]:
     """What the errors in a `Tf.ErrorException` say."""
     return [_commentary(each) for each in error.args]
 
 
 def _commentary(error: Any) -> str:
     """Files are named as findings name them."""
-    return re.sub(_MENTION, _shown, re.sub(_SESSION, "", raw_words(error)))
+    return re.sub(_MENTION, _shown, re.sub(_SESSION, "", commentary(error)))
 
 
 def _shown(mention: re.Match[str]) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from usdvol_lint.model import Finding, Report, Site, StageReport, printable
 from usdvol_lint.report import Options
-from usdvol_lint.report.plain import paint
+from usdvol_lint.report.style import paint
 from usdvol_lint.report.text import SEVERITY_STYLES, place
 
 

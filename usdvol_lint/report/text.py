@@ -17,7 +17,7 @@ from usdvol_lint.model import (
     printable,
 )
 from usdvol_lint.report import Options
-from usdvol_lint.report.plain import paint
+from usdvol_lint.report.style import paint
 
 SEVERITY_STYLES = {
     Severity.ERROR: "bold red",

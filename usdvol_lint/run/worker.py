@@ -13,7 +13,7 @@ from usdvol_lint.run.protocol import Advance, Found, Ready, Refusal, Setup
 
 
 def main() -> None:
-    """Answers each path with a report, until the pipe closes."""
+    """PrimBatch each path with a report, until the pipe closes."""
     # All that is imported stays, and facts are many and live as long as their stage: looking for
     # garbage among them, again and again, takes a third of the time on a stage of 100,000 prims.
     gc.disable()

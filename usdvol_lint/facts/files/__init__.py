@@ -37,7 +37,7 @@ class Files(Wing):
     @column
     def paths(self, table: Table) -> Sequence[AssetSamples]:
         """Every value of `filePath`, resolved and classified."""
-        return self._reader.read(table.usd, "filePath")
+        return self._reader.read(table.batch, "filePath")
 
     @summary
     def path_marks(self, table: Table) -> Sequence[frozenset[Enum]]:

@@ -15,7 +15,7 @@ from pxr import Ar, Sdf, Usd
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.facts.files.states import PLACES, AssetState, FileFault
-from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
@@ -169,7 +169,7 @@ class AssetReader:
         self._alone: dict[Any, tuple[Sample]] = {}
         """Defaults that name files, which are the same wherever they are authored."""
 
-    def read(self, usd: Answers, name: str) -> list[AssetSamples]:
+    def read(self, batch: PrimBatch, name: str) -> list[AssetSamples]:
         """The values of an attribute of that name on each of many prims."""
         known = self._alone
         return [
@@ -177,7 +177,7 @@ class AssetReader:
             if not count and isinstance(value, Sdf.AssetPath) and value in known
             else self._read(attribute, count, value)
             for attribute, count, value in zip(
-                usd.attributes(name), usd.counts(name), usd.values(name), strict=True
+                batch.attributes(name), batch.counts(name), batch.values(name), strict=True
             )
         ]
 

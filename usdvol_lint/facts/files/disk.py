@@ -15,7 +15,7 @@ from pxr import Ar, Sdf, Tf
 from usdvol_lint.facts.files.patterns import matching_frames
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.model import quoted
-from usdvol_lint.nearest import nearest_word
+from usdvol_lint.nearest import closest_match
 
 LFS_SIGNATURE = b"version https://git-lfs"
 _LFS_POINTER_LIMIT = 1024
@@ -167,7 +167,7 @@ class Disk:
         if folder not in self._by_numbers:
             self._by_numbers[folder] = _group_by_numbers(self.listing(folder))
         others = self._by_numbers[folder].get(_numbers(name), ())
-        return nearest_word(name, (other for other in others if other != name))
+        return closest_match(name, (other for other in others if other != name))
 
 
 def is_packaged(path: str) -> bool:

@@ -43,7 +43,7 @@ class Grids(Wing):
     @column
     def claims(self, table: Table) -> Sequence[FieldClaims]:
         """What fields say of the content of their files."""
-        return self._claim_reader.read(table.usd, table.authored)
+        return self._claim_reader.read(table.batch, table.authored)
 
     @column
     def timelines(self, table: Table) -> Sequence[Timeline]:

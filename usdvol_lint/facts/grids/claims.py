@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from usdvol_lint.facts.prims.attributes import Authored
-from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import count_samples, get_value
-from usdvol_lint.facts.usd.held import Held, Time
+from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.usd.values import read_values
 
 _ATTRIBUTES = {
@@ -46,7 +46,7 @@ class FieldClaims:
 
     def __init__(self, default: Claim, samples: Sequence[tuple[float, Claim]] = ()) -> None:
         self.default = default
-        self._samples = Held(samples)
+        self._samples = StepSamples(samples)
         self.times = self._samples.times
         self.all = (default, *(claim for _, claim in samples))
 
@@ -62,15 +62,15 @@ class ClaimReader:
         self._claims: dict[tuple[Any, ...], Claim] = {}
         self._unchanging: dict[tuple[Any, ...], FieldClaims] = {}
 
-    def read(self, usd: Answers, authored: Authored) -> list[FieldClaims]:
+    def read(self, batch: PrimBatch, authored: Authored) -> list[FieldClaims]:
         """What many fields say that are alike."""
         names = tuple(name for name in _ATTRIBUTES if name in authored.declared)
         if not names:
-            return [self._constant((), ())] * len(usd.prims)
-        values = zip(*map(usd.values, names), strict=True)
-        counts = zip(*map(usd.counts, names), strict=True)
+            return [self._constant((), ())] * len(batch.prims)
+        values = zip(*map(batch.values, names), strict=True)
+        counts = zip(*map(batch.counts, names), strict=True)
         found = []
-        for field, said, are_animated in zip(usd.prims, values, counts, strict=True):
+        for field, said, are_animated in zip(batch.prims, values, counts, strict=True):
             if any(are_animated):
                 found.append(self._read_changing([field.GetAttribute(name) for name in names]))
             else:
@@ -87,11 +87,11 @@ class ClaimReader:
 
     def _read_changing(self, attributes: Sequence[Any]) -> FieldClaims:
         constant: dict[str, Any] = {}
-        animated: dict[str, Held[Any]] = {}
+        animated: dict[str, StepSamples[Any]] = {}
         for attribute in attributes:
             name = _ATTRIBUTES[attribute.GetName()]
             if count_samples(attribute):
-                animated[name] = Held(read_values(attribute))
+                animated[name] = StepSamples(read_values(attribute))
             else:
                 constant[name] = get_value(attribute)
 

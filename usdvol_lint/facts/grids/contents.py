@@ -14,7 +14,7 @@ from usdvol_lint.facts.files.disk import is_packaged
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.grids.claims import Claim, FieldClaims
 from usdvol_lint.facts.prims.attributes import Authored
-from usdvol_lint.facts.usd.held import Held, Time
+from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.volumefile import tokens
 from usdvol_lint.volumefile.cache import Fault, Reading, VolumeFiles
 from usdvol_lint.volumefile.model import Format, Grid, VolumeFile, quoted
@@ -53,7 +53,7 @@ class Content(NamedTuple):
         return fault.message if fault and fault.code in _UNREAD else None
 
     @property
-    def stranger(self) -> Format | None:
+    def unexpected_format(self) -> Format | None:
         """The format of the file if it is another than its extension or the schema lets expect.
 
         A NanoVDB file with an extension of its own is not the schema's, but read by some.
@@ -70,7 +70,7 @@ class Content(NamedTuple):
         """What can be relied on: of a truncated file as much as is there."""
         fault = self.reading.fault
         sound = fault is None or fault.code == "truncated"
-        return self.reading.file if sound and not self.stranger else None
+        return self.reading.file if sound and not self.unexpected_format else None
 
     @property
     def grids(self) -> tuple[Grid, ...]:
@@ -312,7 +312,7 @@ class ContentReader:
 
     def _kind(self, content: Content) -> Kind:
         _, claim, reading, wanted = content
-        key = (claim, reading.kind, wanted, content.stranger)
+        key = (claim, reading.kind, wanted, content.unexpected_format)
         kind = self._kinds.get(key)
         if kind is None:
             kind = self._kinds[key] = Kind(content)
@@ -348,7 +348,7 @@ def _moments(samples: AssetSamples, claims: FieldClaims) -> Iterator[tuple[Sampl
         for sample in samples.samples:
             yield sample, claims.default
         return
-    files = Held((sample.time, sample) for sample in samples.samples)
+    files = StepSamples((sample.time, sample) for sample in samples.samples)
     moments: list[Time] = [None] if files.default else []
     for time in (*moments, *sorted({*files.times, *claims.times})):
         if held_file := files.at(time):

@@ -15,7 +15,7 @@ from pxr import Pcp, Sdf, Tf, Usd
 from usdvol_lint.facts.files.assets import is_uri
 from usdvol_lint.facts.files.disk import file_fault, is_packaged
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
-from usdvol_lint.facts.usd.diagnostics import raw_words, without_grammar
+from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.paths import display
 
@@ -252,7 +252,7 @@ def _why_not_open(resolved: str) -> str:
     try:
         return "" if Sdf.Layer.FindOrOpen(resolved) else "it is not a valid layer"
     except Tf.ErrorException as error:
-        words = "; ".join(dict.fromkeys(map(without_grammar, map(raw_words, error.args))))
+        words = "; ".join(dict.fromkeys(map(without_parser_rule, map(commentary, error.args))))
         return _as_reason(words, resolved) or "it is not a valid layer"
 
 

@@ -65,15 +65,15 @@ class Particles(Wing):
             self._advance,
         )
 
-    def stray_positions(self, prim: Any, slack: float, clamp: float) -> Strays | None:
+    def positions_outside_extent(self, prim: Any, slack: float, clamp: float) -> Strays | None:
         """The positions that lie outside the extent at the same time."""
-        from usdvol_lint.facts.particles.extent import stray_positions
+        from usdvol_lint.facts.particles.extent import positions_outside_extent
 
         extent = prim.GetAttribute("extent")
         positions = next(self.arrays(prim).used("positions"), None)
         if not positions or not extent.HasAuthoredValue():
             return None
-        return stray_positions(positions, extent, slack, clamp)
+        return positions_outside_extent(positions, extent, slack, clamp)
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
         """The colour space that a prim names, or the nearest prim above it that names one."""

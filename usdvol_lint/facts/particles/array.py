@@ -11,7 +11,7 @@ from pxr import Usd
 
 from usdvol_lint.facts.particles import memory
 from usdvol_lint.facts.particles.memory import Mask, Range, Row, Rows, Spot
-from usdvol_lint.facts.usd.held import Held, Time
+from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.usd.values import Value, Values
 
 _INFINITY = float("inf")
@@ -88,7 +88,7 @@ class ParticleArray:
         self.samples = samples
         self.is_populated = any(sample.size for sample in samples)
         self.total = total
-        self.sizes = Held(samples)
+        self.sizes = StepSamples(samples)
         self._with_counts = with_counts
         self._counts = memory.NO_COUNTS
         self._advance = advance

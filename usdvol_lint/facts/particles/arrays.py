@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from pxr import Usd, Vt
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.held import Time
+from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import Value, Values, sample_times
 
 if TYPE_CHECKING:
@@ -132,12 +132,12 @@ class ParticleArrays:
     @property
     def lack_positions(self) -> bool:
         """Whether there is certainly no particle at any time."""
-        return self._lack(_POSITIONS, schema.POSITIONS)
+        return self._lack(_POSITIONS, schema.POSITIONS_API)
 
     @property
     def lack_coefficients(self) -> bool:
         """Whether there is certainly no coefficient at any time, though their API is applied."""
-        return self._lack(_COEFFICIENTS, schema.HARMONICS)
+        return self._lack(_COEFFICIENTS, schema.HARMONICS_API)
 
     def _lack(self, name: str, api: str) -> bool:
         pair = self.pairs[name]

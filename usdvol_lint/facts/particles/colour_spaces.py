@@ -8,7 +8,7 @@ from typing import Any
 
 from pxr import Gf
 
-from usdvol_lint.schema import COLOUR_SPACES, nearest
+from usdvol_lint.schema import COLOUR_SPACES, closest_name
 
 _NAME = "colorSpace:name"
 _DEFINITIONS = "colorSpaceDefinition"
@@ -33,7 +33,7 @@ def colour_space(prim: Any) -> ColourSpace | None:
             is_known = _is_built_in(name) or any(
                 name in _defined(above) for above in _upward(place)
             )
-            similar = None if is_known else nearest(name, COLOUR_SPACES, cutoff=0.6)
+            similar = None if is_known else closest_name(name, COLOUR_SPACES, cutoff=0.6)
             return ColourSpace(attribute, name, is_known, similar)
     return None
 

@@ -10,7 +10,7 @@ from usdvol_lint.facts.particles import memory
 from usdvol_lint.facts.particles.array import Found, ParticleArray, Sample, written
 from usdvol_lint.facts.particles.memory import Mask, Row
 from usdvol_lint.facts.prims.extents import box_of
-from usdvol_lint.facts.usd.held import Time
+from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import sample_times
 
 Box: TypeAlias = tuple[Row, Row]
@@ -52,7 +52,7 @@ class Strays:
         return _shown(self.positions)
 
 
-def stray_positions(
+def positions_outside_extent(
     positions: ParticleArray, extent: Any, slack: float, clamp: float
 ) -> Strays | None:
     """The positions outside the extent by more than a share of its coordinates.

@@ -56,20 +56,20 @@ class Prims(Wing):
         """Whether some spec may have another type than the schema declares."""
         from usdvol_lint.facts.prims.attributes import may_be_mistyped
 
-        return may_be_mistyped(table.usd, table.authored)
+        return may_be_mistyped(table.batch, table.authored)
 
     @summary
     def may_have_unlisted_tokens(self, table: Table) -> Sequence[bool]:
         """Whether some token may be one that the schema does not allow."""
         from usdvol_lint.facts.prims.attributes import may_have_unlisted
 
-        return may_have_unlisted(table.usd, table.authored)
+        return may_have_unlisted(table.batch, table.authored)
 
     @summary
     def may_be_encoded_otherwise(self, table: Table) -> Sequence[bool]:
         """Whether prims are of no type of ours, or have properties that no schema declares."""
         is_foreign = schema.OURS.isdisjoint(table.authored.schemas)
-        return [is_foreign or bool(table.authored.strange)] * len(table.prims)
+        return [is_foreign or bool(table.authored.undeclared)] * len(table.prims)
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
@@ -101,7 +101,7 @@ class Prims(Wing):
         """Every `extent` of prims as a box."""
         from usdvol_lint.facts.prims.extents import read_limits
 
-        return read_limits(table.usd)
+        return read_limits(table.batch)
 
     @summary
     def have_malformed_extents(self, table: Table) -> Sequence[bool]:
@@ -126,7 +126,7 @@ class Prims(Wing):
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:
         """Whether there is a Gprim above or below."""
-        return self._nesting.are_likely(table.usd)
+        return self._nesting.are_likely(table.batch)
 
     def gprim_above(self, prim: Any) -> Any | None:
         """The nearest Gprim among the ancestors of a prim."""

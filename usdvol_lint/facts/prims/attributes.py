@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Sdf
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.kinds import Key, Kinds
@@ -81,17 +81,17 @@ class AuthoredReader:
         self._clips = clips
         self._shared: dict[tuple[Key, Shape], Authored] = {}
 
-    def shapes(self, usd: Answers, key: Key) -> list[Shape]:
+    def shapes(self, batch: PrimBatch, key: Key) -> list[Shape]:
         """What makes prims of one kind alike: names, and who else may have a say in the values."""
-        are_clipped = self._clips.reach(usd)
-        are_layered = [len(stack) > 1 for stack in usd.stacks]
-        shapes = list(zip(usd.names, are_layered, are_clipped, strict=True))
+        are_clipped = self._clips.reach(batch)
+        are_layered = [len(stack) > 1 for stack in batch.stacks]
+        shapes = list(zip(batch.names, are_layered, are_clipped, strict=True))
         if any(are_clipped):
             known = schema.attributes_of(self._kinds.names(key))
-            for row, prim in enumerate(usd.prims):
+            for row, prim in enumerate(batch.prims):
                 if are_clipped[row]:
                     also = (name for name in known if prim.GetAttribute(name).HasAuthoredValue())
-                    shapes[row] = ((*usd.names[row], *also), are_layered[row], True)
+                    shapes[row] = ((*batch.names[row], *also), are_layered[row], True)
         return shapes
 
     def read(self, prim: Any, key: Key, shape: Shape) -> Authored:
@@ -102,11 +102,11 @@ class AuthoredReader:
         return found
 
 
-def may_be_mistyped(usd: Answers, authored: Authored) -> list[bool]:
+def may_be_mistyped(batch: PrimBatch, authored: Authored) -> list[bool]:
     """Whether `mistyped` may find anything, for each of many prims that are alike."""
     if authored.is_layered:
-        return [any(mistyped(prim, authored)) for prim in usd.prims]
-    holders = [stack[0] for stack in usd.stacks]
+        return [any(mistyped(prim, authored)) for prim in batch.prims]
+    holders = [stack[0] for stack in batch.stacks]
     found = [False] * len(holders)
     for name, wanted in authored.types:
         specs = map(own_attribute, holders, repeat(Sdf.Path(f".{name}")))
@@ -139,7 +139,7 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
 
     Where the right one has a value, or could not hold this one, it is none.
     """
-    for name, meant, wanted in authored.meant:
+    for name, meant, wanted in authored.misspellings:
         attribute = prim.GetAttribute(name)
         if not attribute or not attribute.HasAuthoredValue():
             continue
@@ -157,11 +157,11 @@ def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
                 yield Unlisted(name, token, allowed, values)
 
 
-def may_have_unlisted(usd: Answers, authored: Authored) -> list[bool]:
+def may_have_unlisted(batch: PrimBatch, authored: Authored) -> list[bool]:
     """Whether `unlisted_tokens` may find anything, for each of many prims that are alike."""
-    found = [False] * len(usd.prims)
+    found = [False] * len(batch.prims)
     for name, allowed in authored.tokens:
-        columns = zip(found, usd.values(name), usd.counts(name), strict=True)
+        columns = zip(found, batch.values(name), batch.counts(name), strict=True)
         found = [odd or value not in allowed or count > 0 for odd, value, count in columns]
     return found
 

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Usd, Vt
 
-from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_attribute, has_value
-from usdvol_lint.facts.usd.held import Time
+from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import Value, Values, read_values, values_of
 from usdvol_lint.volumefile import Bounds
 
@@ -67,12 +67,12 @@ class Limits:
         return self._samples[time] if time in self._samples else box_of(self._get(time))
 
 
-def read_limits(usd: Answers) -> list[Limits]:
+def read_limits(batch: PrimBatch) -> list[Limits]:
     """Every `extent` of many prims as boxes."""
-    attributes, counts = usd.attributes("extent"), usd.counts("extent")
+    attributes, counts = batch.attributes("extent"), batch.counts("extent")
     return [
         Limits(attribute, read_values(attribute) if count else ((None, value),))
-        for attribute, count, value in zip(attributes, counts, usd.values("extent"), strict=True)
+        for attribute, count, value in zip(attributes, counts, batch.values("extent"), strict=True)
     ]
 
 

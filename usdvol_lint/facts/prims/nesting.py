@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_children, get_parent, get_type
 from usdvol_lint.facts.usd.kinds import Kinds
 
@@ -42,11 +42,11 @@ class Nesting:
             found = self._at_or_above[prim] = self._find_at_or_above(prim)
         return found
 
-    def are_likely(self, usd: Answers) -> list[bool]:
+    def are_likely(self, batch: PrimBatch) -> list[bool]:
         """Whether there is a Gprim above or below, Volumes and particle fields counted too."""
         return [
             bool(self._from(parent)) or self._hold_gprims(children)
-            for parent, children in zip(usd.parents, usd.children, strict=True)
+            for parent, children in zip(batch.parents, batch.children, strict=True)
         ]
 
     def below(self, prim: Any) -> Iterator[Nested]:

@@ -10,7 +10,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_path
 from usdvol_lint.facts.usd.kinds import Key, Kinds
 
@@ -32,13 +32,13 @@ class NotTogetherError(Exception):
 class Table:
     """Prims of one kind on which the same properties are authored.
 
-    `usd` gives USD's answers about them; what is found of them is kept by what declares it.
+    `batch` gives USD's answers about them; what is found of them is kept by what declares it.
     """
 
-    __slots__ = ("_alone", "_authored", "_columns", "_failed", "_place", "usd")
+    __slots__ = ("_alone", "_authored", "_columns", "_failed", "_place", "batch")
 
-    def __init__(self, usd: Answers, authored: Authored | Exception) -> None:
-        self.usd = usd
+    def __init__(self, batch: PrimBatch, authored: Authored | Exception) -> None:
+        self.batch = batch
         self._columns: dict[column[Any, Any], Sequence[Any]] = {}
         self._authored = authored
         self._place = authored.__traceback__ if isinstance(authored, Exception) else None
@@ -47,7 +47,7 @@ class Table:
 
     @property
     def prims(self) -> Sequence[Any]:
-        return self.usd.prims
+        return self.batch.prims
 
     @property
     def authored(self) -> Authored:
@@ -101,7 +101,7 @@ class Table:
     def alone(self, row: int) -> Table:
         """A table of one of the prims."""
         if row not in self._alone:
-            self._alone[row] = Table(self.usd.of((row,)), self._authored)
+            self._alone[row] = Table(self.batch.of((row,)), self._authored)
         return self._alone[row]
 
 
@@ -116,7 +116,7 @@ class Chunk:
         self._rows: dict[Any, tuple[Table, int]] = {}
 
     @property
-    def places(self) -> Iterator[Place]:
+    def slots(self) -> Iterator[Slot]:
         return ((self, row) for row in range(len(self.prims)))
 
     def find(self, row: int) -> tuple[Table, int]:
@@ -129,7 +129,7 @@ class Chunk:
         return self._rows[self.prims[row]]
 
 
-Place: TypeAlias = tuple["Chunk", int]
+Slot: TypeAlias = tuple["Chunk", int]
 """A chunk, and which of its prims is meant."""
 
 
@@ -179,40 +179,40 @@ class Tables:
         return self._found
 
     def _look_up(self, prim: Any) -> tuple[Table, int]:
-        place = self._places.get(prim)
-        if place is None:
-            place = self._places[prim] = Chunk((prim,)), 0
-        return self.find_at(place)
+        slot = self._places.get(prim)
+        if slot is None:
+            slot = self._places[prim] = Chunk((prim,)), 0
+        return self.find_at(slot)
 
-    def find_at(self, place: Place) -> tuple[Table, int]:
-        """The table of the prim at a place, and its row there."""
-        chunk, row = place
+    def find_at(self, slot: Slot) -> tuple[Table, int]:
+        """The table of the prim at a slot, and its row there."""
+        chunk, row = slot
         self.tables(chunk)
         return chunk.find(row)
 
     @cached_property
-    def fields(self) -> Mapping[Any, Place]:
-        """The places of all live fields, by their paths."""
+    def fields(self) -> Mapping[Any, Slot]:
+        """The slots of all live fields, by their paths."""
         kinds = [key for key in self._chunks if schema.FIELD in self._kinds.names(key)]
         return {
-            path: place
+            path: slot
             for chunk in chain.from_iterable(self._chunks[key] for key in kinds)
-            for path, place in zip(map(get_path, chunk.prims), chunk.places, strict=True)
+            for path, slot in zip(map(get_path, chunk.prims), chunk.slots, strict=True)
         }
 
     @cached_property
-    def _places(self) -> dict[Any, Place]:
-        """The places of all prims; to find one is rare where nothing is wrong."""
+    def _places(self) -> dict[Any, Slot]:
+        """The slots of all prims; to find one is rare where nothing is wrong."""
         return {
-            prim: place
+            prim: slot
             for chunk in chain.from_iterable(self._chunks.values())
-            for prim, place in zip(chunk.prims, chunk.places, strict=True)
+            for prim, slot in zip(chunk.prims, chunk.slots, strict=True)
         }
 
     def _form(self, prims: Sequence[Any]) -> list[Table]:
         """Puts those together that are alike; one that can't be read does not keep others back."""
         for table in self._last:
-            table.usd.forget()
+            table.batch.forget()
         formed = self._attempt(prims)
         if isinstance(formed, Exception):
             if len(prims) > 1:
@@ -221,27 +221,27 @@ class Tables:
             # goes without, and the manifest is a finding by itself.
             formed = self._attempt(prims)
         if isinstance(formed, Exception):
-            return [Table(Answers(prims), formed)]
+            return [Table(PrimBatch(prims), formed)]
         self._last = formed
         return formed
 
     def _attempt(self, prims: Sequence[Any]) -> list[Table] | Exception:
         try:
-            return list(self._alike(Answers(prims)))
+            return list(self._alike(PrimBatch(prims)))
         except Exception as error:
             return error
 
-    def _alike(self, usd: Answers) -> Iterator[Table]:
-        key = self._kinds.key(usd.prims[0])
-        shapes = self._authored.shapes(usd, key)
+    def _alike(self, batch: PrimBatch) -> Iterator[Table]:
+        key = self._kinds.key(batch.prims[0])
+        shapes = self._authored.shapes(batch, key)
         if shapes.count(shapes[0]) == len(shapes):
-            yield Table(usd, self._authored.read(usd.prims[0], key, shapes[0]))
+            yield Table(batch, self._authored.read(batch.prims[0], key, shapes[0]))
             return
         rows: dict[Shape, list[int]] = defaultdict(list)
         for row, shape in enumerate(shapes):
             rows[shape].append(row)
         for shape, some in rows.items():
-            yield Table(usd.of(some), self._authored.read(usd.prims[some[0]], key, shape))
+            yield Table(batch.of(some), self._authored.read(batch.prims[some[0]], key, shape))
 
 
 def _chunks(prims: Sequence[Any]) -> Iterator[Chunk]:

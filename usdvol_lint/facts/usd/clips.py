@@ -9,8 +9,8 @@ from typing import Any
 
 from pxr import Sdf, Tf, Usd
 
-from usdvol_lint.facts.usd.answers import Answers
-from usdvol_lint.facts.usd.diagnostics import raw_words
+from usdvol_lint.facts.usd.batches import PrimBatch
+from usdvol_lint.facts.usd.diagnostics import commentary
 
 _CLIPS_LOOKED_AT = 4
 _ALL = Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)
@@ -122,8 +122,8 @@ def tells_of_clips(error: Any, stage: Any) -> bool:
             try:
                 Sdf.Layer.FindOrOpen(clip)
             except Tf.ErrorException as its:
-                words.update(map(raw_words, its.args))
-    return set(map(raw_words, error.args)) <= words
+                words.update(map(commentary, its.args))
+    return set(map(commentary, error.args)) <= words
 
 
 class Clips:
@@ -133,11 +133,11 @@ class Clips:
         self._prims = frozenset(prims)
         self._own: dict[Any, tuple[ClipSet, ...]] = {}
 
-    def reach(self, usd: Answers) -> list[bool]:
+    def reach(self, batch: PrimBatch) -> list[bool]:
         """Whether there are clip sets for each of many prims."""
         if not self._prims:
-            return [False] * len(usd.prims)  # so it is nearly always
-        return [bool(self.reaching(prim)) for prim in usd.prims]
+            return [False] * len(batch.prims)  # so it is nearly always
+        return [bool(self.reaching(prim)) for prim in batch.prims]
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets on the prim and its ancestors, nearest first."""

@@ -13,7 +13,7 @@ UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
 _UNEXPECTED = r"(?s)parse error matching .*? at '(?P<text>.*)'(?= in <)"
 
 
-def raw_words(error: Any) -> str:
+def commentary(error: Any) -> str:
     """What one of USD's errors says, which need not be text, because it quotes the file."""
     try:
         return str(error.commentary)
@@ -21,7 +21,7 @@ def raw_words(error: Any) -> str:
         return str(undecodable.object.decode("utf-8", "backslashreplace"))
 
 
-def without_grammar(text: str) -> str:
+def without_parser_rule(text: str) -> str:
     """A parse error that says what was unexpected, not which rule of USD's grammar missed it."""
     return re.sub(_UNEXPECTED, _unexpected, " ".join(text.split()))
 

@@ -59,7 +59,7 @@ class Volumes(Wing):
     def bound(self, table: Table) -> Sequence[Bound]:
         """What the `field:` namespaces of Volumes bind, in brief."""
         return self._binding_reader.read_many(
-            table.usd, table.authored, self.tables.fields, self._layers.may_lack
+            table.batch, table.authored, self.tables.fields, self._layers.may_lack
         )
 
     @summary

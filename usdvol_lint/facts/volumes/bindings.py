@@ -13,7 +13,7 @@ from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.attributes import Authored
-from usdvol_lint.facts.usd.answers import Answers
+from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import (
     get_name,
     get_path,
@@ -28,7 +28,7 @@ from usdvol_lint.facts.usd.calls import (
 from usdvol_lint.facts.usd.instances import in_prototype, shown, shown_path
 from usdvol_lint.facts.usd.kinds import Kinds
 from usdvol_lint.facts.volumes.states import BindingMark, Emptiness, TargetState
-from usdvol_lint.nearest import nearest_word
+from usdvol_lint.nearest import closest_match
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.prims.tables import Place
@@ -186,7 +186,7 @@ class BindingReader:
         self._kinds = kinds
 
     def read_many(
-        self, usd: Answers, authored: Authored, live: Mapping[Any, Place], may_lack: MayLack
+        self, batch: PrimBatch, authored: Authored, live: Mapping[Any, Place], may_lack: MayLack
     ) -> list[Bound]:
         """What many Volumes bind that are alike; `live` are the places of live fields, by path.
 
@@ -198,17 +198,17 @@ class BindingReader:
         if any(name.count(":") > 1 for name in authored.bound):
             marks.add(BindingMark.NESTED)
         plain = frozenset(marks)
-        columns = [_below(usd.relationships(name), usd.paths, live) for name in authored.bound]
-        fields = list(zip(*columns, strict=True)) if columns else [(None,)] * len(usd.prims)
+        columns = [_below(batch.relationships(name), batch.paths, live) for name in authored.bound]
+        fields = list(zip(*columns, strict=True)) if columns else [(None,)] * len(batch.prims)
         if len(columns) > 1:  # two relationships may target one field
             fields = [tuple(dict.fromkeys(own)) for own in fields]
-        for name in authored.strange:
-            for row, relationship in enumerate(usd.relationships(name)):
+        for name in authored.undeclared:
+            for row, relationship in enumerate(batch.relationships(name)):
                 if relationship:
                     fields[row] = (None,)
         return [
             self._look(volume, live, may_lack) if None in own else Bound(plain, own)
-            for volume, own in zip(usd.prims, fields, strict=True)
+            for volume, own in zip(batch.prims, fields, strict=True)
         ]
 
     def _look(self, volume: Any, live: Mapping[Any, Place], may_lack: MayLack) -> Bound:
@@ -312,7 +312,7 @@ class FieldNames:
         that name below another Volume than that at the path `volume`.
         """
         siblings = self._by_parent.get(path.GetParentPath(), {})
-        sibling = nearest_word(path.name, siblings, cutoff=0.7, fold=str)
+        sibling = closest_match(path.name, siblings, cutoff=0.7, fold=str)
         if sibling:
             return siblings[sibling]
         namesakes = self._by_name.get(path.name, [])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from usdvol_lint.facts.files.assets import AssetSamples, Sample
 from usdvol_lint.facts.files.states import AssetState
-from usdvol_lint.facts.usd.held import Held, Time
+from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.model import quoted
 
 _KNOWN = frozenset({AssetState.FILE, AssetState.UNVERIFIABLE})
@@ -42,7 +42,7 @@ def find_mixed_files(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles |
     timelines = [[(sample.time, _file(sample)) for sample in each.samples] for _, each in fields]
     if all(timeline == timelines[0] for timeline in timelines):
         return None
-    held = [Held((sample.time, sample) for sample in each.samples) for _, each in fields]
+    held = [StepSamples((sample.time, sample) for sample in each.samples) for _, each in fields]
     times: list[Time] = [None, *sorted({time for each in held for time in each.times})]
     mixed = [time for time in times if len({_file(each.at(time)) for each in held} - {""}) > 1]
     if not mixed:

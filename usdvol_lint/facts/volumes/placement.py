@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 from pxr import Gf, Usd
 
 from usdvol_lint.facts.usd.calls import get_attribute, get_parent, get_value, is_in_prototype
-from usdvol_lint.facts.usd.held import Time
 from usdvol_lint.facts.usd.instances import shown_paths
+from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.volumefile.transform import Matrix, finite, rows, scale_translate
 
 IDENTITY: Matrix = scale_translate((1, 1, 1))

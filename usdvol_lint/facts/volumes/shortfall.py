@@ -10,7 +10,7 @@ from typing import Any, ClassVar, NamedTuple
 from usdvol_lint.facts.files.assets import AssetSamples
 from usdvol_lint.facts.grids.contents import Timeline
 from usdvol_lint.facts.prims.extents import Limits
-from usdvol_lint.facts.usd.held import Held, Time
+from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.volumes.bindings import Target
 from usdvol_lint.facts.volumes.boxes import (
     AXES,
@@ -76,11 +76,13 @@ class PlacedField:
         return Moment(time, grid, matrix) if grid and matrix else None
 
     @cached_property
-    def _grids(self) -> Held[Grid | None]:
+    def _grids(self) -> StepSamples[Grid | None]:
         """The grid that the field names at each sample; None where no file was read."""
         grids: dict[Time, Grid | None] = {sample.time: None for sample in self._paths.samples}
         grids.update(self._timeline.grids())
-        return Held(sorted(grids.items(), key=lambda item: (item[0] is not None, item[0] or 0.0)))
+        return StepSamples(
+            sorted(grids.items(), key=lambda item: (item[0] is not None, item[0] or 0.0))
+        )
 
     @cached_property
     def _matrix(self) -> Callable[[Time], Matrix | None]:

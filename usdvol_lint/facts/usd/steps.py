@@ -12,7 +12,7 @@ Time: TypeAlias = float | None
 """A time code of the stage, or None for the default time."""
 
 
-class Held(Generic[_T]):
+class StepSamples(Generic[_T]):
     """The values of an attribute, or what they stand for, at any time.
 
     The samples ascend in time, the default first.

@@ -23,7 +23,7 @@ from usdvol_lint.facts.usd.calls import (
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()
 
 
-class Answers:
+class PrimBatch:
     """What USD says of each of some prims, in their order.
 
     To ask one question about many prims takes USD half the time of many questions about each.
@@ -39,9 +39,9 @@ class Answers:
         """Lets go of the answers; who asks again is told again."""
         self._given.clear()
 
-    def of(self, rows: Sequence[int]) -> Answers:
+    def of(self, rows: Sequence[int]) -> PrimBatch:
         """The answers about some of the prims, as far as they were given."""
-        some = Answers([self.prims[row] for row in rows])
+        some = PrimBatch([self.prims[row] for row in rows])
         some._given = {
             question: [answers[row] for row in rows] for question, answers in self._given.items()
         }
