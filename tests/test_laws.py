@@ -38,7 +38,7 @@ LAYERS = (
     {"pool"},
     {"run"},
     {"report", "progress"},
-    {"output", "about"},
+    {"output", "about", "testing"},
     {"cli"},
     {"__main__"},
 )
@@ -47,7 +47,7 @@ LEVELS = {name: level for level, names in enumerate(LAYERS) for name in names}
 WITHOUT_USD = {
     *("model", "nearest", "schema", "page", "paths", "volumefile", "rule", "catalog", "config"),
     *("trouble", "protocol", "child", "pool", "run", "report", "progress", "output", "about"),
-    *("cli", "__main__", "__init__"),
+    *("cli", "testing", "__main__", "__init__"),
 }
 """What the parent process imports: in it neither pxr nor numpy may be named at module level."""
 
