@@ -52,7 +52,8 @@ class Mark(NamedTuple):
     line: int
 
     def __str__(self) -> str:
-        return f"{self.code} {self.level} at {self.layer}:{self.line}"
+        line = f":{self.line}" if self.line else ""
+        return f"{self.code} {self.level} at {self.layer}{line}"
 
 
 # --- pages ----------------------------------------------------------------------------------------
@@ -267,15 +268,15 @@ def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]
             if mark(each) in unexpected
         ]
         missing = list(map(str, (expected - found).elements()))
-        yield f"{place}: expected {_list(missing, surplus)}, found {_list(surplus, missing)}"
+        yield f"{place}: expected {_list(missing, expected)}, found {_list(surplus, found)}"
         return
     agreed = read_words(case.page)
     if agreed is not None and (text := said(findings)) != (wanted := agreed.get(case.title, "")):
         yield f"{place}: expected the words {_first(wanted, text)}, found {_first(text, wanted)}"
 
 
-def _list(these: list[str], others: list[str]) -> str:
-    return ", ".join(these) or ("nothing more" if others else "nothing")
+def _list(differing: list[str], every: Counter[Mark]) -> str:
+    return ", ".join(differing) or ("nothing more" if every else "nothing")
 
 
 def _first(text: str, other: str) -> str:
