@@ -250,6 +250,7 @@ class _Failure:
     rule: Rule
     prim: Any
     error: Exception
+    traceback: str
     count: int = 0
 
 
@@ -266,7 +267,10 @@ class _Failures:
         key: Identity = (rule.code, type(error).__name__, str(_line(error)))
         if isinstance(error, Tf.ErrorException):
             key = (str(prim.GetPath()), *in_usds_words(error))
-        self._failures.setdefault(key, _Failure(rule, prim, error)).count += 1
+        if key not in self._failures:
+            self._failures[key] = _Failure(rule, prim, error, _traceback(error))
+        self._failures[key].count += 1
+        error.__traceback__ = None  # its frames hold the stage, and one of them holds this
 
     def found(self, sites: Sites) -> Iterator[_Found]:
         for key, failure in self._failures.items():
@@ -282,7 +286,7 @@ class _Failures:
                 if by_usd
                 else "a bug of the rule, not of the stage; --verbose shows the traceback",
                 help=help_for(code),
-                detail=_traceback(failure.error),
+                detail=failure.traceback,
             )
             yield _Found(finding, key)
 
