@@ -75,9 +75,11 @@ def test_examples_of_the_documentation(
 
 
 @pytest.mark.parametrize("case", FIRST, ids=lambda case: f"{case.page.code}-{case.example.heading}")
-def test_examples_of_pages(case: Case, engines: dict[str, Engine], tmp_path: Path) -> None:
+def test_examples_of_pages(
+    case: Case, engines: dict[str, Engine], assets: Path, tmp_path: Path
+) -> None:
     folder = tmp_path.resolve()
-    write_example(case, folder, RULES / "assets")
+    write_example(case, folder, assets)
     with no_collector():
         engines["all"].lint(str(folder / STAGE))
         assert kept_of(folder) == []

@@ -26,7 +26,6 @@ from usdvol_lint.testing import (
 
 ROOT = Path(__file__).parent.parent
 RULES = ROOT / "rules"
-ASSETS = RULES / "assets"
 
 PAGES = pages(RULES)
 CASES = [case for page in PAGES for case in cases(page)]
@@ -37,9 +36,9 @@ EXAMPLES = [
 
 @pytest.mark.parametrize("case", EXAMPLES)
 def test_example_reports_its_marks_and_says_its_words(
-    case: Case, engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    case: Case, engine: Engine, assets: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write_example(case, tmp_path, ASSETS)
+    write_example(case, tmp_path, assets)
     monkeypatch.chdir(tmp_path)
     findings = portable(engine.lint(STAGE).findings, tmp_path)
     place = f"{case.page.path}:{case.example.line}"

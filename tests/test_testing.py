@@ -237,6 +237,20 @@ def test_the_folder_of_an_example_is_not_in_its_words(tmp_path: Path) -> None:
     )
 
 
+def test_an_example_may_have_a_file_called_like_an_asset(tmp_path: Path) -> None:
+    """The asset itself stays what it was."""
+    page, assets = tmp_path / "page.md", tmp_path / "assets"
+    page.write_text("# page (STU009)\n\nA.\n\n```usda a.usda\nhere\n```\n```usda\nstage\n```\n")
+    assets.mkdir()
+    for name in "ab":
+        (assets / f"{name}.usda").write_text("asset\n")
+    (case,) = cases(read_page(page))
+    write_example(case, tmp_path / "run", assets)
+    read = {path.name: path.read_text() for path in (tmp_path / "run").iterdir()}
+    assert read == {"a.usda": "here\n", "b.usda": "asset\n", "example.usda": "stage\n"}
+    assert (assets / "a.usda").read_text() == "asset\n"
+
+
 def test_a_package_of_an_example(tmp_path: Path) -> None:
     """It holds its text and cloud.vdb, if the pack has that."""
     from zipfile import ZipFile

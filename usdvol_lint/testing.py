@@ -56,9 +56,6 @@ class Mark(NamedTuple):
         return f"{self.code} {self.level} at {self.layer}{line}"
 
 
-# --- pages ----------------------------------------------------------------------------------------
-
-
 def pages(folder: Path) -> list[Page]:
     """The pages of a pack, in order: every `.md` file but those named in capitals (README.md).
 
@@ -90,14 +87,23 @@ def write_example(case: Case, folder: Path, assets: Path) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     if assets.is_dir():
-        shutil.copytree(assets, folder, dirs_exist_ok=True)
+        shutil.copytree(assets, folder, copy_function=_link, dirs_exist_ok=True)
     for name, text in case.texts.items():
         file = folder / name
         file.parent.mkdir(parents=True, exist_ok=True)
+        file.unlink(missing_ok=True)  # it may be a link to one of the assets
         if name.endswith(".usdz"):
             _pack(file, text, assets / _PACKED)
         else:
             file.write_text(text, encoding="utf-8", newline="\n")
+
+
+def _link(source: str, target: str) -> None:
+    """The same file once more, which takes a tenth of the time of a copy."""
+    try:
+        os.link(source, target)
+    except OSError:  # another disk, or one without links
+        shutil.copyfile(source, target)
 
 
 def _pack(file: Path, text: str, asset: Path) -> None:
@@ -115,6 +121,8 @@ def run(
     assets = assets.resolve()
     with TemporaryDirectory() as temporary, chdir(temporary):
         here = Path.cwd()
+        if assets.is_dir():
+            assets = Path(shutil.copytree(assets, here / "assets"))
         folders = [here / f"example-{number:04}" for number in range(len(examples))]
         for case, folder in zip(examples, folders, strict=True):
             write_example(case, folder, assets)
