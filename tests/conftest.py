@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -25,6 +26,12 @@ def catalog() -> Catalog:
 def engine(catalog: Catalog) -> Engine:
     """Every rule, those that are off by default too."""
     return Engine(catalog.rules, activate(Config(select=("ALL",)), catalog))
+
+
+@pytest.fixture(scope="session")
+def assets(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of rules/assets, which examples may link to."""
+    return Path(shutil.copytree(ROOT / "rules" / "assets", tmp_path_factory.mktemp("copy") / "a"))
 
 
 @pytest.fixture

@@ -9,7 +9,12 @@ from process import run, write
 
 ONLY = ("--isolated", "--select", "STG001,AST002,LNT", "--output-format", "json")
 UNFINISHED = '#usda 1.0\ndef "X" { nonsense\n'
-EXPECTED = "can't be read: broken.usda:2"
+BROKEN = (
+    "'broken.usda' can't be read: broken.usda:2:11: Expected } at 'nonsense' in </X>; "
+    "what it holds was not checked"
+)
+BROKEN_CLIP = ("STG001", f"the clip {BROKEN}")
+GONE, OTHER_GONE = (("AST002", f"no file at '{name}.vdb'") for name in ("gone", "other"))
 CLIPPED = """#usda 1.0
 def Volume "cloud" (
     clips = {
@@ -48,17 +53,14 @@ def test_each_arc_to_a_broken_layer_has_the_reason(tmp_path: Path) -> None:
     arcs = [f'def "R{i}" (references = @broken.usda@) {{}}' for i in range(6)]
     arcs += [f'def "P{i}" (payload = @broken.usda@) {{}}' for i in range(6)]
     write(tmp_path, broken=UNFINISHED, stage="\n".join(["#usda 1.0", *arcs]))
-    found = messages(tmp_path, "stage.usda")
-    assert len(found) == len(arcs)
-    assert {code for code, _ in found} == {"STG001"}
-    assert all(EXPECTED in message for _, message in found), found
-    assert len({message.partition(EXPECTED)[2] for _, message in found}) == 1, found
+    expected = [("STG001", f"the {arc} {BROKEN}") for arc in ("payload", "reference")]
+    assert messages(tmp_path, "stage.usda") == [each for each in expected for _ in range(6)]
 
 
 def test_a_broken_clip_has_the_reason(tmp_path: Path) -> None:
     manifest = "asset manifestAssetPath = @manifest.usda@"
     write(tmp_path, broken=UNFINISHED, manifest="#usda 1.0\n", stage=CLIPPED % manifest)
-    assert any(EXPECTED in message for _, message in messages(tmp_path, "stage.usda"))
+    assert messages(tmp_path, "stage.usda") == [BROKEN_CLIP, GONE]
 
 
 @pytest.mark.parametrize("arguments", [(), ("--load", "none"), ("--variants", "all")])
@@ -66,7 +68,4 @@ def test_a_broken_clip_without_a_manifest_hides_nothing(
     tmp_path: Path, arguments: tuple[str, ...]
 ) -> None:
     write(tmp_path, broken=UNFINISHED, stage=CLIPPED % "" + OTHER)
-    found = messages(tmp_path, "stage.usda", *arguments)
-    assert {code for code, _ in found} == {"STG001", "AST002"}, found
-    assert any(EXPECTED in message for _, message in found), found
-    assert any("other.vdb" in message for _, message in found), found
+    assert messages(tmp_path, "stage.usda", *arguments) == [BROKEN_CLIP, GONE, OTHER_GONE]

@@ -68,6 +68,8 @@ def test_an_installed_pack(show: Path, tmp_path: Path) -> None:
     isolated = ("--isolated", *CONCISE, ".")
     assert run(*isolated, cwd=show, env=env) == Ran(1, WRONG, "")
     assert run("--explain", "STU001", cwd=show, env=env) == Ran(0, PAGE, "")
+    again = ("--isolated", "--pack", site / "studio_rules", *CONCISE, ".")
+    assert run(*again, cwd=show, env=env) == Ran(1, WRONG, "")
     listed = run("--list-rules", cwd=show, env=env).out
     assert "STU001  error        volume-name" in listed
 

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from process import STUDIO
 
 import usdvol_lint
 from usdvol_lint import __version__
@@ -51,7 +52,7 @@ def test_version() -> None:
     assert "click" not in done.stderr.split()
 
 
-@pytest.mark.parametrize("arguments", [["--list-rules"], ["stage.usda"]])
+@pytest.mark.parametrize("arguments", [["--list-rules"], ["stage.usda"], ["--test", str(STUDIO)]])
 def test_only_workers_import_usd(
     arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -62,6 +63,7 @@ def test_only_workers_import_usd(
     imported = set(done.stderr.split())
     assert "usdvol_lint.command.cli" in imported
     assert imported.isdisjoint({"pxr", "numpy", "rich"})
+    assert ("usdvol_lint.run.testing" in imported) == ("--test" in arguments)
 
 
 def test_a_mistake_on_the_command_line_waits_for_no_worker() -> None:

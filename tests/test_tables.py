@@ -17,6 +17,7 @@ from usdvol_lint.config import Config
 from usdvol_lint.engine import walk
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.prims import tables
+from usdvol_lint.facts.usd import batches
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
@@ -96,7 +97,7 @@ def test_a_prim_that_can_not_be_read_keeps_no_other_back(
     assert "VOL012" in {finding.code for finding in whole}
     for question in ("get_value", "get_property_names"):
         with monkeypatch.context() as patch:
-            patch.setattr(answers, question, failing(getattr(answers, question), "/v30/density"))
+            patch.setattr(batches, question, failing(getattr(batches, question), "/v30/density"))
             report = lint()
         failed = {each.site.prim for each in report.findings if each.code == "LNT001"}
         assert failed <= {"/v30", "/v30/density"}  # what the Volume is held against is there too
@@ -129,7 +130,7 @@ def test_what_is_left_out_of_a_stage_as_a_whole_is_said_under_any_rules(
     engine = Engine(catalog.rules, activate(Config(select=(code, "LNT")), catalog))
     for asked in (question, "get_property_names"):
         with monkeypatch.context() as patch:
-            patch.setattr(answers, asked, failing(getattr(answers, asked), "/v30"))
+            patch.setattr(batches, asked, failing(getattr(batches, asked), "/v30"))
             findings = engine.lint("stage.usda").findings
         assert [each for each in findings if each.code == code] == (expected if is_said else [])
         unread = [each.site.prim for each in findings if each.code == "LNT001"]

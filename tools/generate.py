@@ -7,6 +7,7 @@ from pathlib import Path
 
 from usdvol_lint.command.cli import help_text
 from usdvol_lint.packs.catalog import Catalog, load
+from usdvol_lint.run.testing import all_words
 
 ROOT = Path(__file__).parent.parent
 RULES = ROOT / "rules"
@@ -40,17 +41,23 @@ def rule_index(catalog: Catalog) -> str:
 
 def main(arguments: list[str]) -> int:
     """Writes every generated file; with --check only says which are out of date."""
-    generated = {RULES / "README.md": rule_index(load()), HELP: help_text()}
+    check = "--check" in arguments
+    generated = {RULES / "README.md": rule_index(load()), HELP: help_text(), **all_words(RULES)}
     stale = [
         path
         for path, text in generated.items()
         if not path.is_file() or path.read_text(encoding="utf-8") != text
     ]
+    forsaken = [path for path in RULES.rglob("*.words.txt") if path not in generated]
     for path in stale:
-        print(f"{'out of date' if '--check' in arguments else 'written'}: {path.relative_to(ROOT)}")
-        if "--check" not in arguments:
+        print(f"{'out of date' if check else 'written'}: {path.relative_to(ROOT)}")
+        if not check:
             path.write_text(generated[path], encoding="utf-8")
-    return 1 if stale and "--check" in arguments else 0
+    for path in forsaken:
+        print(f"{'without examples' if check else 'removed'}: {path.relative_to(ROOT)}")
+        if not check:
+            path.unlink()
+    return 1 if check and (stale or forsaken) else 0
 
 
 if __name__ == "__main__":

@@ -7,7 +7,10 @@ import sys
 
 from usdvol_lint import __version__
 
-_LINTS_NOTHING = {"--version", "-h", "--help", "--explain", "--list-rules", "--show-settings"}
+_STARTS_NO_CHILD = {
+    *("--version", "-h", "--help", "--explain", "--list-rules", "--show-settings"),
+    "--test",  # it starts its own, in another working directory
+}
 
 
 def main() -> None:
@@ -18,7 +21,7 @@ def main() -> None:
     elif arguments in (["-h"], ["--help"]):
         with open(os.path.join(os.path.dirname(__file__), "help.txt"), encoding="utf-8") as file:
             _say(file.read())
-    elif not arguments or not _LINTS_NOTHING.isdisjoint(arguments):
+    elif not arguments or not _STARTS_NO_CHILD.isdisjoint(arguments):
         from usdvol_lint.command.cli import main as run_command
 
         sys.exit(run_command(arguments))

@@ -6,12 +6,17 @@ from usdvol_lint.rule import WARNING, Content, ContentClass, Facts, Grids, Prim,
 
 
 @dataclass(frozen=True)
-class _Reason:
-    """Why readers may not know the version of a file; `newest` is what they know of OpenVDB."""
+class _Unsupported:
+    """The version of a file that readers may not know; `newest` is what they know of OpenVDB."""
 
     newest: int
 
-    def __call__(self, content: Content) -> str | None:
+    def __call__(self, content: Content) -> tuple[str, bool] | None:
+        """The version, and whether the file was read: what the reason says has numbers in it."""
+        file = content.reading.file
+        return (file.version if file else "", content.fault is None) if self.reason(content) else None
+
+    def reason(self, content: Content) -> str | None:
         if content.fault is not None:
             return content.fault.message if content.fault.code == "version-unsupported" else None
         file = content.file
@@ -25,7 +30,7 @@ class _Reason:
 
 
 def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> bool:
-    return any(each.answer(_Reason(newest)) is not None for each in classes)
+    return any(each.answer(_Unsupported(newest)) is not None for each in classes)
 
 
 @rule(
@@ -36,9 +41,10 @@ def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> boo
     since="0.1",
 )
 def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
-    for reason, _, found in facts.grids.contents(field).grouped(_Reason(newest)):
+    unsupported = _Unsupported(newest)
+    for _, content, found in facts.grids.contents(field).grouped(unsupported):
         yield Problem(
-            f"{found.shown}: {reason}{found.count}",
+            f"{found.shown}: {unsupported.reason(content)}{found.count}",
             at=found,
             suggestion="write it again with another version of the library",
         )

@@ -91,6 +91,8 @@ def _complete_from(constant: str) -> Any:
 @click.option("--list-rules", is_flag=True, help="Print every rule and exit.")
 @click.option("--explain", metavar="CODE|NAME", shell_complete=_complete_code,
               help="Print the page of a rule and exit.")
+@click.option("--test", type=click.Path(), metavar="FOLDER",
+              help="Run the examples on the pages of a rule pack and exit.")
 @click.version_option(__version__, message="%(prog)s %(version)s")
 def command(paths: tuple[str, ...], **given: Any) -> int:
     """Find what is broken in the volumes and particle fields of USD stages.
@@ -101,6 +103,8 @@ def command(paths: tuple[str, ...], **given: Any) -> int:
         return _explain(given)
     if given["list_rules"]:
         return _list_rules(given)
+    if given["test"] is not None:
+        return _test(given)
     if given["show_settings"]:
         return _show_settings(given)
     if not paths:
@@ -262,14 +266,20 @@ def _list_rules(given: dict[str, Any]) -> int:
     from usdvol_lint.command import about, output
 
     catalog = _catalog(given)
-    as_json = "json" in given["output_format"]
-    text = (
-        about.list_rules_as_json(catalog)
-        if as_json
-        else about.list_rules(catalog, _options(given).color)
-    )
-    output.print_text(text)
+    if "json" in given["output_format"]:
+        output.print_text(about.list_rules_as_json(catalog))
+    else:
+        output.print_text(about.list_rules(catalog, _options(given).color))
     return CLEAN
+
+
+def _test(given: dict[str, Any]) -> int:
+    from usdvol_lint.command import output
+    from usdvol_lint.run import testing
+
+    failures, verdict = testing.check_pack(given["test"], given["pack"])
+    output.print_text("".join(f"{line}\n" for line in (*failures, verdict)))
+    return FINDINGS if failures else CLEAN
 
 
 def _show_settings(given: dict[str, Any]) -> int:

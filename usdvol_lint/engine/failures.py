@@ -27,6 +27,7 @@ class _Failure:
     rule: Rule
     prim: Any
     error: Exception
+    traceback: str
     count: int = 0
     of_precondition: bool = False
 
@@ -62,12 +63,16 @@ class Failures:
         key: Identity = (rule.code, type(error).__name__, str(_line(error)))
         if isinstance(error, Tf.ErrorException):
             key = (str(prim.GetPath()), *messages(error))
-        self._failures.setdefault(key, _Failure(rule, prim, error)).count += 1
+        if key not in self._failures:
+            self._failures[key] = _Failure(rule, prim, error, _traceback(error))
+        self._failures[key].count += 1
+        error.__traceback__ = None  # its frames hold the stage, and one of them holds this
 
     def add_precondition(self, rule: Rule, root: Any, error: Exception) -> None:
         """Keeps what the precondition of a rule raised, whatever prims it was asked of."""
-        failure = _Failure(rule, root, error, of_precondition=True)
+        failure = _Failure(rule, root, error, _traceback(error), of_precondition=True)
         self._failures.setdefault((rule.code, "when"), failure)
+        error.__traceback__ = None
 
     def found(self, sites: Sites) -> Iterator[Found]:
         """What to report of them."""
@@ -84,7 +89,7 @@ class Failures:
                 if by_usd
                 else "a bug of the rule, not of the stage; --verbose shows the traceback",
                 help=help_for(code),
-                detail=_traceback(failure.error),
+                detail=failure.traceback,
             )
             yield Found(finding, key)
 

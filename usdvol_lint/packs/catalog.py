@@ -118,7 +118,8 @@ def length(selector: str) -> int:
 def load(packs: Sequence[str] = ()) -> Catalog:
     """The built-in rules, those of installed packs, and those of the folders named."""
     built_in = _built_in_folder()
-    mounted = [(_mount(_BUILT_IN, built_in), built_in), *_installed_packs(), *_named_packs(packs)]
+    mounted = [(_mount(_BUILT_IN, built_in), built_in), *_installed_packs()]
+    mounted += _named_packs(packs, [os.path.realpath(folder) for _, folder in mounted])
     rules = {rule.code: rule for rule in ENGINE_RULES}
     names = {rule.name: rule for rule in ENGINE_RULES}
     for package, folder in mounted:
@@ -171,13 +172,16 @@ def _names_packs(folder: str) -> bool:
     return False
 
 
-def _named_packs(packs: Sequence[str]) -> Iterator[tuple[str, str]]:
+def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """The folders named, but for those that are known as a pack already."""
     from zlib import crc32
 
     for pack in packs:
         folder = os.path.realpath(pack)
         if not os.path.isdir(folder):
             raise PackError(f"rule pack {pack!r}: no such folder")
+        if folder in known:
+            continue
         # By its place: two packs in one process may both have a module `checks`.
         yield _mount(f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}", folder), folder
 

@@ -28,7 +28,8 @@ class Authored:
     `declared` are those that UsdVol's schemas, or the ones they derive from, declare, with those
     that have values in clips alone; `types` are theirs, `tokens` and `uniform` are some of them.
     `bound` are the names of a Volume's `field:` namespace.
-    `strange` are names that no schema declares, `meant` is what some of these may be slips of.
+    `undeclared` are names that no schema declares; `misspellings` are those of them with a likely
+    correction, and the type that this one has.
     `is_layered` says that several specs have a say, `is_clipped` that value clips may.
     """
 
@@ -38,8 +39,8 @@ class Authored:
     tokens: tuple[tuple[str, tuple[str, ...]], ...]
     uniform: tuple[str, ...]
     bound: tuple[str, ...]
-    strange: frozenset[str]
-    meant: tuple[tuple[str, str, str], ...]
+    undeclared: frozenset[str]
+    misspellings: tuple[tuple[str, str, str], ...]
     is_layered: bool
     is_clipped: bool
 
@@ -175,11 +176,11 @@ def _compare(
         candidates.update(schema.attributes_of(schema.API_ATTRIBUTES))  # whether applied or not
     registered = prim.GetPrimDefinition().GetPropertyNames()
     declared = {name: known[name] for name in names if name in known}
-    strange = frozenset(names).difference(candidates, registered)
+    undeclared = frozenset(names).difference(candidates, registered)
     bound: tuple[str, ...] = ()
     if schema.VOLUME in schemas:
         bound = tuple(name for name in names if name.startswith(schema.FIELD_NAMESPACE))
-        strange = strange.difference(bound)
+        undeclared = undeclared.difference(bound)
     return Authored(
         schemas=schemas,
         declared=declared,
@@ -190,10 +191,10 @@ def _compare(
         tokens=tuple((name, known.tokens) for name, known in declared.items() if known.tokens),
         uniform=tuple(name for name, known in declared.items() if known.uniform),
         bound=bound,
-        strange=strange,
-        meant=tuple(
+        undeclared=undeclared,
+        misspellings=tuple(
             (name, meant, candidates[meant].type_name)
-            for name in sorted(strange)
+            for name in sorted(undeclared)
             if (meant := schema.misspelt_attribute(name, candidates))
         ),
         is_layered=is_layered,

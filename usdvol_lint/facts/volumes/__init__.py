@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.grids import Grids
     from usdvol_lint.facts.layers import Layers
     from usdvol_lint.facts.prims import Prims
-    from usdvol_lint.facts.prims.tables import Place, Table, Tables
+    from usdvol_lint.facts.prims.tables import Slot, Table, Tables
     from usdvol_lint.facts.usd.kinds import Kinds
     from usdvol_lint.facts.volumes.bindings import (
         Binding,
@@ -149,7 +149,7 @@ class Volumes(Wing):
         return find_mixed_files(named) if len(named) > 1 else None
 
     @cached_property
-    def _users(self) -> Counter[Place]:
+    def _users(self) -> Counter[Slot]:
         """How many Volumes target each live field that one does, by its place."""
         volumes = self.bound.readable(schema.VOLUME)
         return Counter(place for _, bound in volumes for place in bound.fields)

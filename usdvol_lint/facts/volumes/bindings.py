@@ -31,7 +31,7 @@ from usdvol_lint.facts.volumes.states import BindingMark, Emptiness, TargetState
 from usdvol_lint.nearest import closest_match
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.prims.tables import Place
+    from usdvol_lint.facts.prims.tables import Slot
 
 _BARE_NAMESPACE = schema.FIELD_NAMESPACE.rstrip(":")
 _LIVE = Usd.PrimDefaultPredicate
@@ -172,7 +172,7 @@ class Bound(NamedTuple):
     """
 
     marks: frozenset[Enum]
-    fields: tuple[Place, ...]
+    fields: tuple[Slot, ...]
     looked_at: FieldBindings | None = None
 
 
@@ -186,7 +186,7 @@ class BindingReader:
         self._kinds = kinds
 
     def read_many(
-        self, batch: PrimBatch, authored: Authored, live: Mapping[Any, Place], may_lack: MayLack
+        self, batch: PrimBatch, authored: Authored, live: Mapping[Any, Slot], may_lack: MayLack
     ) -> list[Bound]:
         """What many Volumes bind that are alike; `live` are the places of live fields, by path.
 
@@ -211,7 +211,7 @@ class BindingReader:
             for volume, own in zip(batch.prims, fields, strict=True)
         ]
 
-    def _look(self, volume: Any, live: Mapping[Any, Place], may_lack: MayLack) -> Bound:
+    def _look(self, volume: Any, live: Mapping[Any, Slot], may_lack: MayLack) -> Bound:
         bindings = self.read(volume, may_lack)
         paths = field_paths(bindings)
         places = tuple(live[path] for path in sorted(paths) if path in live)
@@ -257,10 +257,10 @@ class BindingReader:
 
 
 def _below(
-    relationships: Iterable[Any], volumes: Iterable[Any], live: Mapping[Any, Place]
-) -> list[Place | None]:
+    relationships: Iterable[Any], volumes: Iterable[Any], live: Mapping[Any, Slot]
+) -> list[Slot | None]:
     """The places of single targets that are live fields right below their Volumes."""
-    found: list[Place | None] = []
+    found: list[Slot | None] = []
     for relationship, volume in zip(relationships, volumes, strict=True):
         paths: Sequence[Any] = get_targets(relationship) if relationship else ()
         is_below = len(paths) == 1 and parent_path(paths[0]) == volume

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
-from usdvol_lint.facts.prims.tables import Place
+from usdvol_lint.facts.prims.tables import Slot
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import Kinds
 from usdvol_lint.facts.volumes.bindings import FieldBindings, FieldNames, fields_below
@@ -43,7 +43,7 @@ def accounted_for(
 
 
 def unbound_fields(
-    volume: Any, kinds: Kinds, places: Mapping[Any, Place], users: Mapping[Place, int]
+    volume: Any, kinds: Kinds, places: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> list[Any]:
     """The field prims below a Volume that no Volume targets; `users` are counted by place."""
     below = fields_below(volume, kinds)
@@ -51,7 +51,7 @@ def unbound_fields(
 
 
 def is_shared(
-    volume: Any, field: Any, places: Mapping[Any, Place], users: Mapping[Place, int]
+    volume: Any, field: Any, places: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> bool:
     """Whether other Volumes target a field of this one too, or instances of this one do."""
     place = places.get(in_prototype(field).GetPath())
