@@ -1,0 +1,103 @@
+"""Prints what every wing of the facts knows of a prim: `python -m tools.facts STAGE PRIM`."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Callable, Iterator
+from pprint import pformat
+from typing import Any
+
+from usdvol_lint import schema
+from usdvol_lint.engine.stage import open_stage
+from usdvol_lint.engine.trouble import Unreadable
+from usdvol_lint.engine.walk import walk
+from usdvol_lint.facts import Context, Facts
+from usdvol_lint.facts.found import Wing, column, fact, summary
+from usdvol_lint.packs.catalog import load
+
+_ABOUT = {
+    "files": ("field", schema.FIELD_ASSET),
+    "grids": ("field", schema.FIELD_ASSET),
+    "volumes": ("volume", schema.VOLUME),
+    "particles": ("prim", schema.PARTICLE_FIELD),
+}
+"""Wings that know something of prims of one schema alone, and what they call such a prim."""
+_MOST_LINES = 12
+
+
+def main(arguments: list[str]) -> int:
+    """Prints each wing's facts, with the questions that raised."""
+    if len(arguments) != 2:
+        print("usage: python -m tools.facts STAGE PRIM", file=sys.stderr)
+        return 2
+    path, name = arguments
+    try:
+        stage = open_stage(path, "all")
+    except Unreadable as trouble:
+        print(f"{path}: {trouble}", file=sys.stderr)
+        return 2
+    prim = stage.GetPrimAtPath(name)
+    if not prim:
+        print(f"{path} has no prim <{name}>", file=sys.stderr)
+        return 2
+    prim = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
+    facts = facts_of(stage)
+    for wing_name, wing in wings(facts):
+        called, schema_name = _ABOUT.get(wing_name, ("prim", ""))
+        if not schema_name or facts.prims.is_a(prim, schema_name):
+            print(f"# {wing_name}: {inspect.getdoc(type(wing))}".splitlines()[0])
+            for question, answer in known(wing, prim, called):
+                print(f"{question}: {answer}")
+            print()
+    return 0
+
+
+def facts_of(stage: Any) -> Facts:
+    """The facts of a stage for all rules, as the engine makes them."""
+    context = Context.of(stage)
+    walked = walk(stage, list(load().rules.values()), context.kinds)
+    return Facts(context, walked.kept, walked.clipped)
+
+
+def wings(facts: Facts) -> Iterator[tuple[str, Wing]]:
+    """The wings by name, lowest first."""
+    yield from ((name, each) for name, each in vars(facts).items() if isinstance(each, Wing))
+
+
+def known(wing: Wing, prim: Any, called: str) -> Iterator[tuple[str, str]]:
+    """What a wing declares, and its methods that take one prim, with what they say of it."""
+    for name, declared in vars(type(wing)).items():
+        if not name.startswith("_") and (ask := _question(wing, name, declared, called)):
+            yield name, _shown(ask, prim)
+
+
+def _question(wing: Wing, name: str, declared: Any, called: str) -> Callable[[Any], Any] | None:
+    match declared:
+        case column() | fact():
+            return getattr(wing, name)  # type: ignore[no-any-return]
+        case summary():
+            return lambda prim: declared.keys(wing, _alone(wing, prim))[0]
+    if not inspect.isfunction(declared):
+        return None
+    takes = list(inspect.signature(declared).parameters)
+    return getattr(wing, name) if takes == ["self", called] else None
+
+
+def _alone(wing: Wing, prim: Any) -> Any:
+    table, row = wing.tables.find(prim)
+    return table.alone(row)
+
+
+def _shown(ask: Callable[[Any], Any], prim: Any) -> str:
+    try:
+        answer = ask(prim)
+        text = pformat(list(answer) if isinstance(answer, Iterator) else answer, width=96)
+        lines = text.splitlines()
+        return "\n".join(lines[:_MOST_LINES] + ["…"] * (len(lines) > _MOST_LINES))
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
