@@ -10,13 +10,13 @@ import sys
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from compileall import compile_dir
+from importlib.metadata import version
 from pathlib import Path
 from py_compile import PycInvalidationMode
 from tempfile import TemporaryDirectory
 
-from tests.mutants.mutations import DoesNotApplyError, Mutation, read_mutations, test_module
+from .mutations import ROOT, DoesNotApplyError, Mutation, module_of_tests, read_mutations
 
-_ROOT = Path(__file__).parent.parent.parent
 _NOT_COPIED = shutil.ignore_patterns(".*", "__pycache__", "bench", "dist")
 _PASSED, _FAILED, _NO_TESTS = 0, 1, 5
 _WORDS = {_PASSED: "SURVIVED", _FAILED: "killed", _NO_TESTS: "NO SUCH TEST"}
@@ -27,7 +27,7 @@ def main() -> int:
     chosen = _chosen(_arguments(), read_mutations())
     with TemporaryDirectory(prefix="mutants-") as folder:
         copy = Path(folder).resolve() / "checkout"
-        shutil.copytree(_ROOT, copy, ignore=_NOT_COPIED)
+        shutil.copytree(ROOT, copy, ignore=_NOT_COPIED)
         # A mutation may change neither the size of a file nor the second of its time stamp.
         compile_dir(copy, quiet=2, invalidation_mode=PycInvalidationMode.CHECKED_HASH)
         if _run(copy, _all_tests(chosen)) != _PASSED:
@@ -49,7 +49,11 @@ def _chosen(ids: Sequence[str], mutations: Sequence[Mutation]) -> list[Mutation]
     unknown = set(ids) - {mutation.id for mutation in mutations}
     if unknown:
         sys.exit(f"no mutation is called {', '.join(sorted(unknown))}")
-    return [mutation for mutation in mutations if not ids or mutation.id in ids]
+    named = [mutation for mutation in mutations if not ids or mutation.id in ids]
+    hidden = [mutation for mutation in named if mutation.usd not in ("", version("usd-core"))]
+    for mutation in hidden:
+        print(f"{mutation.id}: left out, for it shows with usd-core {mutation.usd} alone")
+    return [mutation for mutation in named if mutation not in hidden]
 
 
 def _all_tests(mutations: Sequence[Mutation]) -> dict[str, str]:
@@ -82,9 +86,10 @@ def _try(copy: Path, mutation: Mutation) -> bool:
 
 def _run(copy: Path, tests: Mapping[str, str]) -> int:
     """The exit code of pytest in the copy, the first that is not 0."""
-    environment = {**os.environ, "PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1"}
+    paths = os.pathsep.join(filter(None, (str(copy), os.environ.get("PYTHONPATH"))))
+    environment = {**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
     for name, keywords in tests.items():
-        arguments = [str(test_module(copy, name)), "-k", keywords, "-x", "-q", "--tb=no"]
+        arguments = [str(module_of_tests(copy, name)), "-k", keywords, "-x", "-q", "--tb=no"]
         arguments += ["-p", "no:cacheprovider", f"--rootdir={copy}", f"-c{copy / 'pyproject.toml'}"]
         program = [sys.executable, "-P", "-m", "pytest", *arguments]
         ran = subprocess.run(

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-LIST = Path(__file__).with_name("mutations.toml")
+ROOT = Path(__file__).resolve().parent.parent.parent
+_LIST = Path(__file__).with_name("mutations.toml")
 _SOURCES = "usdvol_lint", "rules"
 
 
@@ -21,6 +22,7 @@ class Mutation:
 
     Modules go by their names and not by their folders, so that a module which moves stays known.
     `seen_by` is, for each test module, what is handed to pytest as `-k`.
+    Where `usd` is given, nothing but that version of usd-core shows the difference.
     """
 
     id: str
@@ -28,6 +30,7 @@ class Mutation:
     old: str
     new: str
     seen_by: Mapping[str, str]
+    usd: str = ""
 
     def applied(self, root: Path) -> tuple[Path, str]:
         """The file of a checkout that changes, and what it then holds."""
@@ -41,12 +44,12 @@ class Mutation:
         return holders[0], texts[holders[0]].replace(self.old, self.new)
 
 
-def read_mutations(path: Path = LIST) -> list[Mutation]:
+def read_mutations(path: Path = _LIST) -> list[Mutation]:
     entries = tomllib.loads(path.read_text("utf-8"))["mutation"]
     return [Mutation(**entry) for entry in entries]
 
 
-def test_module(root: Path, name: str) -> Path:
+def module_of_tests(root: Path, name: str) -> Path:
     """The test module of that name, in whatever folder."""
     found = list((root / "tests").rglob(f"{name}.py"))
     if len(found) != 1:
