@@ -49,6 +49,18 @@ def test_a_step_that_leaves_nothing_out(jump: float, lint_text: Lint) -> None:
     assert gaps(lint_text, [1, 2, 3, 4, 6, 7, 8], [1, 2, 3, 4, 6, 7, 8])
 
 
+@pytest.mark.parametrize(
+    ("times", "frames"),
+    [
+        ([1, 2, 3, 4, 5, 7, 9, 10, 11, 12, 13], ["6, 8"]),
+        ([*range(1, 10), 11, 13, *range(15, 24)], []),  # played faster for a while
+    ],
+)
+def test_gaps_side_by_side(times: list[float], frames: list[str], lint_text: Lint) -> None:
+    numbers = list(map(int, times))
+    assert [finding.site.frames for finding in gaps(lint_text, times, numbers)] == frames
+
+
 @pytest.mark.parametrize(("missing", "more"), [(4, False), (5, True)])
 def test_samples_to_add(missing: int, more: bool, lint_text: Lint, tmp_path: Path) -> None:
     after = 9 + missing
