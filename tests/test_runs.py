@@ -72,3 +72,15 @@ def test_samples_to_add(missing: int, more: bool, lint_text: Lint, tmp_path: Pat
     assert finding.suggestion.startswith("add 9: @./fog.0009.vdb@, 10: ")
     assert (", …" in finding.suggestion) == more
     assert finding.suggestion.endswith(f"({missing} of {missing} files are there)")
+
+
+def test_one_path_of_five_may_be_another(lint_text: Lint) -> None:
+    paths = ["./rest.vdb", *(f"./fog.{number:04}.vdb" for number in (2, 3, 4, 6))]
+    report = lint_text(stage(zip([1, 2, 3, 4, 6], paths, strict=True)))
+    assert [f.site.frames for f in report.findings if f.code == "AST011"] == ["5"]
+
+
+def test_what_stands_where_numbers_do(lint_text: Lint) -> None:
+    """A letter is no number, and ends no rule."""
+    report = lint_text(stage(enumerate(["./s1.vdb", "./s2.vdb", "./s3.vdb", "./sx.vdb"])))
+    assert not [f for f in report.findings if f.code in ("AST011", "AST013", "LNT002")]
