@@ -130,7 +130,7 @@ def test_stages(
     [finding] = [finding for finding in report.findings if finding.code == code]
     assert message in finding.message
     assert advice in (finding.suggestion or "")
-    for further in (" in another role", " (on ", ", nor in its sublayers"):
+    for further in (" in another role", " (on ", ", nor in its sublayers", ": (0"):
         assert (further in finding.message) == (further in message)
 
 
