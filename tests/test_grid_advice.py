@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import vdbwriter
 
 from usdvol_lint.model import StageReport
 
@@ -168,3 +169,70 @@ def test_contents(
     assert advice in (finding.suggestion or "")
     assert bool(finding.suggestion) == bool(advice)
     assert (" of 'cloud'" in finding.message) == (" of 'cloud'" in message)
+
+
+def test_a_name_that_tells_no_format(lint_text: Lint, tmp_path: Path) -> None:
+    """It makes no stranger of a file that is what the field wants."""
+    shutil.copy(ASSETS / "cloud.vdb", tmp_path / "cloud.cache")
+    report = lint_text(stage("./cloud.cache", "density", FLOAT))
+    assert [f.code for f in report.findings if f.code.startswith(("GRD", "AST"))] == ["AST006"]
+
+
+def test_of_a_broken_file_nothing_else_is_said(lint_text: Lint, tmp_path: Path) -> None:
+    broken = vdbwriter.Grid("heat", offsets=lambda grid, block, end: (block, grid, end))
+    (tmp_path / "fog.vdb").write_bytes(vdbwriter.vdb(vdbwriter.Grid(), broken))
+    report = lint_text(stage("./fog.vdb", "density", 'token fieldDataType = "int"'))
+    assert [f.code for f in report.findings if f.code.startswith("GRD")] == ["GRD001"]
+
+
+def test_openvdb_knows_no_purpose(lint_text: Lint, tmp_path: Path) -> None:
+    """What the field says of it is no reason to miss the grid; its file is AST006."""
+    shutil.copy(ASSETS / "cloud.vdb", tmp_path)
+    text = stage("./cloud.vdb", "density", FLOAT, 'token fieldPurpose = "smoke"')
+    report = lint_text(text.replace("OpenVDBAsset", "Field3DAsset"))
+    assert [f.code for f in report.findings if f.code.startswith(("GRD", "AST"))] == ["AST006"]
+
+
+@pytest.mark.parametrize(("count", "end"), [(8, "'g6', 'g7'"), (9, "'g6', 2 more")])
+def test_grids_that_are_listed(count: int, end: str, lint_text: Lint, tmp_path: Path) -> None:
+    grids = (vdbwriter.Grid(f"g{number}") for number in range(count))
+    (tmp_path / "fog.vdb").write_bytes(vdbwriter.vdb(*grids))
+    report = lint_text(stage("./fog.vdb", "density", FLOAT))
+    [finding] = [finding for finding in report.findings if finding.code == "GRD003"]
+    assert finding.message.endswith(end)
+
+
+def test_the_grid_that_the_index_means(lint_text: Lint, tmp_path: Path) -> None:
+    grids = vdbwriter.Grid(), vdbwriter.Grid("density\x1e1", "Tree_double_5_4_3")
+    (tmp_path / "fog.vdb").write_bytes(vdbwriter.vdb(*grids))
+    report = lint_text(stage("./fog.vdb", "density", FLOAT, "int fieldIndex = 1"))
+    assert "GRD005" in {finding.code for finding in report.findings}
+    report = lint_text(stage("./fog.vdb", "density", FLOAT, "int fieldIndex = 0"))
+    assert "GRD005" not in {finding.code for finding in report.findings}
+
+
+def test_a_frame_without_grids_hides_no_other(lint_text: Lint, tmp_path: Path) -> None:
+    shutil.copytree(ASSETS, tmp_path, dirs_exist_ok=True)
+    text = stage("./cloud.vdb", "density", FLOAT).replace("(1, 1, 1)", "(0.1, 0.1, 0.1)")
+    samples = "filePath.timeSamples = { 1: @./cloud.vdb@, 2: @./grids/no_grids.vdb@ }"
+    report = lint_text(text.replace("filePath = @./cloud.vdb@", samples))
+    assert "VOL013" in {finding.code for finding in report.findings}
+
+
+@pytest.mark.parametrize(
+    ("code", "one", "other", "lines"),
+    [
+        ("FLD001", "smoke/smoke.0001.vdb", "cloud.vdb", (FLOAT,)),
+        ("FLD002", "grids/points.vdb", "smoke/smoke.0001.vdb", ()),
+    ],
+)
+def test_what_one_frame_leaves_open(
+    code: str, one: str, other: str, lines: tuple[str, ...], lint_text: Lint, tmp_path: Path
+) -> None:
+    """A field may be silent only where every one of its files speaks for it."""
+    shutil.copytree(ASSETS, tmp_path, dirs_exist_ok=True)
+    for second, found in ((one, False), (other, True)):
+        text = stage("./x.vdb", "", *lines)
+        samples = f"filePath.timeSamples = {{ 1: @./{one}@, 2: @./{second}@ }}"
+        report = lint_text(text.replace("filePath = @./x.vdb@", samples))
+        assert (code in {finding.code for finding in report.findings}) == found
