@@ -9,7 +9,7 @@ def _ambiguity(content: Content) -> tuple[str, str] | None:
         return None
     if len(grids) > 1 and claim.index is None:
         name, purposes = grid.unique_name, sorted({other.purpose or "" for other in grids})
-        if len(purposes) > 1 and not claim.purpose:
+        if len(purposes) > 1:
             listed = ", ".join(map(repr, purposes))
             return (
                 f"grids named {quoted(name)} in {listed}",
