@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from usdvol_lint.catalog import Catalog
-from usdvol_lint.config import Config, activate
-from usdvol_lint.engine import Engine
+from usdvol_lint.config import Config, Depth
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import StageReport
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 
 Lint = Callable[..., StageReport]
 ROOT = next(folder for folder in Path(__file__).parents if (folder / "rules").is_dir())
@@ -149,6 +150,6 @@ def test_payloads_that_are_not_loaded(
     Path("lib.usda").write_text(f"#usda 1.0\n{LAYERS['lib']}", encoding="utf-8")
     text = "#usda 1.0\n" + prims(*["payload = @./lib.usda@</rocks>"] * count)
     Path("stage.usda").write_text(text, encoding="utf-8")
-    linter = Engine(catalog.rules, activate(Config(), catalog), "none")
+    linter = Engine(catalog.rules, activate(Config(), catalog), Depth(load="none"))
     messages = [finding.message for finding in linter.lint("stage.usda").findings]
     assert words in messages
