@@ -1,0 +1,263 @@
+"""Volumes that are right, of every kind that a seed can draw."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Sequence
+from itertools import groupby
+from random import Random
+from typing import Any
+
+from .files import FIELD3D, FRAME, FRAMES, SOURCES, Grid, Point, Source, original
+from .model import ABSENT, Attribute, File, Layer, Prim, Relationship
+from .subjects import Choice, FieldPart, VolumeSubject, new_layer
+
+FILES = ("static", "several", "sequence", "own sequence", "clips", "template clips", "field3d")
+"""Where the files come from."""
+
+PLACES = ("below", "group", "beside")
+"""Where the fields are: below the Volume, in a group there, or outside of it."""
+
+_NAMES = ("density", "heat", "temperature", "velocity", "flame", "fuel", "smoke_2", "Cd")
+
+
+def choose(rng: Random, needs: dict[str, Any]) -> Choice:
+    """Drawn, but for what a defect needs: a tuple to choose from, or a value."""
+    drawn = {
+        "files": rng.choice(FILES),
+        "place": rng.choice(("below", *PLACES)),
+        "count": rng.choice((1, 1, 2, 2, 3, 4)),
+    }
+    for name, wanted in needs.items():
+        if name in drawn:
+            drawn[name] = rng.choice(wanted) if isinstance(wanted, tuple) else wanted
+    return Choice(**drawn)
+
+
+def volume(rng: Random, name: str, needs: dict[str, Any]) -> VolumeSubject:
+    """A Volume with one to four fields, right in every way that the rules know of."""
+    choice = choose(rng, needs)
+    layer = new_layer(rng, name)
+    is_root = choice.place != "beside" and rng.random() < 0.3
+    prim = Prim(f"{name}_cloud", "Volume")
+    layer.prims = [prim if is_root else Prim(name, rng.choice(("Xform", "Scope")))]
+    if not is_root:
+        layer.prims[0].children.append(prim)
+    path = f"/{prim.name}" if is_root else f"/{name}/{prim.name}"
+    subject = VolumeSubject(layer, prim, path, choice=choice)
+    subject.content.layers.append(layer)
+    _add_fields(subject, choice, rng)
+    _add_extent(subject, choice, rng)
+    _decorate(subject, rng)
+    return subject
+
+
+def _add_fields(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
+    parent, above = _parent(subject, choice)
+    names = rng.sample(_NAMES, choice.count)
+    sources = _sources(choice, rng)
+    for number, name in enumerate(names):
+        source = sources[number % len(sources)]
+        grid = rng.choice(source.grids)
+        prim = Prim(name, source.prim_type, properties=_said(grid, source, rng))
+        parent.children.append(prim)
+        part = FieldPart(prim, f"{above}/{name}", f"field:{name}", source)
+        subject.fields.append(part)
+        targets = [_forwarded(subject, part, rng)]
+        subject.prim.properties[part.relationship] = Relationship(targets, rng.random() < 0.3)
+        if choice.files in ("static", "several", "field3d"):
+            prim.properties["filePath"] = Attribute("asset", File(source.path))
+    if choice.files.endswith("sequence"):
+        _add_sequence(subject, choice, rng)
+    elif choice.files.endswith("clips"):
+        _add_clips(subject, choice, rng)
+
+
+def _parent(subject: VolumeSubject, choice: Choice) -> tuple[Prim, str]:
+    """The prim that holds the fields, and its path."""
+    if choice.place == "beside":
+        return subject.root, f"/{subject.root.name}"
+    if choice.place == "below":
+        return subject.prim, subject.path
+    group = Prim("fields", "Scope")
+    subject.prim.children.append(group)
+    return group, f"{subject.path}/fields"
+
+
+def _forwarded(subject: VolumeSubject, part: FieldPart, rng: Random) -> str:
+    """The target of a relationship: the field, or another relationship that targets it."""
+    if rng.random() < 0.9:
+        return part.path
+    name = f"to:{part.prim.name}"
+    subject.prim.properties[name] = Relationship([part.path], True)
+    return f"{subject.path}.{name}"
+
+
+def _sources(choice: Choice, rng: Random) -> Sequence[Source]:
+    if choice.files == "field3d":
+        return FIELD3D
+    if choice.files == "static":
+        return [rng.choice(SOURCES)]
+    return rng.sample(SOURCES, 3) if choice.files == "several" else [FRAME]
+
+
+def _said(grid: Grid, source: Source, rng: Random) -> dict[str, Attribute | Relationship]:
+    """What a field says of its grid; some of it may be left out."""
+    said: dict[str, Attribute | Relationship] = {
+        "fieldName": Attribute("token", grid.name),
+        "fieldDataType": Attribute("token", rng.choice(grid.data_types)),
+    }
+    if source.prim_type == "OpenVDBAsset" and rng.random() < 0.8:
+        said["fieldClass"] = Attribute("token", grid.field_class)
+    if grid.roles and rng.random() < 0.7:
+        said["vectorDataRoleHint"] = Attribute("token", rng.choice(grid.roles))
+    if grid.index is not None or rng.random() < 0.1:
+        said["fieldIndex"] = Attribute("int", grid.index or 0)
+    return said
+
+
+def _add_sequence(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
+    """Time samples: shared files as they are, or own ones of any length, number and step."""
+    frames = _shared_frames(rng) if choice.files == "sequence" else _own_frames(subject, rng)
+    start, step = rng.choice((1, 1, 0, -5, 1001, 0.5)), rng.choice((1, 1, 1, 2, 0.5, 0.25))
+    samples = {start + number * step: frame for number, frame in enumerate(frames)}
+    for part in subject.fields:
+        part.prim.properties["filePath"] = Attribute("asset", samples=dict(samples))
+        part.prim.properties.pop("fieldClass", None)
+        part.prim.attribute("fieldDataType").value = "float"
+
+
+def _shared_frames(rng: Random) -> list[File]:
+    frames = [File(source.path) for source in rng.choice(FRAMES)]
+    return frames[::-1] if rng.random() < 0.2 else frames
+
+
+def _own_frames(subject: VolumeSubject, rng: Random) -> list[File]:
+    first, pace = rng.choice((1, 1, 0, 95, 1001)), rng.choice((1, 1, 2))
+    digits = rng.choice((1, 4, 4, 6))
+    separator = rng.choice(("._", ".", "_"))
+    folder = posixpath.dirname(subject.layer.path)
+    stem = posixpath.join(folder, rng.choice(("", "vdb/", "sim v2/")) + subject.prim.name)
+    numbers = range(first, first + pace * rng.randint(7, 12), pace)
+    paths = [f"{stem}{separator}{number:0{digits}}.vdb" for number in numbers]
+    subject.content.files.update(dict.fromkeys(paths, original(FRAME.path).read_bytes()))
+    return list(map(File, paths))
+
+
+def _add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
+    """One value clip for every few frames, explicit or by a template, with a manifest or without.
+
+    USD makes no manifest for a template set that names clips of several frames alike, so this has
+    one clip for each frame.
+    """
+    each = 1 if choice.files == "template clips" else rng.randint(1, 3)
+    frames = _own_frames(subject, rng)
+    groups = [
+        [frame for _, frame in members]
+        for _, members in groupby(enumerate(frames), lambda item: item[0] // each)
+    ]
+    folder = posixpath.dirname(subject.layer.path)
+    stem = posixpath.join(folder, f"{subject.prim.name}_clip")
+    time = 1
+    clips = []
+    for number, members in enumerate(groups, start=1):
+        samples = {time + index: frame for index, frame in enumerate(members)}
+        clips.append(_clip(subject, f"{stem}.{number:03}.usda", samples))
+        time += len(members)
+    subject.content.layers += clips
+    manifest = f"{stem}.manifest.usda"
+    has_manifest = choice.files == "template clips" or rng.random() < 0.7
+    if has_manifest:
+        subject.content.layers.append(_clip(subject, manifest, {}))
+    bearer = subject.root if choice.place == "beside" else subject.prim
+    bearer.metadata += [
+        ("clips = {",),
+        ("    dictionary default = {",),
+        (f'        string primPath = "{subject.find(bearer)}"',),
+        *_clip_set(choice, clips, each, len(frames)),
+        *([("        asset manifestAssetPath = ", File(manifest))] if has_manifest else []),
+        ("    }",),
+        ("}",),
+    ]
+    for part in subject.fields:
+        part.prim.properties.pop("fieldClass", None)
+        part.prim.attribute("fieldDataType").value = "float"
+
+
+def _clip_set(choice: Choice, clips: list[Layer], each: int, count: int) -> list[Any]:
+    if choice.files == "template clips":
+        name = posixpath.basename(clips[0].path)
+        template = name.replace("001", "###")
+        return [
+            (f'        string templateAssetPath = "./{template}"',),
+            ("        double templateStartTime = 1",),
+            (f"        double templateEndTime = {len(clips)}",),
+            ("        double templateStride = 1",),
+        ]
+    paths: list[str | File] = []
+    for clip in clips:
+        paths += [", " if paths else "", File(clip.path)]
+    active = ", ".join(f"({1 + number * each}, {number})" for number in range(len(clips)))
+    return [
+        ("        asset[] assetPaths = [", *paths, "]"),
+        (f"        double2[] active = [{active}]",),
+        (f"        double2[] times = [(1, 1), ({count}, {count})]",),
+    ]
+
+
+def _clip(subject: VolumeSubject, path: str, samples: dict[float, File]) -> Layer:
+    """A layer of overs down to the fields; without samples it declares the attribute alone."""
+    layer = Layer(path)
+    for part in subject.fields:
+        prims = layer.prims
+        for name in part.path[1:].split("/"):
+            found = next((prim for prim in prims if prim.name == name), None)
+            if found is None:
+                found = Prim(name, specifier="over")
+                prims.append(found)
+            prims = found.children
+        found.properties["filePath"] = Attribute("asset", samples=dict(samples))
+        if samples:
+            part.clips.append(found.attribute("filePath"))
+    return layer
+
+
+def _add_extent(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
+    """An extent that encloses all grids, from their writers' bounds; fields do not move."""
+    grids = [
+        grid
+        for part in subject.fields
+        for grid in part.source.grids
+        if grid.name == part.prim.attribute("fieldName").value
+    ]
+    low: Point = tuple(min(grid.low[axis] for grid in grids) for axis in range(3))  # type: ignore[assignment]
+    high: Point = tuple(max(grid.high[axis] for grid in grids) for axis in range(3))  # type: ignore[assignment]
+    if choice.files == "sequence":
+        low, high = (0, 0, 0), (1, 1, 1)
+    slack = rng.choice((0.001, 0.01, 1, 1000))
+    corners = [tuple(x - slack for x in low), tuple(x + slack for x in high)]
+    extent = Attribute("float3[]", corners)
+    if choice.files.endswith("sequence") and rng.random() < 0.3:
+        times = subject.fields[0].prim.attribute("filePath").samples
+        extent = Attribute("float3[]", ABSENT, dict.fromkeys(times, corners))
+    subject.prim.properties["extent"] = extent
+
+
+def _decorate(subject: VolumeSubject, rng: Random) -> None:
+    """What else a Volume may carry, and what does not matter to the rules."""
+    properties = subject.prim.properties
+    if rng.random() < 0.3:
+        properties["purpose"] = Attribute("token", rng.choice(("render", "default")))
+        properties["purpose"].is_uniform = True
+    if subject.choice.place != "beside" and rng.random() < 0.3:
+        properties["xformOp:translate"] = Attribute("double3", (1.5, -2, 0.25))
+        order = Attribute("token[]", ["xformOp:translate"], is_uniform=True)
+        properties["xformOpOrder"] = order
+    if rng.random() < 0.2:
+        properties["primvars:displayColor"] = Attribute("color3f[]", [(0.2, 0.3, 0.9)])
+    if rng.random() < 0.2:
+        subject.root.metadata.append(('kind = "component"',))
+    if rng.random() < 0.2:
+        subject.prim.metadata.append(('doc = "Smoke from the chimney"',))
+    if rng.random() < 0.2:
+        subject.fields[0].prim.properties["studio:voxels"] = Attribute("int", 125)
