@@ -18,12 +18,17 @@ from .subjects import Subject, every_prim, new_layer
 
 
 class Placed(NamedTuple):
-    """A layer, or a package with it, in which the root prim of a subject is at `path`."""
+    """A layer, or a package with it, in which the root prim of a subject is at `path`.
+
+    `root` is the root prim above, or that prim itself.
+    """
 
     layer_path: str
     root: str
     path: str
     layer: Layer | None = None
+    has_clips: bool = False
+    holds_instances: bool = False
 
     def shown(self, path: str) -> str:
         """Where the prim is that has this path in the layer of the subject."""
@@ -46,8 +51,10 @@ def arc(wrap: Wrap) -> Arc:
 
 
 def place(subject: Subject) -> Placed:
+    """The subject in its own layer; `has_clips` is about its root prim."""
     root = f"/{subject.root.name}"
-    return Placed(subject.layer.path, root, root, subject.layer)
+    has_clips = any("clips" in str(line[0]) for line in subject.root.metadata)
+    return Placed(subject.layer.path, root, root, subject.layer, has_clips)
 
 
 def _offset(rng: Random) -> str:
@@ -75,7 +82,7 @@ def _below(layer: Layer, placed: Placed, root: str, path: str | None = None) -> 
     """What was at the root is now at `path` below the prim `root` of a new layer."""
     path = path or root
     rest = placed.path[len(placed.root) :]
-    return Placed(layer.path, root, path + rest, layer)
+    return placed._replace(layer_path=layer.path, root=root, path=path + rest, layer=layer)
 
 
 def _composed(scene: Scene, placed: Placed, name: str, rng: Random, *lines: Line) -> Placed:
@@ -96,7 +103,7 @@ def sublayer(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     layer = _new(scene, name, rng, [])
     line = ("subLayers = [", File(placed.layer_path), _offset(rng), "]")
     layer.metadata.append(line)
-    return Placed(layer.path, placed.root, placed.path, layer)
+    return placed._replace(layer_path=layer.path, layer=layer)
 
 
 @arc
@@ -121,12 +128,22 @@ def payload(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
 
 @arc
 def instance(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
-    """Two instances of one prim: what is wrong is shown at the first."""
+    """Two instances of one prim: what is wrong is shown at the first.
+
+    Clips on an instance itself are none for what is below it, so they need a group around them.
+    """
+    if placed.has_clips and placed.root == placed.path:
+        group = Prim(f"{name}_clipped", "Xform")
+        inner = Prim("inner", metadata=[("prepend references = ", *_target(placed))])
+        group.children.append(inner)
+        layer = _new(scene, group.name, rng, [group])
+        placed = _below(layer, placed, f"/{group.name}", f"/{group.name}/inner")
     line: Line = ("prepend references = ", *_target(placed))
     copies = [Prim(f"{name}_{letter}") for letter in "ab"]
     for copy in copies:
         copy.metadata = [("instanceable = true",), line]
     layer = _new(scene, name, rng, [Prim(name, "Xform", children=copies)])
+    placed = placed._replace(holds_instances=True)
     return _below(layer, placed, f"/{name}", f"/{name}/{copies[0].name}")
 
 
@@ -158,6 +175,9 @@ def variant(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
 
 @arc
 def inherited(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """From a class; where that holds instances, these are shown at the class's own path."""
+    if placed.holds_instances:
+        return reference.wrap(scene, placed, name, rng)
     source = Prim(f"_class_{name}", specifier="class")
     source.metadata = [("prepend references = ", *_target(placed))]
     heir = Prim(name, metadata=[(f"{rng.choice(('inherits', 'specializes'))} = </{source.name}>",)])
@@ -184,7 +204,7 @@ def overridden(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     over.properties["studio:approved"] = Attribute("bool", True)
     layer = _new(scene, name, rng, [over])
     layer.metadata.append(("subLayers = [", File(placed.layer_path), "]"))
-    return Placed(layer.path, placed.root, placed.path, layer)
+    return placed._replace(layer_path=layer.path, layer=layer)
 
 
 @arc
@@ -198,7 +218,7 @@ def package(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     _take_along(content)
     path = posixpath.join(rng.choice(("", "packages/")), f"{name}.usdz")
     scene.packages[path] = content
-    return Placed(path, placed.root, placed.path)
+    return placed._replace(layer_path=path, layer=None)
 
 
 def _take_along(content: Content) -> None:

@@ -81,13 +81,14 @@ class _Making:
         subject = self._subject(kind, 0, needs)
         at = None if is_on_scene else defect.make(subject, self.rng) or subject.prim
         path = subject.find(at) if at else None
-        arcs = [arc for arc in self._arcs(3) if arc.name not in defect.without]
+        arcs = [arc for arc in ARCS if arc.name == defect.within]
+        arcs += [arc for arc in self._arcs(3) if arc.name not in defect.without]
         placed = [self._arranged(subject, 0, arcs)]
         shown = placed[0].shown(path) if path else None
         if self.rng.random() < 0.3:
             other = self._subject(self.rng.choice(("volume", "particles")), 1, {})
             placed.append(self._arranged(other, 1, self._arcs(2)))
-        root = self._combine(placed, needs_layer=is_on_scene)
+        root = self._combine(placed, is_on_scene, subject.time_range)
         if is_on_scene and root:
             prim = defect.make(self.scene, root, self.rng)
             shown = f"/{prim.name}" if prim else None
@@ -126,8 +127,14 @@ class _Making:
         self.scene.packages |= own.packages
         return placed
 
-    def _combine(self, placed: list[Placed], needs_layer: bool = False) -> Layer | None:
+    def _combine(
+        self,
+        placed: list[Placed],
+        needs_layer: bool = False,
+        time_range: tuple[float, float] | None = None,
+    ) -> Layer | None:
         """The root layer: that of the only subject, or a new one that brings all together."""
+        needs_layer |= time_range is not None
         if len(placed) == 1 and not needs_layer and self.rng.random() < 0.5:
             self.scene.root = placed[0].layer_path
             return placed[0].layer
@@ -143,7 +150,10 @@ class _Making:
             layer.metadata.append(("subLayers = [", *sublayers, "]"))
         self._add_neighbours(layer)
         if self.rng.random() < 0.3:
-            layer.metadata += [("startTimeCode = -20000",), ("endTimeCode = 90000",)]
+            time_range = time_range or (-20_000, 90_000)
+        if time_range:
+            start, end = time_range
+            layer.metadata += [(f"startTimeCode = {start}",), (f"endTimeCode = {end}",)]
         self.scene.layers.append(layer)
         self.scene.root = layer.path
         return layer

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -24,19 +25,28 @@ _OF_THE_USD = {"LNT004"}
 def misses(expected: Expected, found: Iterable[Found]) -> list[str]:
     """Each way in which it is not as expected, in one line."""
     findings = [each for each in found if each.code not in _OF_THE_USD]
-    wanted = [each for each in findings if (each.code, each.prim) == expected[:2]]
-    said = [each for each in findings if each.severity != "info"]
-    missed = []
+    wanted = [each for each in findings if _is_wanted(each, expected)]
+    codes = {each.code for each in findings}
+    allowed = (*expected.also, *expected.perhaps)
+    missed = [f"no {code}, to which it leads" for code in expected.also if code not in codes]
     if expected.code and not wanted:
-        missed.append(f"no {expected.code} at {expected.prim}")
-    if expected.is_info:
-        said += [each for each in wanted if each.severity != "info"]
-    for code in expected.also:
-        if code not in {each.code for each in said}:
-            missed.append(f"no {code}, to which it leads")
-    for each in said:
-        if each in wanted and not expected.is_info:
-            continue
-        if each.code not in (*expected.also, *expected.perhaps):
-            missed.append(f"{each.severity} {each.code} at {each.prim}: {each.message}")
-    return missed
+        missed.insert(0, f"no {expected.code} at {expected.prim}")
+    return missed + [
+        f"{each.severity} {each.code} at {each.prim}: {each.message}"
+        for each in findings
+        if each.severity != "info" and each not in wanted and each.code not in allowed
+    ]
+
+
+def _is_wanted(found: Found, expected: Expected) -> bool:
+    """Whether it is what must be found, at the level of an information or above it."""
+    return (
+        found.code == expected.code
+        and _first_copy(found.prim) == expected.prim
+        and (found.severity == "info") == expected.is_info
+    )
+
+
+def _first_copy(prim: str | None) -> str | None:
+    """Of an instance's second copy the path of the first: what is on instances is on both."""
+    return prim and re.sub(r"_b(?=/|$)", "_a", prim)

@@ -94,8 +94,6 @@ class Scene(Content):
 
     root: str = ""
     packages: dict[str, Content] = field(default_factory=dict)
-    start: float | None = None
-    end: float | None = None
 
 
 class Expected(NamedTuple):

@@ -22,6 +22,8 @@ class Subject:
     prim: Prim
     path: str
     content: Content = field(default_factory=Content)
+    time_range: tuple[float, float] | None = None
+    """What the stage must author as its range; None leaves it to the seed."""
 
     @property
     def root(self) -> Prim:
@@ -58,7 +60,7 @@ class Choice(NamedTuple):
 
 @dataclass
 class VolumeSubject(Subject):
-    choice: Choice = Choice()
+    choice: Choice = field(default_factory=Choice)
     fields: list[FieldPart] = field(default_factory=list)
 
 

@@ -135,6 +135,11 @@ def nanovdb(subject: VolumeSubject, rng: Random) -> Prim:
     return prim
 
 
+@on_volume("AST007", needs=ONE_FILE, also=("AST002",), without=("package",), is_info=True)
+def absolute(subject: VolumeSubject, rng: Random) -> Prim:
+    return _named(subject, rng, "/mnt/there/is/no/such/folder/cloud.vdb")
+
+
 @on_volume("AST008", needs=ONE_FILE, also=("AST002",))
 def drive_letter(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "Q:/sim/cloud.vdb")
@@ -178,6 +183,12 @@ def gap(subject: VolumeSubject, rng: Random) -> Prim:
     return part.prim
 
 
+@on_volume("AST012", needs={**A_RUN, "count": 1})
+def range_elsewhere(subject: VolumeSubject, rng: Random) -> Prim:
+    subject.time_range = (1_000_000, 1_000_100)
+    return any_field(subject, rng).prim
+
+
 @on_volume("AST013", needs=A_RUN)
 def frame_out_of_order(subject: VolumeSubject, rng: Random) -> Prim:
     part = any_field(subject, rng)
@@ -196,3 +207,8 @@ def manifest_without_path(subject: VolumeSubject, rng: Random) -> Prim:
         prim = prim.children[0]
     del prim.properties["filePath"]
     return part.prim
+
+
+@on_volume("AST015", needs={**ONE_FILE, "count": 1}, within="package", also=("AST002",))
+def outside_package(subject: VolumeSubject, rng: Random) -> Prim:
+    return _named(subject, rng, "../../../../elsewhere/cloud.vdb")

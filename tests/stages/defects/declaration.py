@@ -21,7 +21,8 @@ class Defect:
     `make` gets the subject, or the scene and its root layer, and the random numbers; it returns
     the prim that the finding is at, None for that of the subject, or for none on a scene.
     `needs` is what the subject has to be like, see `volumes.choose` and `particles.particles`;
-    `without` are arcs that would hide the defect or add to it.  `also` are codes that it leads to
+    `without` are arcs that would hide the defect or add to it, and `within`
+    names one that it needs.  `also` are codes that it leads to
     by its nature, `perhaps` those that it leads to on some platforms, and `is_info` says that the
     finding is no warning.
     """
@@ -33,6 +34,7 @@ class Defect:
     also: tuple[str, ...] = ()
     perhaps: tuple[str, ...] = ()
     without: tuple[str, ...] = ()
+    within: str | None = None
     is_info: bool = False
 
     @property

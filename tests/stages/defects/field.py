@@ -5,21 +5,18 @@ from __future__ import annotations
 from random import Random
 
 from ..model import Attribute, File, Layer, Prim
-from .declaration import A_RUN, VolumeSubject, any_field, field_of, on_volume
+from .declaration import A_RUN, ONE_FILE, VolumeSubject, any_field, field_of, on_volume
 
 
-@on_volume("FLD001")
+@on_volume("FLD001", needs=ONE_FILE)
 def no_name(subject: VolumeSubject, rng: Random) -> Prim:
-    prim = any_field(subject, rng).prim
-    del prim.properties["fieldName"]
-    return prim
+    """Of one of several grids: where a file has but one, it is clear which is meant."""
+    return field_of(subject, rng, "cloud.vdb", fieldDataType="float")
 
 
-@on_volume("FLD001")
+@on_volume("FLD001", needs=ONE_FILE)
 def name_empty(subject: VolumeSubject, rng: Random) -> Prim:
-    prim = any_field(subject, rng).prim
-    prim.attribute("fieldName").value = ""
-    return prim
+    return field_of(subject, rng, "cloud.vdb", fieldName="", fieldDataType="float")
 
 
 @on_volume("FLD002", is_info=True)

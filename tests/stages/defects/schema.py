@@ -59,19 +59,20 @@ def scales_are_colours(subject: ParticleSubject, rng: Random) -> None:
     subject.array("scales").type = "color3f[]"
 
 
-@on_volume("SCH004")
-def one_more_misspelt(subject: VolumeSubject, rng: Random) -> Prim:
+@on_volume("SCH004", needs={"files": ("own sequence", "clips", "field3d")})
+def index_misspelt(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
-    name = rng.choice(("feildName", "fieldname", "gridName", "field_name"))
-    prim.properties[name] = Attribute("token", "density")
+    prim.properties.pop("fieldIndex", None)
+    name = rng.choice(("fieldindex", "feildIndex", "gridIndex", "field_index"))
+    prim.properties[name] = Attribute("int", 0)
     return prim
 
 
-@on_volume("SCH004", needs=ONE_FILE)
+@on_volume("SCH004", needs=ONE_FILE, also=("AST001",))
 def path_misspelt(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
     name = rng.choice(("filepath", "file_path", "fileName"))
-    prim.properties[name] = Attribute("asset", "./cloud.vdb")
+    prim.properties[name] = prim.properties.pop("filePath")
     return prim
 
 
@@ -165,7 +166,7 @@ def api_on_the_volume(subject: VolumeSubject, rng: Random) -> None:
     subject.prim.metadata.append((f"prepend apiSchemas = [{api}]",))
 
 
-@on_volume("SCH011")
+@on_volume("SCH011", needs={"place": "beside"})
 def points_for_splats(subject: VolumeSubject, rng: Random) -> Prim:
     points = Prim("splats", "Points")
     points.metadata.append(('prepend apiSchemas = ["GaussiansAPI"]',))

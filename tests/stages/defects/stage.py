@@ -43,3 +43,11 @@ def no_prims(scene: Scene, layer: Layer, rng: Random) -> None:
 def text_broken(scene: Scene, layer: Layer, rng: Random) -> None:
     layer.path = scene.root = "broken.usda"
     layer.prims.append(Prim("bro ken", "Xform"))
+
+
+@on_scene("LNT005", is_info=True)
+def reference_to_a_uri(scene: Scene, layer: Layer, rng: Random) -> Prim:
+    line = ("prepend references = @https://example.com/tree.usda@</tree>",)
+    prim = Prim("remote", "Xform", metadata=[line])
+    layer.prims.append(prim)
+    return prim

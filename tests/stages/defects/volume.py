@@ -5,12 +5,21 @@ from __future__ import annotations
 from random import Random
 
 from ..model import Attribute, File, Layer, Relationship
-from .declaration import ONE_FILE, Prim, VolumeSubject, any_field, on_volume
+from ..subjects import FieldPart
+from .declaration import ONE_FILE, Prim, VolumeSubject, any_field, extent_for_all, on_volume
+
+
+def _bound(subject: VolumeSubject, rng: Random) -> FieldPart:
+    """A field that is bound directly, so that nothing is left over when its relationship goes."""
+    part = any_field(subject, rng)
+    subject.prim.properties.pop(f"to:{part.prim.name}", None)
+    subject.prim.properties[part.relationship] = Relationship([part.path])
+    return part
 
 
 def _retarget(subject: VolumeSubject, rng: Random, *targets: str) -> None:
-    relationship = any_field(subject, rng).relationship
-    subject.prim.properties[relationship] = Relationship(list(targets))
+    part = _bound(subject, rng)
+    subject.prim.properties[part.relationship] = Relationship(list(targets))
 
 
 @on_volume("VOL001")
@@ -42,38 +51,39 @@ def no_target(subject: VolumeSubject, rng: Random) -> None:
 
 @on_volume("VOL003", is_info=True)
 def target_blocked(subject: VolumeSubject, rng: Random) -> None:
-    relationship = any_field(subject, rng).relationship
+    relationship = _bound(subject, rng).relationship
     subject.prim.properties[relationship] = Relationship(None)
 
 
 @on_volume("VOL003")
 def target_in_a_circle(subject: VolumeSubject, rng: Random) -> None:
-    relationship = any_field(subject, rng).relationship
+    relationship = _bound(subject, rng).relationship
     subject.prim.properties["back"] = Relationship([f"{subject.path}.{relationship}"])
     subject.prim.properties[relationship] = Relationship([f"{subject.path}.back"])
 
 
 @on_volume("VOL004", needs={"count": (2, 3, 4)})
 def two_targets(subject: VolumeSubject, rng: Random) -> None:
-    one, other = rng.sample(subject.fields, 2)
+    one = _bound(subject, rng)
+    other = next(each for each in subject.fields if each is not one)
     subject.prim.properties[one.relationship] = Relationship([one.path, other.path])
 
 
 @on_volume("VOL005")
 def target_is_an_attribute(subject: VolumeSubject, rng: Random) -> None:
-    part = any_field(subject, rng)
+    part = _bound(subject, rng)
     subject.prim.properties[part.relationship] = Relationship([f"{part.path}.fieldName"])
 
 
 @on_volume("VOL006")
 def attribute_for_relationship(subject: VolumeSubject, rng: Random) -> None:
-    part = any_field(subject, rng)
+    part = _bound(subject, rng)
     subject.prim.properties[part.relationship] = Attribute("string", part.path)
 
 
 @on_volume("VOL006")
 def outside_the_namespace(subject: VolumeSubject, rng: Random) -> None:
-    part = any_field(subject, rng)
+    part = _bound(subject, rng)
     del subject.prim.properties[part.relationship]
     subject.prim.properties[part.prim.name] = Relationship([part.path])
 
@@ -156,6 +166,7 @@ def mixed_files(subject: VolumeSubject, rng: Random) -> None:
 
 @on_volume("VOL015", needs={"place": "beside", **ONE_FILE}, is_info=True)
 def volume_moved_alone(subject: VolumeSubject, rng: Random) -> None:
+    extent_for_all(subject)
     subject.prim.properties["xformOp:translate"] = Attribute("double3", (0, 3, 0))
     order = Attribute("token[]", ["xformOp:translate"], is_uniform=True)
     subject.prim.properties["xformOpOrder"] = order
