@@ -105,7 +105,7 @@ UNUSED = Found("VOL012", "info", "/a/cloud/density", "no Volume targets it")
         (
             Expected("VOL013", "/a/cloud", is_info=True),
             [EXTENT],
-            ["error VOL013 at /a/cloud: reaches out"],
+            ["no VOL013 at /a/cloud", "error VOL013 at /a/cloud: reaches out"],
         ),
     ],
 )

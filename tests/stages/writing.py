@@ -28,11 +28,12 @@ def write_shared(folder: Path) -> None:
 def write_scene(scene: Scene, folder: Path) -> Path:
     """The file to lint; the shared volume files have to stand beside `folder`."""
     folder.mkdir(parents=True)
-    for path, data in _contents(scene, folder).items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+    contents = _contents(scene, folder)
+    for parent in {posixpath.dirname(path) for path in (*contents, *scene.packages)}:
+        (folder / parent).mkdir(parents=True, exist_ok=True)
+    for path, data in contents.items():
         (folder / path).write_bytes(data)
     for path, content in scene.packages.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
         _write_package(folder / path, _contents(content, folder))
     return folder / scene.root
 

@@ -84,7 +84,7 @@ def no_bytes(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, _own_file(subject, "nothing.vdb", b""))
 
 
-@on_volume("AST005", needs=ONE_FILE)
+@on_volume("AST005", needs=ONE_FILE, without=("package",))
 def git_lfs_pointer(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, File(shared("pointer.vdb")))
 
@@ -183,7 +183,7 @@ def gap(subject: VolumeSubject, rng: Random) -> Prim:
     return part.prim
 
 
-@on_volume("AST012", needs={**A_RUN, "count": 1})
+@on_volume("AST012", needs={**A_RUN, "count": 1}, perhaps=("AST012",))
 def range_elsewhere(subject: VolumeSubject, rng: Random) -> Prim:
     subject.time_range = (1_000_000, 1_000_100)
     return any_field(subject, rng).prim
