@@ -13,7 +13,7 @@ from random import Random
 from typing import Any, NamedTuple
 
 from .files import SHARED, original
-from .model import Attribute, Content, File, Layer, Line, Prim, Relationship, Scene
+from .model import Attribute, Content, Expression, File, Layer, Line, Prim, Relationship, Scene
 from .subjects import Subject, every_prim, new_layer
 
 
@@ -225,12 +225,13 @@ def _take_along(content: Content) -> None:
     """The shared files that the layers name become files of the content."""
 
     def taken(value: Any) -> Any:
-        if not isinstance(value, File) or not value.path.startswith(f"../{SHARED}/"):
+        is_file = isinstance(value, (File, Expression))
+        if not is_file or not value.path.startswith(f"../{SHARED}/"):
             return value
         inside = value.path.removeprefix("../")
         if original(value.path).is_file():
             content.files[inside] = original(value.path)
-        return File(inside)
+        return value._replace(path=inside)
 
     for layer in content.layers:
         for prim in every_prim(layer.prims):

@@ -11,7 +11,7 @@ from .model import Expected, File, Layer, Prim, Scene
 from .neighbours import NEIGHBOURS
 from .particles import particles
 from .subjects import Subject
-from .volumes import FILES, PLACES, volume
+from .volumes import FILES, MOVEMENTS, PATTERNS, PLACES, volume
 
 
 class Generated(NamedTuple):
@@ -32,8 +32,10 @@ FEATURES = frozenset(
         *(f"arc {arc.name}" for arc in ARCS),
         *(f"files {name}" for name in FILES),
         *(f"fields {name}" for name in PLACES),
+        *(f"sequence {name}" for name in PATTERNS),
+        *(f"movement {name}" for name in MOVEMENTS),
         *(f"beside {each.name}" for each in NEIGHBOURS),
-        *("particles float", "particles half", "particles animated"),
+        *("particles float", "particles half", "particles animated", "particles changing"),
         *(f"degree {degree}" for degree in range(4)),
     }
 )
@@ -60,7 +62,7 @@ class _Making:
     def valid(self, turn: int) -> Generated:
         """One to three subjects, in arcs of every kind."""
         first = ARCS[turn % len(ARCS)]
-        needs = {"files": FILES[turn % len(FILES)]}
+        needs = {"files": FILES[turn % len(FILES)], "pattern": PATTERNS[turn % len(PATTERNS)]}
         placed = []
         for index in range(self.rng.choice((1, 1, 2, 3))):
             is_volume = turn % 3 if index == 0 else self.rng.random() < 0.5
@@ -74,7 +76,7 @@ class _Making:
         """One subject with the defect, and perhaps another that is right."""
         is_on_scene = defect.on == "scene"
         kind = self.rng.choice(("volume", "particles")) if is_on_scene else defect.on
-        needs = {
+        needs = {"pattern": "plain"} | {
             name: self.rng.choice(wanted) if isinstance(wanted, tuple) else wanted
             for name, wanted in defect.needs.items()
         }
@@ -105,14 +107,16 @@ class _Making:
         name = f"{'abc'[index]}{self.rng.choice(('sset', 'set', 'shot'))}"
         if kind == "volume":
             made = volume(self.rng, name, needs)
-            self.features |= {f"files {made.choice.files}", f"fields {made.choice.place}"}
+            files, place, _, pattern, movement = made.choice
+            self.features |= {f"files {files}", f"fields {place}", f"movement {movement}"}
+            self.features |= {f"sequence {pattern}"} if files == "own sequence" else set()
             return made
         splat = particles(self.rng, name, needs)
         positions = splat.name_of("positions")
         self.features |= {f"particles {'half' if positions.endswith('h') else 'float'}"}
         self.features |= {f"degree {splat.degree}"} if splat.degree < 4 else set()
         if splat.prim.attribute(positions).samples:
-            self.features.add("particles animated")
+            self.features.add("particles changing" if splat.is_changing else "particles animated")
         return splat
 
     def _arranged(self, subject: Subject, index: int, arcs: list[Arc]) -> Placed:

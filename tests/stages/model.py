@@ -17,6 +17,12 @@ class File(NamedTuple):
     path: str
 
 
+class Expression(NamedTuple):
+    """A file that a variable expression names."""
+
+    path: str
+
+
 ABSENT = object()
 """No default: an attribute may be declared only, or have time samples alone."""
 
@@ -26,7 +32,8 @@ Line: TypeAlias = tuple[str | File, ...]
 
 @dataclass
 class Attribute:
-    """Values are Python's: tuples, lists, numbers, text, a `File`, or None for a block."""
+    """Values are Python's: tuples, lists, numbers, text, a `File`,
+    an `Expression`, or None for a block."""
 
     type: str
     value: Any = ABSENT

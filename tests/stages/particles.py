@@ -37,7 +37,8 @@ _ARRAYS = {
 def particles(rng: Random, name: str, needs: dict[str, Any]) -> ParticleSubject:
     """A particle field, right in every way that the rules know of.
 
-    `needs` may ask for `"type"`, `"precision"`, `"animated"`, `"degree"` and `"count"`.
+    `needs` may ask for `"type"`, `"precision"`, `"animated"`, `"changing"`, `"degree"` and
+    `"count"`, and for all optional `"arrays"`.
     """
     layer = new_layer(rng, name, ("usda", "usda", "usdc"))
     type_name = rng.choice(("ParticleField3DGaussianSplat",) * 3 + ("ParticleField",))
@@ -63,22 +64,27 @@ def particles(rng: Random, name: str, needs: dict[str, Any]) -> ParticleSubject:
 def _add_arrays(subject: ParticleSubject, rng: Random, needs: dict[str, Any]) -> None:
     precision = needs.get("precision") or rng.choice(("float", "half", "mixed"))
     times = [1, 2, 3.5] if needs.get("animated", rng.random() < 0.4) else []
+    subject.is_changing = bool(times) and needs.get("changing", rng.random() < 0.3)
+    counts = {
+        time: subject.count + 2 * subject.is_changing * index for index, time in enumerate(times)
+    }
     is_optional = "arrays" not in needs
     for name, types in _ARRAYS.items():
         if is_optional and name not in ("positions", COEFFICIENTS) and rng.random() < 0.1:
             continue
         is_half = precision == "half" or (precision == "mixed" and rng.random() < 0.5)
         attribute = Attribute(types[is_half])
-        if times and (name == "positions" or rng.random() < 0.5):
-            attribute.samples = {time: _elements(name, subject, rng) for time in times}
+        if times and (name == "positions" or subject.is_changing or rng.random() < 0.5):
+            attribute.samples = {
+                time: _elements(name, count, subject.degree, rng) for time, count in counts.items()
+            }
         else:
-            attribute.value = _elements(name, subject, rng)
+            attribute.value = _elements(name, subject.count, subject.degree, rng)
         subject.prim.properties[f"{name}{'h' * is_half}"] = attribute
 
 
-def _elements(name: str, subject: ParticleSubject, rng: Random) -> list[Any]:
+def _elements(name: str, count: int, degree: int, rng: Random) -> list[Any]:
     """One element for each particle; for coefficients as many as the degree asks for."""
-    count = subject.count
     if name == "positions":
         return [(round(number / 16, 4), *_numbers(rng, -1, 1, 2)) for number in range(count)]
     if name == "orientations":
@@ -87,7 +93,7 @@ def _elements(name: str, subject: ParticleSubject, rng: Random) -> list[Any]:
         return [_numbers(rng, 0.01, 0.5, 3) for _ in range(count)]
     if name == "opacities":
         return [rng.choice((1, 1, *_numbers(rng, 0.1, 1, 2))) for _ in range(count)]
-    each = (subject.degree + 1) ** 2
+    each = (degree + 1) ** 2
     return [_numbers(rng, -0.5, 0.9, 3) for _ in range(count * each)]
 
 

@@ -56,6 +56,8 @@ class Choice(NamedTuple):
     files: str = "static"
     place: str = "below"
     count: int = 1
+    pattern: str = "plain"
+    movement: str = "none"
 
 
 @dataclass
@@ -68,6 +70,8 @@ class VolumeSubject(Subject):
 class ParticleSubject(Subject):
     count: int = 0
     degree: int = 0
+    is_changing: bool = False
+    """Whether the number of particles is another at each time."""
 
     def name_of(self, array: str) -> str:
         """Which of the float and half arrays is authored."""

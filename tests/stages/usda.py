@@ -6,7 +6,7 @@ import posixpath
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from .model import ABSENT, Attribute, File, Layer, Line, Prim, Relationship
+from .model import ABSENT, Attribute, Expression, File, Layer, Line, Prim, Relationship
 
 _TEXTUAL = {"token", "string"}
 
@@ -78,10 +78,12 @@ def _value(type_name: str, value: Any, folder: str) -> str:
         return "None"
     if isinstance(value, list):
         return f"[{', '.join(_value(scalar, each, folder) for each in value)}]"
-    if isinstance(value, tuple) and not isinstance(value, File):
-        return f"({', '.join(_value(scalar, each, folder) for each in value)})"
     if isinstance(value, File):
         return _asset(value, folder)
+    if isinstance(value, Expression):
+        return f'@`"{_relative(value.path, folder)}"`@'
+    if isinstance(value, tuple):
+        return f"({', '.join(_value(scalar, each, folder) for each in value)})"
     if scalar == "asset":
         return f"@{value}@"
     if isinstance(value, bool):
@@ -90,8 +92,12 @@ def _value(type_name: str, value: Any, folder: str) -> str:
 
 
 def _asset(file: File, folder: str) -> str:
-    path = posixpath.relpath(file.path, folder or ".")
-    return f"@{path if path.startswith('.') else f'./{path}'}@"
+    return f"@{_relative(file.path, folder)}@"
+
+
+def _relative(path: str, folder: str) -> str:
+    path = posixpath.relpath(path, folder or ".")
+    return path if path.startswith(".") else f"./{path}"
 
 
 def _metadata(lines: Iterable[Line], folder: str) -> list[str]:

@@ -9,7 +9,7 @@ from random import Random
 from typing import Any
 
 from .files import FIELD3D, FRAME, FRAMES, SOURCES, Grid, Point, Source, original
-from .model import ABSENT, Attribute, File, Layer, Prim, Relationship
+from .model import ABSENT, Attribute, Expression, File, Layer, Prim, Relationship
 from .subjects import Choice, FieldPart, VolumeSubject, new_layer
 
 FILES = ("static", "several", "sequence", "own sequence", "clips", "template clips", "field3d")
@@ -17,6 +17,12 @@ FILES = ("static", "several", "sequence", "own sequence", "clips", "template cli
 
 PLACES = ("below", "group", "beside")
 """Where the fields are: below the Volume, in a group there, or outside of it."""
+
+PATTERNS = ("plain", "held", "looped", "blocked", "rest frame", "every file twice")
+"""How a sequence of its own goes through its files."""
+
+MOVEMENTS = ("none", "volume", "group", "field")
+"""What has a transform; a group of the Volume and its fields moves them together."""
 
 _NAMES = ("density", "heat", "temperature", "velocity", "flame", "fuel", "smoke_2", "Cd")
 
@@ -27,6 +33,8 @@ def choose(rng: Random, needs: dict[str, Any]) -> Choice:
         "files": rng.choice(FILES),
         "place": rng.choice(("below", *PLACES)),
         "count": rng.choice((1, 1, 2, 2, 3, 4)),
+        "pattern": rng.choice(("plain", *PATTERNS)),
+        "movement": rng.choice(("none", *MOVEMENTS)),
     }
     for name, wanted in needs.items():
         if name in drawn:
@@ -38,9 +46,12 @@ def volume(rng: Random, name: str, needs: dict[str, Any]) -> VolumeSubject:
     """A Volume with one to four fields, right in every way that the rules know of."""
     choice = choose(rng, needs)
     layer = new_layer(rng, name)
-    is_root = choice.place != "beside" and rng.random() < 0.3
+    if choice.place == "beside" and choice.movement != "group":
+        choice = choice._replace(movement="none")
+    is_root = choice.place != "beside" and choice.movement != "group" and rng.random() < 0.3
     prim = Prim(f"{name}_cloud", "Volume")
-    layer.prims = [prim if is_root else Prim(name, rng.choice(("Xform", "Scope")))]
+    kind = "Xform" if choice.movement == "group" else rng.choice(("Xform", "Scope"))
+    layer.prims = [prim if is_root else Prim(name, kind)]
     if not is_root:
         layer.prims[0].children.append(prim)
     path = f"/{prim.name}" if is_root else f"/{name}/{prim.name}"
@@ -66,7 +77,8 @@ def _add_fields(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
         targets = [_forwarded(subject, part, rng)]
         subject.prim.properties[part.relationship] = Relationship(targets, rng.random() < 0.3)
         if choice.files in ("static", "several", "field3d"):
-            prim.properties["filePath"] = Attribute("asset", File(source.path))
+            named = rng.choice((File, File, File, Expression))(source.path)
+            prim.properties["filePath"] = Attribute("asset", named)
     if choice.files.endswith("sequence"):
         _add_sequence(subject, choice, rng)
     elif choice.files.endswith("clips"):
@@ -120,11 +132,28 @@ def _add_sequence(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
     """Time samples: shared files as they are, or own ones of any length, number and step."""
     frames = _shared_frames(rng) if choice.files == "sequence" else _own_frames(subject, rng)
     start, step = rng.choice((1, 1, 0, -5, 1001, 0.5)), rng.choice((1, 1, 1, 2, 0.5, 0.25))
+    if choice.files == "own sequence":
+        frames = _arranged(frames, choice.pattern)
     samples = {start + number * step: frame for number, frame in enumerate(frames)}
+    if choice.pattern == "rest frame" and choice.files == "own sequence":
+        samples[start - 50 * step] = frames[0]
     for part in subject.fields:
         part.prim.properties["filePath"] = Attribute("asset", samples=dict(samples))
         part.prim.properties.pop("fieldClass", None)
         part.prim.attribute("fieldDataType").value = "float"
+
+
+def _arranged(frames: list[File], pattern: str) -> list[File | None]:
+    """The frames in the order in which samples name them."""
+    if pattern == "held":
+        return [*frames[:3], frames[2], *frames[3:]]
+    if pattern == "looped":
+        return frames * 2
+    if pattern == "blocked":
+        return [*frames[:-1], None]
+    if pattern == "every file twice":
+        return [frame for frame in frames for _ in range(2)]
+    return list(frames)
 
 
 def _shared_frames(rng: Random) -> list[File]:
@@ -235,6 +264,8 @@ def _add_extent(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
     if choice.files == "sequence":
         low, high = (0, 0, 0), (1, 1, 1)
     slack = rng.choice((0.001, 0.01, 1, 1000))
+    if choice.movement == "field":
+        low, high = _move_field(subject, low, high)
     corners = [tuple(x - slack for x in low), tuple(x + slack for x in high)]
     extent = Attribute("float3[]", corners)
     if choice.files.endswith("sequence") and rng.random() < 0.3:
@@ -243,16 +274,31 @@ def _add_extent(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
     subject.prim.properties["extent"] = extent
 
 
+def _move_field(subject: VolumeSubject, low: Point, high: Point) -> tuple[Point, Point]:
+    """One field moves within its Volume, and the bounds grow along."""
+    _translate(subject.fields[0].prim)
+    moved = [tuple(x + by for x, by in zip(corner, _MOVED, strict=True)) for corner in (low, high)]
+    lows, highs = zip(low, moved[0], strict=True), zip(high, moved[1], strict=True)
+    return tuple(map(min, lows)), tuple(map(max, highs))  # type: ignore[return-value]
+
+
+_MOVED = (1.5, -2, 0.25)
+
+
+def _translate(prim: Prim) -> None:
+    prim.properties["xformOp:translate"] = Attribute("double3", _MOVED)
+    order = Attribute("token[]", ["xformOp:translate"], is_uniform=True)
+    prim.properties["xformOpOrder"] = order
+
+
 def _decorate(subject: VolumeSubject, rng: Random) -> None:
     """What else a Volume may carry, and what does not matter to the rules."""
     properties = subject.prim.properties
     if rng.random() < 0.3:
         properties["purpose"] = Attribute("token", rng.choice(("render", "default")))
         properties["purpose"].is_uniform = True
-    if subject.choice.place != "beside" and rng.random() < 0.3:
-        properties["xformOp:translate"] = Attribute("double3", (1.5, -2, 0.25))
-        order = Attribute("token[]", ["xformOp:translate"], is_uniform=True)
-        properties["xformOpOrder"] = order
+    if subject.choice.movement in ("volume", "group"):
+        _translate(subject.prim if subject.choice.movement == "volume" else subject.root)
     if rng.random() < 0.2:
         properties["primvars:displayColor"] = Attribute("color3f[]", [(0.2, 0.3, 0.9)])
     if rng.random() < 0.2:
