@@ -28,8 +28,12 @@ class Tally(NamedTuple):
     missed: tuple[str, ...] = ()
     different: tuple[str, ...] = ()
 
-    def __add__(self, other: Tally) -> Tally:  # type: ignore[override]
-        return Tally(*(mine + more for mine, more in zip(self, other, strict=True)))
+    def with_more(self, more: Tally) -> Tally:
+        return Tally(
+            self.stages + more.stages,
+            self.missed + more.missed,
+            self.different + more.different,
+        )
 
 
 def main() -> int:
@@ -39,7 +43,7 @@ def main() -> int:
     tally = Tally()
     try:
         for part in _parts(chosen):
-            tally += part
+            tally = tally.with_more(part)
             _print_new(part, tally)
     except FailedError as error:
         print(f"the tool failed: {error}")

@@ -25,7 +25,7 @@ class Grid(NamedTuple):
     low: Point
     high: Point
     roles: tuple[str, ...] = ()
-    index: int | None = None
+    field_index: int | None = None
     purpose: str | None = None
 
 
@@ -54,9 +54,16 @@ _FLOAT = ("float", "fogVolume")
 _ROLES = ("Vector", "Color", "Normal", "None")
 
 
-def _density(path: str, *, data_types: tuple[str, ...] = ("float",), kind: str = "fogVolume",
-             corners: tuple[Point, Point] = _BOX, index: int | None = None) -> Source:  # fmt: skip
-    return Source(shared(path), (Grid("density", data_types, kind, *corners, index=index),))
+def _density(
+    path: str,
+    *,
+    data_types: tuple[str, ...] = ("float",),
+    kind: str = "fogVolume",
+    corners: tuple[Point, Point] = _BOX,
+    field_index: int | None = None,
+) -> Source:
+    grid = Grid("density", data_types, kind, *corners, field_index=field_index)
+    return Source(shared(path), (grid,))
 
 
 def _cloud() -> Source:
@@ -100,8 +107,9 @@ def _sample(described: dict[str, Any]) -> Source:
                 grid["name"],
                 _sample_data_types(grid),
                 tokens.get(grid["class"], "unknown"),
-                *map(tuple, grid["wbbox"]),
-                roles=(_ROLES if is_plain else ("Vector",)) if is_vector else (),
+                tuple(grid["wbbox"][0]),
+                tuple(grid["wbbox"][1]),
+                (_ROLES if is_plain else ("Vector",)) if is_vector else (),
             )
         )
     return Source(shared(f"samples/{described['file']}"), tuple(grids))
@@ -126,7 +134,7 @@ SOURCES = (
     _density("grids/double.vdb", data_types=("double",)),
     _density("grids/unclassed.vdb", kind="unknown"),
     _density("grids/no_voxels.vdb"),
-    _density("grids/same_name.vdb", index=0),
+    _density("grids/same_name.vdb", field_index=0),
     _density("grids/turned.vdb", corners=((0.2, 0.2, 0.1), (0.8, 0.82, 0.55))),
     _velocity("grids/velocity.vdb", "staggered", ("Vector",)),
     _velocity("grids/untyped_velocity.vdb", "unknown", _ROLES),

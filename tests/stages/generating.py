@@ -6,12 +6,14 @@ from random import Random
 from typing import Any, NamedTuple
 
 from .arcs import ARCS, Arc, Placed, place
-from .defects import DEFECTS, Defect
+from .defects import DEFECTS
+from .defects.declaration import Defect
 from .model import Expected, File, Layer, Prim, Scene
 from .neighbours import NEIGHBOURS
 from .particles import particles
+from .sequences import PATTERNS
 from .subjects import Subject
-from .volumes import FILES, MOVEMENTS, PATTERNS, PLACES, volume
+from .volumes import FILES, MOVEMENTS, PLACES, volume
 
 
 class Generated(NamedTuple):

@@ -55,7 +55,7 @@ class Choice(NamedTuple):
 
     files: str = "static"
     place: str = "below"
-    count: int = 1
+    fields: int = 1
     pattern: str = "plain"
     movement: str = "none"
 

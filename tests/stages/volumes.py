@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Sequence
-from itertools import groupby
 from random import Random
 from typing import Any
 
-from .files import FIELD3D, FRAME, FRAMES, SOURCES, Grid, Point, Source, original
-from .model import ABSENT, Attribute, Expression, File, Layer, Prim, Relationship
+from .files import FIELD3D, FRAME, SOURCES, Grid, Point, Source
+from .model import ABSENT, Attribute, Expression, File, Prim, Relationship
+from .sequences import PATTERNS, add_clips, add_sequence
 from .subjects import Choice, FieldPart, VolumeSubject, new_layer
 
 FILES = ("static", "several", "sequence", "own sequence", "clips", "template clips", "field3d")
@@ -17,9 +16,6 @@ FILES = ("static", "several", "sequence", "own sequence", "clips", "template cli
 
 PLACES = ("below", "group", "beside")
 """Where the fields are: below the Volume, in a group there, or outside of it."""
-
-PATTERNS = ("plain", "held", "looped", "blocked", "rest frame", "every file twice")
-"""How a sequence of its own goes through its files."""
 
 MOVEMENTS = ("none", "volume", "group", "field")
 """What has a transform; a group of the Volume and its fields moves them together."""
@@ -29,10 +25,10 @@ _NAMES = ("density", "heat", "temperature", "velocity", "flame", "fuel", "smoke_
 
 def choose(rng: Random, needs: dict[str, Any]) -> Choice:
     """Drawn, but for what a defect needs: a tuple to choose from, or a value."""
-    drawn = {
+    drawn: dict[str, Any] = {
         "files": rng.choice(FILES),
         "place": rng.choice(("below", *PLACES)),
-        "count": rng.choice((1, 1, 2, 2, 3, 4)),
+        "fields": rng.choice((1, 1, 2, 2, 3, 4)),
         "pattern": rng.choice(("plain", *PATTERNS)),
         "movement": rng.choice(("none", *MOVEMENTS)),
     }
@@ -65,7 +61,7 @@ def volume(rng: Random, name: str, needs: dict[str, Any]) -> VolumeSubject:
 
 def _add_fields(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
     parent, above = _parent(subject, choice)
-    names = rng.sample(_NAMES, choice.count)
+    names = rng.sample(_NAMES, choice.fields)
     sources = _sources(choice, rng)
     for number, name in enumerate(names):
         source = sources[number % len(sources)]
@@ -80,9 +76,9 @@ def _add_fields(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
             named = rng.choice((File, File, File, Expression))(source.path)
             prim.properties["filePath"] = Attribute("asset", named)
     if choice.files.endswith("sequence"):
-        _add_sequence(subject, choice, rng)
+        add_sequence(subject, choice, rng)
     elif choice.files.endswith("clips"):
-        _add_clips(subject, choice, rng)
+        add_clips(subject, choice, rng)
 
 
 def _parent(subject: VolumeSubject, choice: Choice) -> tuple[Prim, str]:
@@ -123,132 +119,9 @@ def _said(grid: Grid, source: Source, rng: Random) -> dict[str, Attribute | Rela
         said["fieldClass"] = Attribute("token", grid.field_class)
     if grid.roles and rng.random() < 0.7:
         said["vectorDataRoleHint"] = Attribute("token", rng.choice(grid.roles))
-    if grid.index is not None or rng.random() < 0.1:
-        said["fieldIndex"] = Attribute("int", grid.index or 0)
+    if grid.field_index is not None or rng.random() < 0.1:
+        said["fieldIndex"] = Attribute("int", grid.field_index or 0)
     return said
-
-
-def _add_sequence(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
-    """Time samples: shared files as they are, or own ones of any length, number and step."""
-    frames = _shared_frames(rng) if choice.files == "sequence" else _own_frames(subject, rng)
-    start, step = rng.choice((1, 1, 0, -5, 1001, 0.5)), rng.choice((1, 1, 1, 2, 0.5, 0.25))
-    if choice.files == "own sequence":
-        frames = _arranged(frames, choice.pattern)
-    samples = {start + number * step: frame for number, frame in enumerate(frames)}
-    if choice.pattern == "rest frame" and choice.files == "own sequence":
-        samples[start - 50 * step] = frames[0]
-    for part in subject.fields:
-        part.prim.properties["filePath"] = Attribute("asset", samples=dict(samples))
-        part.prim.properties.pop("fieldClass", None)
-        part.prim.attribute("fieldDataType").value = "float"
-
-
-def _arranged(frames: list[File], pattern: str) -> list[File | None]:
-    """The frames in the order in which samples name them."""
-    if pattern == "held":
-        return [*frames[:3], frames[2], *frames[3:]]
-    if pattern == "looped":
-        return frames * 2
-    if pattern == "blocked":
-        return [*frames[:-1], None]
-    if pattern == "every file twice":
-        return [frame for frame in frames for _ in range(2)]
-    return list(frames)
-
-
-def _shared_frames(rng: Random) -> list[File]:
-    frames = [File(source.path) for source in rng.choice(FRAMES)]
-    return frames[::-1] if rng.random() < 0.2 else frames
-
-
-def _own_frames(subject: VolumeSubject, rng: Random) -> list[File]:
-    first, pace = rng.choice((1, 1, 0, 95, 1001)), rng.choice((1, 1, 2))
-    digits = rng.choice((1, 4, 4, 6))
-    separator = rng.choice(("._", ".", "_"))
-    folder = posixpath.dirname(subject.layer.path)
-    stem = posixpath.join(folder, rng.choice(("", "vdb/", "sim v2/")) + subject.prim.name)
-    numbers = range(first, first + pace * rng.randint(7, 12), pace)
-    paths = [f"{stem}{separator}{number:0{digits}}.vdb" for number in numbers]
-    subject.content.files.update(dict.fromkeys(paths, original(FRAME.path).read_bytes()))
-    return list(map(File, paths))
-
-
-def _add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
-    """One value clip for every few frames, explicit or by a template, with a manifest or without.
-
-    USD makes no manifest for a template set that names clips of several frames alike, so this has
-    one clip for each frame.
-    """
-    each = 1 if choice.files == "template clips" else rng.randint(1, 3)
-    frames = _own_frames(subject, rng)
-    groups = [
-        [frame for _, frame in members]
-        for _, members in groupby(enumerate(frames), lambda item: item[0] // each)
-    ]
-    folder = posixpath.dirname(subject.layer.path)
-    stem = posixpath.join(folder, f"{subject.prim.name}_clip")
-    time = 1
-    clips = []
-    for number, members in enumerate(groups, start=1):
-        samples = {time + index: frame for index, frame in enumerate(members)}
-        clips.append(_clip(subject, f"{stem}.{number:03}.usda", samples))
-        time += len(members)
-    subject.content.layers += clips
-    manifest = f"{stem}.manifest.usda"
-    has_manifest = choice.files == "template clips" or rng.random() < 0.7
-    if has_manifest:
-        subject.content.layers.append(_clip(subject, manifest, {}))
-    bearer = subject.root if choice.place == "beside" else subject.prim
-    bearer.metadata += [
-        ("clips = {",),
-        ("    dictionary default = {",),
-        (f'        string primPath = "{subject.find(bearer)}"',),
-        *_clip_set(choice, clips, each, len(frames)),
-        *([("        asset manifestAssetPath = ", File(manifest))] if has_manifest else []),
-        ("    }",),
-        ("}",),
-    ]
-    for part in subject.fields:
-        part.prim.properties.pop("fieldClass", None)
-        part.prim.attribute("fieldDataType").value = "float"
-
-
-def _clip_set(choice: Choice, clips: list[Layer], each: int, count: int) -> list[Any]:
-    if choice.files == "template clips":
-        name = posixpath.basename(clips[0].path)
-        template = name.replace("001", "###")
-        return [
-            (f'        string templateAssetPath = "./{template}"',),
-            ("        double templateStartTime = 1",),
-            (f"        double templateEndTime = {len(clips)}",),
-            ("        double templateStride = 1",),
-        ]
-    paths: list[str | File] = []
-    for clip in clips:
-        paths += [", " if paths else "", File(clip.path)]
-    active = ", ".join(f"({1 + number * each}, {number})" for number in range(len(clips)))
-    return [
-        ("        asset[] assetPaths = [", *paths, "]"),
-        (f"        double2[] active = [{active}]",),
-        (f"        double2[] times = [(1, 1), ({count}, {count})]",),
-    ]
-
-
-def _clip(subject: VolumeSubject, path: str, samples: dict[float, File]) -> Layer:
-    """A layer of overs down to the fields; without samples it declares the attribute alone."""
-    layer = Layer(path)
-    for part in subject.fields:
-        prims = layer.prims
-        for name in part.path[1:].split("/"):
-            found = next((prim for prim in prims if prim.name == name), None)
-            if found is None:
-                found = Prim(name, specifier="over")
-                prims.append(found)
-            prims = found.children
-        found.properties["filePath"] = Attribute("asset", samples=dict(samples))
-        if samples:
-            part.clips.append(found.attribute("filePath"))
-    return layer
 
 
 def _add_extent(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
@@ -295,8 +168,8 @@ def _decorate(subject: VolumeSubject, rng: Random) -> None:
     """What else a Volume may carry, and what does not matter to the rules."""
     properties = subject.prim.properties
     if rng.random() < 0.3:
-        properties["purpose"] = Attribute("token", rng.choice(("render", "default")))
-        properties["purpose"].is_uniform = True
+        purpose = rng.choice(("render", "default"))
+        properties["purpose"] = Attribute("token", purpose, is_uniform=True)
     if subject.choice.movement in ("volume", "group"):
         _translate(subject.prim if subject.choice.movement == "volume" else subject.root)
     if rng.random() < 0.2:

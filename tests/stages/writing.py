@@ -69,6 +69,7 @@ def _write_package(path: Path, contents: dict[str, bytes]) -> None:
     with ZipFile(path, "w", ZIP_STORED) as package:
         for name, data in contents.items():
             entry = ZipInfo(name)
+            assert package.fp
             start = package.fp.tell() + _ZIP_HEADER + len(name.encode())
             padding = -(start + 4) % _ALIGNMENT
             entry.extra = struct.pack("<HH", _PADDING, padding) + bytes(padding)

@@ -49,7 +49,7 @@ def file_missing(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, rng.choice(("./gone.vdb", "./not/there.vdb", "gone.vdb")))
 
 
-@on_volume("AST002", needs={"files": ("own sequence", "clips", "template clips"), "count": 1})
+@on_volume("AST002", needs={"files": ("own sequence", "clips", "template clips"), "fields": 1})
 def frame_missing(subject: VolumeSubject, rng: Random) -> Prim:
     part = any_field(subject, rng)
     attribute = rng.choice(part.file_paths)
@@ -183,7 +183,7 @@ def gap(subject: VolumeSubject, rng: Random) -> Prim:
     return part.prim
 
 
-@on_volume("AST012", needs={**A_RUN, "count": 1}, perhaps=("AST012",))
+@on_volume("AST012", needs={**A_RUN, "fields": 1}, perhaps=("AST012",))
 def range_elsewhere(subject: VolumeSubject, rng: Random) -> Prim:
     subject.time_range = (1_000_000, 1_000_100)
     return any_field(subject, rng).prim
@@ -198,7 +198,7 @@ def frame_out_of_order(subject: VolumeSubject, rng: Random) -> Prim:
     return part.prim
 
 
-@on_volume("AST014", needs={"files": "template clips", "count": 1})
+@on_volume("AST014", needs={"files": "template clips", "fields": 1})
 def manifest_without_path(subject: VolumeSubject, rng: Random) -> Prim:
     [part] = subject.fields
     manifest = next(each for each in subject.content.layers if "manifest" in each.path)
@@ -209,6 +209,6 @@ def manifest_without_path(subject: VolumeSubject, rng: Random) -> Prim:
     return part.prim
 
 
-@on_volume("AST015", needs={**ONE_FILE, "count": 1}, within="package", also=("AST002",))
+@on_volume("AST015", needs={**ONE_FILE, "fields": 1}, within="package", also=("AST002",))
 def outside_package(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "../../../../elsewhere/cloud.vdb")

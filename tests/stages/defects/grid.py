@@ -118,7 +118,7 @@ def frustum(subject: VolumeSubject, rng: Random) -> Prim:
     return field_of(subject, rng, path, **_DENSITY)
 
 
-@on_volume("GRD013", needs={**A_RUN, "count": 1})
+@on_volume("GRD013", needs={**A_RUN, "fields": 1})
 def type_changes(subject: VolumeSubject, rng: Random) -> Prim:
     part = any_field(subject, rng)
     frames = list(part.prim.attribute("filePath").samples.values())
@@ -128,7 +128,7 @@ def type_changes(subject: VolumeSubject, rng: Random) -> Prim:
     return part.prim
 
 
-@on_volume("GRD003", needs={**A_RUN, "count": 1})
+@on_volume("GRD003", needs={**A_RUN, "fields": 1})
 def grid_missing_in_a_frame(subject: VolumeSubject, rng: Random) -> Prim:
     part = any_field(subject, rng)
     frames = list(part.prim.attribute("filePath").samples.values())

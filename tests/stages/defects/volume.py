@@ -62,7 +62,7 @@ def target_in_a_circle(subject: VolumeSubject, rng: Random) -> None:
     subject.prim.properties[relationship] = Relationship([f"{subject.path}.back"])
 
 
-@on_volume("VOL004", needs={"count": (2, 3, 4)})
+@on_volume("VOL004", needs={"fields": (2, 3, 4)})
 def two_targets(subject: VolumeSubject, rng: Random) -> None:
     one = _bound(subject, rng)
     other = next(each for each in subject.fields if each is not one)
@@ -159,7 +159,7 @@ def extent_cuts_one_side(subject: VolumeSubject, rng: Random) -> None:
     subject.prim.properties["extent"] = Attribute("float3[]", [(x, y, 0.55), high])
 
 
-@on_volume("VOL014", needs={"files": "several", "count": (2, 3)}, is_info=True)
+@on_volume("VOL014", needs={"files": "several", "fields": (2, 3)}, is_info=True)
 def mixed_files(subject: VolumeSubject, rng: Random) -> None:
     pass
 
