@@ -74,6 +74,8 @@ def _target(placed: Placed) -> tuple[str | File, ...]:
 def _new(scene: Scene, name: str, rng: Random, prims: list[Prim]) -> Layer:
     layer = new_layer(rng, name, ("usda", "usda", "usda", "usda", "usd"))
     layer.prims = prims
+    if rng.random() < 0.15:
+        layer.metadata.append((f"timeCodesPerSecond = {rng.choice((12, 25, 48))}",))
     scene.layers.append(layer)
     return layer
 

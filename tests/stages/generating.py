@@ -10,7 +10,7 @@ from .defects import DEFECTS
 from .defects.declaration import Defect
 from .model import Expected, File, Layer, Prim, Scene
 from .neighbours import NEIGHBOURS
-from .particles import particles
+from .particles import LOOKS, particles
 from .sequences import PATTERNS
 from .subjects import Subject
 from .volumes import FILES, MOVEMENTS, PLACES, volume
@@ -34,6 +34,8 @@ FEATURES = frozenset(
         *(f"arc {arc.name}" for arc in ARCS),
         *(f"files {name}" for name in FILES),
         *(f"fields {name}" for name in PLACES),
+        "fields shared",
+        *(f"particles {name}" for name in LOOKS),
         *(f"sequence {name}" for name in PATTERNS),
         *(f"movement {name}" for name in MOVEMENTS),
         *(f"beside {each.name}" for each in NEIGHBOURS),
@@ -78,7 +80,7 @@ class _Making:
         """One subject with the defect, and perhaps another that is right."""
         is_on_scene = defect.on == "scene"
         kind = self.rng.choice(("volume", "particles")) if is_on_scene else defect.on
-        needs = {"pattern": "plain"} | {
+        needs = {"pattern": "plain", "twin": False, "look": "plain"} | {
             name: self.rng.choice(wanted) if isinstance(wanted, tuple) else wanted
             for name, wanted in defect.needs.items()
         }
@@ -109,11 +111,14 @@ class _Making:
         name = f"{'abc'[index]}{self.rng.choice(('sset', 'set', 'shot'))}"
         if kind == "volume":
             made = volume(self.rng, name, needs)
-            files, place, _, pattern, movement = made.choice
+            files, place, _, pattern, movement, _ = made.choice
             self.features |= {f"files {files}", f"fields {place}", f"movement {movement}"}
             self.features |= {f"sequence {pattern}"} if files == "own sequence" else set()
+            has_twin = any(each.name.endswith("_twin") for each in made.root.children)
+            self.features |= {"fields shared"} if has_twin else set()
             return made
         splat = particles(self.rng, name, needs)
+        self.features.add(f"particles {splat.look}")
         positions = splat.name_of("positions")
         self.features |= {f"particles {'half' if positions.endswith('h') else 'float'}"}
         self.features |= {f"degree {splat.degree}"} if splat.degree < 4 else set()

@@ -6,7 +6,7 @@ from math import sqrt
 from random import Random
 from typing import Any
 
-from .model import ABSENT, Attribute, Prim
+from .model import ABSENT, Attribute, Prim, Relationship
 from .subjects import ParticleSubject, new_layer
 
 APIS = (
@@ -34,6 +34,11 @@ _ARRAYS = {
 }
 
 
+LOOKS = ("plain", "material", "colour space", "empty twins", "held")
+"""What else there is: a bound material, the name of a colour space, arrays of the other precision
+that are empty, and arrays that hold one value at all their times."""
+
+
 def particles(rng: Random, name: str, needs: dict[str, Any]) -> ParticleSubject:
     """A particle field, right in every way that the rules know of.
 
@@ -52,11 +57,12 @@ def particles(rng: Random, name: str, needs: dict[str, Any]) -> ParticleSubject:
     subject.content.layers.append(layer)
     if type_name == "ParticleField":
         applied = [api for api in APIS if "Kernel" not in api] + [rng.choice(KERNELS)]
-        names = ", ".join(f'"{api}"' for api in applied)
-        prim.metadata.append((f"prepend apiSchemas = [{names}]",))
+        apply(prim, *applied)
     prim.properties["extent"] = Attribute("float3[]", [(-2, -2, -2), (2, 2, 2)])
     _add_arrays(subject, rng, needs)
     _add_radiance(subject, rng)
+    subject.look = needs.get("look") or rng.choice(("plain", *LOOKS))
+    _add_look(subject)
     _decorate(subject, rng)
     return subject
 
@@ -117,6 +123,34 @@ def _add_radiance(subject: ParticleSubject, rng: Random) -> None:
         size = (subject.degree + 1) ** 2
         coefficients = subject.array(COEFFICIENTS)
         coefficients.metadata += [(f"elementSize = {size}",), ('interpolation = "vertex"',)]
+
+
+def _add_look(subject: ParticleSubject) -> None:
+    properties = subject.prim.properties
+    if subject.look == "material":
+        subject.prim.children.append(Prim("look", "Material"))
+        properties["material:binding"] = Relationship([f"{subject.path}/look"])
+        apply(subject.prim, "MaterialBindingAPI")
+    elif subject.look == "colour space":
+        apply(subject.prim, "ColorSpaceAPI")
+        properties["colorSpace:name"] = Attribute("token", "g22_rec709_scene", is_uniform=True)
+    elif subject.look == "empty twins":
+        for name, types in _ARRAYS.items():
+            for twin, kind in zip((name, f"{name}h"), types, strict=True):
+                properties.setdefault(twin, Attribute(kind, []))
+    elif subject.look == "held":
+        scales = properties.get("scales") or properties.get("scalesh")
+        if isinstance(scales, Attribute) and not scales.samples:
+            scales.samples = dict.fromkeys((1, 2, 3.5), scales.value)
+
+
+def apply(prim: Prim, *apis: str) -> None:
+    """Applies APIs besides those that are applied already."""
+    applied = [line for line in prim.metadata if "apiSchemas" in str(line[0])]
+    known = [api for line in applied for api in str(line[0]).split('"')[1::2]]
+    names = ", ".join(f'"{api}"' for api in (*known, *apis))
+    kept = [line for line in prim.metadata if line not in applied]
+    prim.metadata = [*kept, (f"prepend apiSchemas = [{names}]",)]
 
 
 def _decorate(subject: ParticleSubject, rng: Random) -> None:

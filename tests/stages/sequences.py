@@ -123,7 +123,7 @@ def _clip(subject: VolumeSubject, path: str, samples: Mapping[int, File]) -> Lay
             prim = known[0] if known else Prim(name, specifier="over")
             prims += [] if known else [prim]
             prims = prim.children
-        prim.properties["filePath"] = Attribute("asset", samples={**samples})
+        prim.properties["filePath"] = Attribute("asset", samples=dict(samples.items()))
         if samples:
             part.clips.append(prim.attribute("filePath"))
     return layer

@@ -58,6 +58,7 @@ class Choice(NamedTuple):
     fields: int = 1
     pattern: str = "plain"
     movement: str = "none"
+    twin: bool = False
 
 
 @dataclass
@@ -70,6 +71,7 @@ class VolumeSubject(Subject):
 class ParticleSubject(Subject):
     count: int = 0
     degree: int = 0
+    look: str = "plain"
     is_changing: bool = False
     """Whether the number of particles is another at each time."""
 

@@ -31,6 +31,7 @@ def choose(rng: Random, needs: dict[str, Any]) -> Choice:
         "fields": rng.choice((1, 1, 2, 2, 3, 4)),
         "pattern": rng.choice(("plain", *PATTERNS)),
         "movement": rng.choice(("none", *MOVEMENTS)),
+        "twin": rng.random() < 0.3,
     }
     for name, wanted in needs.items():
         if name in drawn:
@@ -55,6 +56,8 @@ def volume(rng: Random, name: str, needs: dict[str, Any]) -> VolumeSubject:
     subject.content.layers.append(layer)
     _add_fields(subject, choice, rng)
     _add_extent(subject, choice, rng)
+    if choice.twin and not is_root and choice.movement != "volume":
+        _add_twin(subject)
     _decorate(subject, rng)
     return subject
 
@@ -122,6 +125,15 @@ def _said(grid: Grid, source: Source, rng: Random) -> dict[str, Attribute | Rela
     if grid.field_index is not None or rng.random() < 0.1:
         said["fieldIndex"] = Attribute("int", grid.field_index or 0)
     return said
+
+
+def _add_twin(subject: VolumeSubject) -> None:
+    """Another Volume of the same fields: they are shared, wherever they are."""
+    twin = Prim(f"{subject.prim.name}_twin", "Volume")
+    twin.properties["extent"] = subject.prim.properties["extent"]
+    for part in subject.fields:
+        twin.properties[part.relationship] = Relationship([part.path])
+    subject.root.children.append(twin)
 
 
 def _add_extent(subject: VolumeSubject, choice: Choice, rng: Random) -> None:

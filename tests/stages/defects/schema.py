@@ -42,7 +42,7 @@ def path_is_a_string(subject: VolumeSubject, rng: Random) -> Prim:
     return prim
 
 
-@on_volume("SCH003")
+@on_volume("SCH003", needs={"files": ("own sequence", "clips", "field3d")})
 def index_is_a_float(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
     prim.properties["fieldIndex"] = Attribute("float", 0.0)
