@@ -1,0 +1,74 @@
+"""Field prims."""
+
+from __future__ import annotations
+
+from random import Random
+
+from ..model import Attribute, File, Layer, Prim
+from .declaration import A_RUN, ONE_FILE, VolumeSubject, any_field, field_of, on_volume
+
+
+@on_volume("FLD001", needs=ONE_FILE)
+def no_name(subject: VolumeSubject, rng: Random) -> Prim:
+    """Of one of several grids: where a file has but one, it is clear which is meant."""
+    return field_of(subject, rng, "cloud.vdb", fieldDataType="float")
+
+
+@on_volume("FLD001", needs=ONE_FILE)
+def name_empty(subject: VolumeSubject, rng: Random) -> Prim:
+    return field_of(subject, rng, "cloud.vdb", fieldName="", fieldDataType="float")
+
+
+@on_volume("FLD002", is_info=True)
+def no_data_type(subject: VolumeSubject, rng: Random) -> Prim:
+    prim = any_field(subject, rng).prim
+    del prim.properties["fieldDataType"]
+    return prim
+
+
+@on_volume("FLD003", needs=A_RUN, is_info=True)
+def role_of_a_scalar(subject: VolumeSubject, rng: Random) -> Prim:
+    prim = any_field(subject, rng).prim
+    prim.properties["vectorDataRoleHint"] = Attribute("token", "Color")
+    return prim
+
+
+@on_volume("FLD004")
+def index_negative(subject: VolumeSubject, rng: Random) -> Prim:
+    prim = any_field(subject, rng).prim
+    prim.properties["fieldIndex"] = Attribute("int", rng.choice((-1, -7)))
+    return prim
+
+
+@on_volume("FLD005", needs={"files": "static"}, is_info=True)
+def index_of_the_second(subject: VolumeSubject, rng: Random) -> Prim:
+    said = {"fieldName": "density", "fieldDataType": "float", "fieldIndex": 1}
+    return field_of(subject, rng, "grids/same_name.vdb", **said)
+
+
+@on_volume("FLD006", needs=A_RUN)
+def default_over_samples(subject: VolumeSubject, rng: Random) -> Prim:
+    """A stronger layer names one file for all times."""
+    part = any_field(subject, rng)
+    prim = over = Prim(part.prim.name, specifier="over")
+    first = next(iter(part.prim.attribute("filePath").samples.values()))
+    prim.properties["filePath"] = Attribute("asset", first)
+    for name in reversed(part.path[1:].split("/")[:-1]):
+        over = Prim(name, specifier="over", children=[over])
+    layer = Layer(f"{subject.root.name}_over.usda", [over])
+    layer.metadata.append(("subLayers = [", File(subject.layer.path), "]"))
+    subject.content.layers.append(layer)
+    subject.layer = layer
+    return prim
+
+
+@on_volume("FLD007", needs={"files": "field3d"}, is_info=True)
+def field3d(subject: VolumeSubject, rng: Random) -> Prim:
+    return any_field(subject, rng).prim
+
+
+@on_volume("FLD008", is_info=True)
+def extent_on_the_field(subject: VolumeSubject, rng: Random) -> Prim:
+    prim = any_field(subject, rng).prim
+    prim.properties["extent"] = Attribute("float3[]", [(0, 0, 0), (1, 1, 1)])
+    return prim
