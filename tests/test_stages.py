@@ -14,7 +14,7 @@ from stages.model import Expected
 from stages.usda import layer_text
 from stages.writing import write_scene, write_shared
 
-from usdvol_lint.engine import Engine
+from usdvol_lint.engine.engine import Engine
 
 SEED = 26
 COUNT = 2 * len(DEFECTS)

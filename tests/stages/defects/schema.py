@@ -6,13 +6,7 @@ from random import Random
 
 from ..model import Attribute, Prim
 from ..subjects import ParticleSubject
-from .declaration import (
-    ONE_FILE,
-    VolumeSubject,
-    any_field,
-    on_particles,
-    on_volume,
-)
+from .declaration import ONE_FILE, VolumeSubject, any_field, on_particles, on_volume
 
 
 @on_volume("SCH001", needs=ONE_FILE)
