@@ -10,7 +10,7 @@ demo: $(READY)
 	$(BIN)/usdvol-lint --isolated --fail-on never docs/examples/broken
 
 test: $(READY)
-	$(BIN)/python -P -m pytest
+	$(BIN)/python -P -m pytest --numprocesses auto
 
 check: $(READY)
 	$(BIN)/ruff check .

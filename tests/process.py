@@ -11,7 +11,11 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parent.parent
-PACKS = Path(__file__).parent / "packs"
+ASSETS = ROOT / "rules" / "assets"
+"""The files that the examples of rule pages name."""
+SAMPLES = ROOT / "tests" / "samples"
+"""Volume files as OpenVDB, NanoVDB and Field3D wrote them."""
+PACKS = ROOT / "tests" / "packs"
 STUDIO = PACKS / "studio"
 """A pack with rules that report the same whatever rules are built in."""
 ROUGH = PACKS / "rough"

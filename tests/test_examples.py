@@ -11,11 +11,11 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from process import ROOT
 
 from usdvol_lint.command.cli import command
 from usdvol_lint.config import Config
 
-ROOT = Path(__file__).parent.parent
 GOLDEN = ROOT / "tests" / "golden" / "broken-shot.txt"
 GUIDES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
 PAGES = [*GUIDES, *ROOT.glob("rules/**/*.md")]

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from process import ROOT
 from pxr import Usd
 
 from usdvol_lint.schema import PARTICLE_FIELD_SINCE
@@ -107,7 +108,7 @@ def test_what_a_plugin_declares_is_believed(tmp_path: Path) -> None:
     (tmp_path / "generatedSchema.usda").write_text(SCHEMA, encoding="utf-8")
     (tmp_path / "stage.usda").write_text(STAGE, encoding="utf-8")
     options = ["--isolated", "--select", "PRT,SCH001,SCH010", "--output-format", "json"]
-    root = str(Path(__file__).parent.parent)
+    root = str(ROOT)
     run = subprocess.run(
         [sys.executable, "-P", "-m", "usdvol_lint", *options, "stage.usda"],
         cwd=tmp_path,

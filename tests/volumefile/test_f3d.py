@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from process import SAMPLES
 
 from usdvol_lint.volumefile import Grid, VolumeFile, VolumeFileError, read_volume_file
 
-SAMPLES = Path(__file__).parent / "samples"
 OGAWA, HDF5 = SAMPLES / "f3d_ogawa.f3d", SAMPLES / "f3d_hdf5.f3d"
 HAS_H5PY = importlib.util.find_spec("h5py") is not None
 needs_h5py = pytest.mark.skipif(not HAS_H5PY, reason="h5py is not installed")

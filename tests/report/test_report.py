@@ -15,6 +15,7 @@ import jsonschema  # type: ignore[import-untyped]
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from process import ROOT
 
 from usdvol_lint.model import (
     Finding,
@@ -30,11 +31,9 @@ from usdvol_lint.report import FORMATS, Options, render
 from usdvol_lint.report.json_report import SCHEMA_VERSION
 from usdvol_lint.report.text import verdict
 
-GOLDEN = Path(__file__).parent / "golden"
+GOLDEN = ROOT / "tests" / "golden"
 SCHEMA: dict[str, Any] = json.loads(
-    (
-        Path(__file__).parents[1] / f"usdvol_lint/report/report-{SCHEMA_VERSION}.schema.json"
-    ).read_text(encoding="utf-8")
+    (ROOT / f"usdvol_lint/report/report-{SCHEMA_VERSION}.schema.json").read_text(encoding="utf-8")
 )
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 HELP = "https://example.org/rules"

@@ -14,6 +14,7 @@ import pytest
 import vdbwriter
 from hypothesis import given
 from hypothesis import strategies as st
+from process import ASSETS, SAMPLES
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from usdvol_lint.config import Config, Depth
@@ -27,8 +28,6 @@ from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.volumefile import Grid, read_volume_file
 from usdvol_lint.volumefile.transform import Frustum, Transform, rows, scale_translate
 
-ASSETS = Path(__file__).parent.parent / "rules" / "assets"
-SAMPLES = Path(__file__).parent / "samples"
 Point = tuple[float, float, float]
 Lint = Callable[..., list[Finding]]
 

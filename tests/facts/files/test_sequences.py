@@ -9,13 +9,13 @@ from pathlib import Path
 from zipfile import ZipFile
 
 import pytest
+from process import ASSETS
 
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.sequences import Numbering, number
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]
-ASSETS = Path(__file__).parent.parent / "rules" / "assets"
 CODES = ("AST006", "AST007", "AST008", "AST009", "AST011", "AST012", "AST013", "AST015")
 
 

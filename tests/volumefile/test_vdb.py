@@ -19,6 +19,7 @@ import pytest
 import vdbwriter as w
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from process import SAMPLES
 
 from usdvol_lint.volumefile import (
     FileWarning,
@@ -29,7 +30,6 @@ from usdvol_lint.volumefile import (
     read_volume_file,
 )
 
-SAMPLES = Path(__file__).parent / "samples"
 EXPECTED: list[dict[str, Any]] = json.loads((SAMPLES / "expected.json").read_text("utf-8"))
 SYSTEM_PYTHON = "/usr/bin/python3"
 

@@ -11,10 +11,9 @@ from pathlib import Path
 
 import pytest
 import vdbwriter as w
+from process import SAMPLES
 
 from usdvol_lint.volumefile import VolumeFileError, file_key, read_volume_file, tokens, vdb, window
-
-SAMPLES = Path(__file__).parent / "samples"
 
 
 def code_of(path: Path | str, offset: int = 0, size: int | None = None) -> str:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import vdbwriter as w
+from process import SAMPLES
 
 from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
@@ -22,7 +23,6 @@ from usdvol_lint.volumefile.cache import Reading, VolumeFiles
 from usdvol_lint.volumefile.package import NotInPlaceError, Package
 
 Lint = Callable[..., StageReport]
-SAMPLES = Path(__file__).parent / "samples"
 FOG = {"class": w.string("fog volume"), **w.bounds((1, 1, 1), (8, 8, 8))}
 
 

@@ -7,13 +7,13 @@ import shutil
 from pathlib import Path
 
 import pytest
+
 from stages.defects import DEFECTS
 from stages.generating import FEATURES, Generated, generate
 from stages.judging import Found, misses
 from stages.model import Expected
 from stages.usda import layer_text
 from stages.writing import write_scene, write_shared
-
 from usdvol_lint.engine.engine import Engine
 
 SEED = 26

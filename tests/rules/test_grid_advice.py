@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 import vdbwriter
+from process import ROOT
 
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]
-ROOT = next(folder for folder in Path(__file__).parents if (folder / "rules").is_dir())
 ASSETS = ROOT / "rules" / "assets"
 FIELD3D = ROOT / "tests" / "samples" / "f3d_ogawa.f3d"
 FLOAT = 'token fieldDataType = "float"'

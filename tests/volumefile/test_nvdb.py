@@ -13,10 +13,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from process import SAMPLES
 
 from usdvol_lint.volumefile import VolumeFile, VolumeFileError, read_volume_file
 
-SAMPLES = Path(__file__).parent / "samples"
 SAMPLE = SAMPLES / "type_all_z.nvdb"
 VERSION = 32 << 21 | 4 << 10 | 2
 BOX = ((-4, 2, 0), (7, 4, 24))

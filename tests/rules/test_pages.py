@@ -6,6 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from process import ROOT
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.packs.catalog import load
@@ -24,7 +25,6 @@ from usdvol_lint.run.testing import (
     write_example,
 )
 
-ROOT = Path(__file__).parent.parent
 RULES = ROOT / "rules"
 
 PAGES = pages(RULES)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from process import ROOT
 
 from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
@@ -15,7 +16,6 @@ from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
 
 Lint = Callable[..., StageReport]
-ROOT = next(folder for folder in Path(__file__).parents if (folder / "rules").is_dir())
 DEGREE = "int radiance:sphericalHarmonicsDegree"
 POSITIONED = 'prepend apiSchemas = ["ParticleFieldPositionAttributeAPI"]'
 LAYERS = {

@@ -8,15 +8,13 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pytest
-from process import run
+from process import ASSETS, SAMPLES, run
 
 from usdvol_lint.model import Finding, StageReport
 
 Lint = Callable[..., StageReport]
-HERE = Path(__file__).parent
-ROOT = next(folder for folder in HERE.parents if (folder / "rules").is_dir())
-CLOUD = ROOT / "rules" / "assets" / "cloud.vdb"
-FIELD3D = ROOT / "tests" / "samples" / "f3d_ogawa.f3d"
+CLOUD = ASSETS / "cloud.vdb"
+FIELD3D = SAMPLES / "f3d_ogawa.f3d"
 UNIT = "float3[] extent = [(0, 0, 0), (1, 1, 1)]"
 
 
