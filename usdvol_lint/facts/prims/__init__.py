@@ -10,7 +10,8 @@ from usdvol_lint import schema
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.prims.attributes import Authored, Misspelt, Mistyped, Unlisted
+    from usdvol_lint.facts.prims.attributes import Authored
+    from usdvol_lint.facts.prims.contradictions import Misspelt, Mistyped, Unlisted
     from usdvol_lint.facts.prims.encodings import Encoding
     from usdvol_lint.facts.prims.extents import Limits
     from usdvol_lint.facts.prims.nesting import Nested, Nesting
@@ -54,14 +55,14 @@ class Prims(Wing):
     @summary
     def may_be_mistyped(self, table: Table) -> Sequence[bool]:
         """Whether some spec may have another type than the schema declares."""
-        from usdvol_lint.facts.prims.attributes import may_be_mistyped
+        from usdvol_lint.facts.prims.contradictions import may_be_mistyped
 
         return may_be_mistyped(table.batch, table.authored)
 
     @summary
     def may_have_unlisted_tokens(self, table: Table) -> Sequence[bool]:
         """Whether some token may be one that the schema does not allow."""
-        from usdvol_lint.facts.prims.attributes import may_have_unlisted
+        from usdvol_lint.facts.prims.contradictions import may_have_unlisted
 
         return may_have_unlisted(table.batch, table.authored)
 
@@ -73,19 +74,19 @@ class Prims(Wing):
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes that have another type than the schema declares."""
-        from usdvol_lint.facts.prims.attributes import mistyped
+        from usdvol_lint.facts.prims.contradictions import mistyped
 
         return mistyped(prim, self.authored(prim))
 
     def misspelt(self, prim: Any) -> Iterator[Misspelt]:
         """The attributes of a prim that no schema declares for a slip in their names."""
-        from usdvol_lint.facts.prims.attributes import misspelt
+        from usdvol_lint.facts.prims.contradictions import misspelt
 
         return misspelt(prim, self.authored(prim))
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The tokens in attributes of a prim that the schema does not allow there."""
-        from usdvol_lint.facts.prims.attributes import unlisted_tokens
+        from usdvol_lint.facts.prims.contradictions import unlisted_tokens
 
         return unlisted_tokens(prim, self.authored(prim))
 
