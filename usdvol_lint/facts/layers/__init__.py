@@ -63,10 +63,8 @@ class Layers(Wing):
         from usdvol_lint.facts.layers.composition import read_composition
 
         clipped: list[Any] = []
-        for table in self.tables.of(*schema.OURS):
-            if table.fault:
-                self.tables.unreadable.append((table.prims[0], table.fault))
-            elif table.authored.is_clipped:
-                clipped += table.prims
+        for prims, authored in self.tables.authored(*schema.OURS):
+            if authored.is_clipped:
+                clipped += prims
         clip_sets = dict.fromkeys(found for prim in clipped for found in self._clips.reaching(prim))
         return read_composition(self._stage, clip_sets)

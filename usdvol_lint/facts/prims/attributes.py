@@ -70,6 +70,12 @@ class AuthoredReader:
             found = self._shared[key, shape] = _compare(prim, self._kinds.names(key), *shape)
         return found
 
+    def read_alone(self, prim: Any) -> Authored:
+        """What is authored on one prim."""
+        key = self._kinds.key(prim)
+        (shape,) = self.shapes(PrimBatch((prim,)), key)
+        return self.read(prim, key, shape)
+
 
 def _compare(
     prim: Any, schemas: frozenset[str], names: Iterable[str], is_layered: bool, is_clipped: bool

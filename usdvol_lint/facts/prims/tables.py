@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from itertools import chain
@@ -29,19 +29,30 @@ class NotTogetherError(Exception):
     """Of one of some prims it is known that something can't be read: ask for each by itself."""
 
 
+class Unread:
+    """Stands for what is authored on a prim where USD raised: who asks for it has USD raise again.
+
+    The error is not kept: its traceback has the frames of all callers, and so the stage.
+    """
+
+    __slots__ = ("read_alone",)
+
+    def __init__(self, read_alone: Callable[[Any], Authored]) -> None:
+        self.read_alone = read_alone
+
+
 class Table:
     """Prims of one kind on which the same properties are authored.
 
     `batch` gives USD's answers about them; what is found of them is kept by what declares it.
     """
 
-    __slots__ = ("_alone", "_authored", "_columns", "_failed", "_place", "batch")
+    __slots__ = ("_alone", "_authored", "_columns", "_failed", "batch")
 
-    def __init__(self, batch: PrimBatch, authored: Authored | Exception) -> None:
+    def __init__(self, batch: PrimBatch, authored: Authored | Unread) -> None:
         self.batch = batch
         self._columns: dict[column[Any, Any], Sequence[Any]] = {}
         self._authored = authored
-        self._place = authored.__traceback__ if isinstance(authored, Exception) else None
         self._alone: dict[int, Table] = {}
         self._failed: set[column[Any, Any]] = set()
 
@@ -51,15 +62,10 @@ class Table:
 
     @property
     def authored(self) -> Authored:
-        """What is authored on them; raises what USD raised where it can't be read."""
-        if isinstance(self._authored, Exception):
-            raise self._authored.with_traceback(self._place)  # else it grows each time
+        """What is authored on them; raises what USD raises where it can't be read."""
+        if isinstance(self._authored, Unread):
+            return self._authored.read_alone(self.prims[0])
         return self._authored
-
-    @property
-    def fault(self) -> Exception | None:
-        """Why what is authored on them can't be read."""
-        return self._authored if isinstance(self._authored, Exception) else None
 
     def each(self, declared: column[_W, _T], wing: _W) -> Sequence[_T]:
         """A fact of each prim; raises where that of one can't be found."""
@@ -78,6 +84,7 @@ class Table:
         """A fact of one prim, whether or not that of others can be found."""
         found: Sequence[_T] | None = self._columns.get(declared)
         if found is None and len(self.prims) > 1:
+            # Whatever is raised for all of them is raised again by the prim that it is about.
             with suppress(Exception):
                 found = self.each(declared, wing)
             if found is None:
@@ -88,15 +95,19 @@ class Table:
         self, declared: column[_W, _T], wing: _W, unreadable: list[tuple[Any, Exception]]
     ) -> Iterator[tuple[Any, _T]]:
         """The prims with a fact of each; those of which it can't be found become `unreadable`."""
+        found: Sequence[_T] | None = None
         try:
             found = self.each(declared, wing)
-        except Exception as error:
+        except Exception as error:  # as in `cell`
             if len(self.prims) == 1:
-                return unreadable.append((self.prims[0], error))
-            for row in range(len(self.prims)):
-                yield from self.alone(row).readable(declared, wing, unreadable)
-        else:
+                unreadable.append((self.prims[0], error))
+                return
+        if found is not None:
             yield from zip(self.prims, found, strict=True)
+            return
+        # Not where the error was caught: what is raised there refers to it, and it to the stage.
+        for row in range(len(self.prims)):
+            yield from self.alone(row).readable(declared, wing, unreadable)
 
     def alone(self, row: int) -> Table:
         """A table of one of the prims."""
@@ -165,6 +176,19 @@ class Tables:
                 for chunk in chunks:
                     yield from self.tables(chunk)
 
+    def authored(self, *schemas: str) -> Iterator[tuple[Sequence[Any], Authored]]:
+        """The prims of each of these tables, with what is authored on them.
+
+        Where that can't be read, the prim becomes `unreadable`.
+        """
+        for table in self.of(*schemas):
+            try:
+                authored = table.authored
+            except Exception as error:  # whatever it is, it is reported, and keeps no table back
+                self.unreadable.append((table.prims[0], error))
+            else:
+                yield table.prims, authored
+
     def tables(self, chunk: Chunk) -> list[Table]:
         """The prims of a chunk in tables."""
         if not chunk.tables:
@@ -214,22 +238,22 @@ class Tables:
         for table in self._last:
             table.batch.forget()
         formed = self._attempt(prims)
-        if isinstance(formed, Exception):
-            if len(prims) > 1:
-                return [table for prim in prims for table in self._form((prim,))]
-            # USD raises once for a manifest of value clips that it can't open; from then on it
-            # goes without, and the manifest is a finding by itself.
-            formed = self._attempt(prims)
-        if isinstance(formed, Exception):
-            return [Table(PrimBatch(prims), formed)]
+        if not formed and len(prims) > 1:
+            return [table for prim in prims for table in self._form((prim,))]
+        # USD raises once for a manifest of value clips that it can't open; from then on it goes
+        # without, and the manifest is a finding by itself.
+        formed = formed or self._attempt(prims)
+        if not formed:
+            return [Table(PrimBatch(prims), Unread(self._authored.read_alone))]
         self._last = formed
         return formed
 
-    def _attempt(self, prims: Sequence[Any]) -> list[Table] | Exception:
+    def _attempt(self, prims: Sequence[Any]) -> list[Table]:
+        """The tables, or none where one of the prims can't be read."""
         try:
             return list(self._alike(PrimBatch(prims)))
-        except Exception as error:
-            return error
+        except Exception:  # whatever it is: whoever asks the table of that prim has it raised again
+            return []
 
     def _alike(self, batch: PrimBatch) -> Iterator[Table]:
         key = self._kinds.key(batch.prims[0])
