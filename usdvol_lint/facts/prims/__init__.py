@@ -118,7 +118,7 @@ class Prims(Wing):
     @cached_property
     def without_extent(self) -> list[Any]:
         """The Volumes and particle fields that have no bounds to USD, by their paths."""
-        from usdvol_lint.facts.prims.extents import has_bounds
+        from usdvol_lint.facts.prims.bounds import has_bounds
 
         found = self.limits.readable(schema.VOLUME, schema.PARTICLE_FIELD)
         bare = (prim for prim, limits in found if not limits.are_authored and not has_bounds(prim))

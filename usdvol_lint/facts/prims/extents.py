@@ -1,4 +1,4 @@
-"""Extents of Volumes and particle fields: every authored one, and the prims that need one."""
+"""The values of `extent`: as boxes for those that compare, as authored for those that show them."""
 
 from __future__ import annotations
 
@@ -9,12 +9,16 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Usd, Vt
 
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.calls import get_attribute, has_value
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import Value, Values, read_values, values_of
 from usdvol_lint.volumefile import Bounds
 
 Corner: TypeAlias = tuple[float, float, float]
+
+_ORIGIN = (0.0, 0.0, 0.0)
+_LARGEST = 3.4028234663852886e38
+_EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
+"""What USD writes for an extent with nothing in it: no box, but not malformed."""
 
 
 class Extent(NamedTuple):
@@ -27,10 +31,7 @@ class Extent(NamedTuple):
     @property
     def is_empty_range(self) -> bool:
         """Whether it is what USD writes for nothing at all."""
-        return self.size == 2 and (self.low, self.high) == EMPTY_RANGE
-
-
-_ORIGIN = (0.0, 0.0, 0.0)
+        return self.size == 2 and (self.low, self.high) == _EMPTY_RANGE
 
 
 class Limits:
@@ -76,11 +77,6 @@ def read_limits(batch: PrimBatch) -> list[Limits]:
     ]
 
 
-_LARGEST = 3.4028234663852886e38
-EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
-"""What USD writes for an extent with nothing in it: no box, but not malformed."""
-
-
 def box_of(value: Any) -> Bounds | None:
     """The corners of an extent, if it is one or the empty range."""
     if not isinstance(value, Vt.Vec3fArray) or len(value) != 2:
@@ -89,7 +85,7 @@ def box_of(value: Any) -> Bounds | None:
     (a, b, c), (x, y, z) = corners
     ordered = -inf < a <= x < inf and -inf < b <= y < inf and -inf < c <= z < inf
     box = (a, b, c), (x, y, z)
-    return box if ordered or box == EMPTY_RANGE else None
+    return box if ordered or box == _EMPTY_RANGE else None
 
 
 def read_extents(attribute: Any) -> Values:
@@ -106,30 +102,4 @@ def read_extents(attribute: Any) -> Values:
 def _extent(value: Any) -> Extent:
     if len(value) != 2:
         return Extent(len(value), _ORIGIN, _ORIGIN)
-    corners: Any = memoryview(value).tolist()  # a tenth of the time that USD's own vectors take
-    low, high = corners
-    return Extent(2, tuple(low), tuple(high))
-
-
-def has_bounds(prim: Any) -> bool:
-    """Whether USD can tell the bounds of a prim: by its extent, a model's hint or a plugin."""
-    if has_value(get_attribute(prim, "extent")) or _is_hinted(prim):
-        return True
-    from pxr import UsdGeom  # costs start-up time, and extents are rarely missing
-
-    boundable = UsdGeom.Boundable(prim)
-    if not boundable:
-        return False  # a type that this USD does not know
-    computed = UsdGeom.Boundable.ComputeExtentFromPlugins(boundable, Usd.TimeCode.EarliestTime())
-    return computed is not None
-
-
-def _is_hinted(prim: Any) -> bool:
-    """Whether a model with an `extentsHint` holds the prim wherever the stage shows it."""
-    while not prim.IsPseudoRoot():
-        if prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue():
-            return True
-        if prim.IsPrototype():
-            return all(_is_hinted(instance) for instance in prim.GetInstances())
-        prim = prim.GetParent()
-    return False
+    return Extent(2, tuple(value[0]), tuple(value[1]))

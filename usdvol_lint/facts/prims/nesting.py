@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from pxr import Usd
-
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.calls import get_children, get_parent, get_type
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_parent, get_type
 from usdvol_lint.facts.usd.kinds import Kinds
 
-_WITH_INSTANCES = Usd.TraverseInstanceProxies()
 _UNKNOWN = object()
 
 
@@ -65,7 +62,7 @@ class Nesting:
 
     def _topmost_gprims(self, prim: Any) -> Iterator[Any]:
         # The end of a PrimRange takes longer than to look at a Volume with its fields.
-        for child in get_children(prim, _WITH_INSTANCES):
+        for child in get_children(prim, WITH_INSTANCES):
             if self._is_gprim(child):
                 yield child
             else:
@@ -75,7 +72,7 @@ class Nesting:
         for prim in prims:
             if self._is_gprim(prim):
                 return True
-            below = get_children(prim, _WITH_INSTANCES)
+            below = get_children(prim, WITH_INSTANCES)
             if below and self._hold_gprims(below):
                 return True
         return False

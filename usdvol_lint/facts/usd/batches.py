@@ -6,9 +6,8 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from itertools import repeat
 from typing import Any
 
-from pxr import Usd
-
 from usdvol_lint.facts.usd.calls import (
+    WITH_INSTANCES,
     count_samples,
     get_attribute,
     get_children,
@@ -19,8 +18,6 @@ from usdvol_lint.facts.usd.calls import (
     get_relationship,
     get_value,
 )
-
-_WITH_INSTANCES = Usd.TraverseInstanceProxies()
 
 
 class PrimBatch:
@@ -68,7 +65,7 @@ class PrimBatch:
     @property
     def children(self) -> list[Any]:
         """The live children, those of an instance too."""
-        return self._ask("children", lambda: map(get_children, self.prims, repeat(_WITH_INSTANCES)))
+        return self._ask("children", lambda: map(get_children, self.prims, repeat(WITH_INSTANCES)))
 
     def relationships(self, name: str) -> list[Any]:
         """The relationships of that name, invalid where it is none."""

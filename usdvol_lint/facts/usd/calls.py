@@ -36,3 +36,6 @@ is_in_prototype: Any = Usd.Prim.IsInPrototype
 get_targets: Any = Usd.Relationship.GetForwardedTargets
 
 prim_at: Any = Usd.Stage.GetPrimAtPath
+
+WITH_INSTANCES: Any = Usd.TraverseInstanceProxies()
+"""For `get_children`: the prims that a traversal visits, those below instances too."""
