@@ -16,7 +16,7 @@ from usdvol_lint.facts.volumes import Volumes
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.disk import Disk
-    from usdvol_lint.facts.usd.kinds import Key, Kinds
+    from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
     from usdvol_lint.facts.volumes.usage import UsedFields
     from usdvol_lint.volumefile.cache import VolumeFiles
 
@@ -31,7 +31,7 @@ class Context(NamedTuple):
     """
 
     stage: Any
-    kinds: Kinds
+    kinds: PrimKinds
     depth: Depth
     disk: Disk
     volume_files: VolumeFiles
@@ -48,11 +48,11 @@ class Context(NamedTuple):
     ) -> Context:
         """The context of a stage of which nothing is known yet."""
         from usdvol_lint.facts.files.disk import Disk
-        from usdvol_lint.facts.usd.kinds import Kinds
+        from usdvol_lint.facts.usd.kinds import PrimKinds
         from usdvol_lint.facts.volumes.usage import UsedFields
         from usdvol_lint.volumefile.cache import VolumeFiles
 
-        kinds = Kinds(stage.GetMetadata("fallbackPrimTypes"))
+        kinds = PrimKinds(stage.GetMetadata("fallbackPrimTypes"))
         files = volume_files or VolumeFiles()
         return cls(stage, kinds, depth, Disk(), files, UsedFields(), advance)
 
@@ -67,7 +67,7 @@ class Facts:
     """
 
     def __init__(
-        self, context: Context, kept: Mapping[Key, Sequence[Any]], clipped: Sequence[Any]
+        self, context: Context, kept: Mapping[KindKey, Sequence[Any]], clipped: Sequence[Any]
     ) -> None:
         """`kept` are the prims that rules ask for, by kind; on `clipped` clips are authored."""
         from usdvol_lint.facts.prims.attributes import AuthoredReader

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.extents import Limits
     from usdvol_lint.facts.prims.nesting import Nested, Nesting
     from usdvol_lint.facts.prims.tables import Table, Tables
-    from usdvol_lint.facts.usd.kinds import Kinds
+    from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
 
 
 class Prims(Wing):
     """The prims that rules ask for: their schemas, attributes, extents, and what is around them."""
 
-    def __init__(self, tables: Tables, kinds: Kinds) -> None:
+    def __init__(self, tables: Tables, kinds: PrimKinds) -> None:
         super().__init__(tables)
         self._kinds = kinds
 

@@ -11,7 +11,7 @@ from pxr import Sdf
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.clips import Clips
-from usdvol_lint.facts.usd.kinds import Key, Kinds
+from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 
 Shape: TypeAlias = tuple[tuple[str, ...], bool, bool]
 """The names of authored properties; whether there are several specs; whether there are clips."""
@@ -45,12 +45,12 @@ class Authored:
 class AuthoredReader:
     """Finds what is authored on prims: there are few combinations, and many prims of each."""
 
-    def __init__(self, kinds: Kinds, clips: Clips) -> None:
+    def __init__(self, kinds: PrimKinds, clips: Clips) -> None:
         self._kinds = kinds
         self._clips = clips
-        self._shared: dict[tuple[Key, Shape], Authored] = {}
+        self._shared: dict[tuple[KindKey, Shape], Authored] = {}
 
-    def shapes(self, batch: PrimBatch, key: Key) -> list[Shape]:
+    def shapes(self, batch: PrimBatch, key: KindKey) -> list[Shape]:
         """What makes prims of one kind alike: names, and who else may have a say in the values."""
         are_clipped = self._clips.reach(batch)
         are_layered = [len(stack) > 1 for stack in batch.stacks]
@@ -63,7 +63,7 @@ class AuthoredReader:
                     shapes[row] = ((*batch.names[row], *also), are_layered[row], True)
         return shapes
 
-    def read(self, prim: Any, key: Key, shape: Shape) -> Authored:
+    def read(self, prim: Any, key: KindKey, shape: Shape) -> Authored:
         """What is authored on all prims of a kind that are of a shape; `prim` is one of them."""
         found = self._shared.get((key, shape))
         if found is None:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_parent, get_type
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import PrimKinds
 
 _UNKNOWN = object()
 
@@ -23,7 +23,7 @@ class Nested(NamedTuple):
 class Nesting:
     """Finds Gprims above and below prims, each ancestor looked at once."""
 
-    def __init__(self, kinds: Kinds) -> None:
+    def __init__(self, kinds: PrimKinds) -> None:
         self._kinds = kinds
         self._at_or_above: dict[Any, Any | None] = {}
         self._gprims: dict[str, bool] = {}

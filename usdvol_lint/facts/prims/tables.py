@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_path
-from usdvol_lint.facts.usd.kinds import Key, Kinds
+from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.found import Wing, column
@@ -148,7 +148,7 @@ class Tables:
     """The prims of a stage in tables, and what was found of them."""
 
     def __init__(
-        self, kept: Mapping[Key, Sequence[Any]], kinds: Kinds, authored: AuthoredReader
+        self, kept: Mapping[KindKey, Sequence[Any]], kinds: PrimKinds, authored: AuthoredReader
     ) -> None:
         self._kinds = kinds
         self._authored = authored
@@ -159,7 +159,7 @@ class Tables:
         self.unreadable: list[tuple[Any, Exception]] = []
         """Prims that facts about the whole stage do without, because USD raised for them."""
 
-    def chunks(self, key: Key) -> list[Chunk]:
+    def chunks(self, key: KindKey) -> list[Chunk]:
         """The prims of a kind, in the order of the walk."""
         return self._chunks[key]
 

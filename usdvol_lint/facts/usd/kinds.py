@@ -10,11 +10,11 @@ from pxr import Usd
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import get_applied, get_type
 
-Key: TypeAlias = tuple[str, ...]
+KindKey: TypeAlias = tuple[str, ...]
 """A prim's type name, then the names of its applied schemas."""
 
 
-class Kinds:
+class PrimKinds:
     """The schema names of each kind of prim: its type and bases, and its applied APIs.
 
     `fallbacks` are the types that the stage names for types which nobody registers.
@@ -23,14 +23,14 @@ class Kinds:
     def __init__(self, fallbacks: Mapping[str, Sequence[str]] | None = None) -> None:
         self.knows_particle_fields = is_registered(schema.PARTICLE_FIELD)
         self._fallbacks = fallbacks or {}
-        self._names: dict[Key, frozenset[str]] = {}
-        self._known_keys: dict[tuple[str, Key, Key], Key] = {}
+        self._names: dict[KindKey, frozenset[str]] = {}
+        self._known_keys: dict[tuple[str, KindKey, KindKey], KindKey] = {}
 
-    def key(self, prim: Any) -> Key:
+    def key(self, prim: Any) -> KindKey:
         """What prims of one kind share."""
         return self.keys((prim,))[0]
 
-    def keys(self, prims: Sequence[Any]) -> list[Key]:
+    def keys(self, prims: Sequence[Any]) -> list[KindKey]:
         """What each of many prims shares with its kind: a third of the time of one by one."""
         types = map(get_type, prims)
         applied = map(get_applied, prims)
@@ -44,14 +44,16 @@ class Kinds:
         """The applied schemas; on a USD without particle fields, ours as written too."""
         return self.key(prim)[1:]
 
-    def _with_ours(self, type_name: str, applied: tuple[str, ...], written: tuple[str, ...]) -> Key:
+    def _with_ours(
+        self, type_name: str, applied: tuple[str, ...], written: tuple[str, ...]
+    ) -> KindKey:
         ours = tuple(name for name in written if name in schema.API_INCLUDES)
         built_in = schema.BUILT_IN_APIS.get(type_name, ())
         key = (type_name, *applied, *schema.expand_apis(built_in + ours))
         self._known_keys[type_name, applied, written] = key
         return key
 
-    def names(self, key: Key) -> frozenset[str]:
+    def names(self, key: KindKey) -> frozenset[str]:
         """The schema names that prims of this kind answer to, UNKNOWN_TYPE or ABSTRACT_TYPE too."""
         if key not in self._names:
             self._names[key] = frozenset(key[1:]) | type_names(self._known_type(key[0]))

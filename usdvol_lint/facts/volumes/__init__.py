@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers import Layers
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Slot, Table, Tables
-    from usdvol_lint.facts.usd.kinds import Kinds
+    from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.volumes.bindings import (
         Binding,
         BindingReader,
@@ -39,7 +39,7 @@ class Volumes(Wing):
         self,
         tables: Tables,
         stage: Any,
-        kinds: Kinds,
+        kinds: PrimKinds,
         prims: Prims,
         files: Files,
         layers: Layers,
