@@ -14,7 +14,7 @@ class Opinion(NamedTuple):
     offset: Any
 
 
-def opinion(attribute: Any, time: float | None) -> Opinion | None:
+def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
     """The opinion that counts at a time code of the stage; None stands for the default time.
 
     Stronger specs may hold only metadata, and time samples say nothing of the default.
