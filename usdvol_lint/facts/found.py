@@ -56,7 +56,7 @@ class column(_Declared[_W], Generic[_W, _T]):  # noqa: N801  (a decorator, as pr
 
     def keys(self, wing: _W, table: Table) -> Sequence[_T]:
         """What preconditions look at, of each prim of a table."""
-        return table.each(self, wing)
+        return table.cells(self, wing)
 
 
 class Column(Generic[_T]):
@@ -77,9 +77,9 @@ class Column(Generic[_T]):
         """The same, by the place of the prim."""
         return table.cell(row, self._declared, self._wing)
 
-    def each(self, table: Table) -> Sequence[_T]:
+    def all(self, table: Table) -> Sequence[_T]:
         """The whole column; raises where the fact of one prim can't be found."""
-        return table.each(self._declared, self._wing)
+        return table.cells(self._declared, self._wing)
 
     def readable(self, *schemas: str) -> Iterator[tuple[Any, _T]]:
         """The prims that answer to a schema, with the fact of each.

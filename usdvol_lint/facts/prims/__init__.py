@@ -107,7 +107,7 @@ class Prims(Wing):
     @summary
     def have_malformed_extents(self, table: Table) -> Sequence[bool]:
         """Whether some authored `extent` is no box."""
-        return [limits.are_odd for limits in self.limits.each(table)]
+        return [limits.are_odd for limits in self.limits.all(table)]
 
     def extents(self, prim: Any) -> Values:
         """Every `extent` of a prim, the default first; empty where none is authored."""

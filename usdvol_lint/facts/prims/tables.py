@@ -67,7 +67,7 @@ class Table:
             return self._authored.read_alone(self.prims[0])
         return self._authored
 
-    def each(self, declared: column[_W, _T], wing: _W) -> Sequence[_T]:
+    def cells(self, declared: column[_W, _T], wing: _W) -> Sequence[_T]:
         """A fact of each prim; raises where that of one can't be found."""
         if declared not in self._columns:
             if declared in self._failed:
@@ -86,10 +86,10 @@ class Table:
         if found is None and len(self.prims) > 1:
             # Whatever is raised for all of them is raised again by the prim that it is about.
             with suppress(Exception):
-                found = self.each(declared, wing)
+                found = self.cells(declared, wing)
             if found is None:
-                return self.alone(row).each(declared, wing)[0]
-        return self.each(declared, wing)[0] if found is None else found[row]
+                return self.alone(row).cells(declared, wing)[0]
+        return self.cells(declared, wing)[0] if found is None else found[row]
 
     def readable(
         self, declared: column[_W, _T], wing: _W, unreadable: list[tuple[Any, Exception]]
@@ -97,7 +97,7 @@ class Table:
         """The prims with a fact of each; those of which it can't be found become `unreadable`."""
         found: Sequence[_T] | None = None
         try:
-            found = self.each(declared, wing)
+            found = self.cells(declared, wing)
         except Exception as error:  # as in `cell`
             if len(self.prims) == 1:
                 unreadable.append((self.prims[0], error))

@@ -65,7 +65,7 @@ class Volumes(Wing):
     @summary
     def binding_marks(self, table: Table) -> Sequence[frozenset[Enum]]:
         """What is remarkable about what the `field:` namespace of a Volume binds."""
-        return [bound.marks for bound in self.bound.each(table)]
+        return [bound.marks for bound in self.bound.all(table)]
 
     def bindings(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
@@ -129,7 +129,7 @@ class Volumes(Wing):
     @summary
     def overhangs(self, table: Table) -> Sequence[float]:
         """How far grids may reach out of extents, in relation to their largest coordinate."""
-        return self._enclosure.overhangs(table, self.bound.each(table))
+        return self._enclosure.overhangs(table, self.bound.all(table))
 
     def shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
         """What the grids of a Volume have outside its extent, if one is authored."""
