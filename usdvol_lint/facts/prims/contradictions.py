@@ -94,7 +94,7 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
 def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
     """The tokens that the schema does not allow; an empty one is as good as none."""
     for name, allowed in authored.tokens:
-        for token, values in values_of(get_attribute(prim, name)).apart(_token):
+        for token, values in values_of(get_attribute(prim, name)).grouped(_token):
             if token not in allowed:
                 yield Unlisted(name, token, allowed, values)
 

@@ -70,7 +70,7 @@ class Values(Occurrences):
     def __iter__(self) -> Iterator[Any]:
         return (value for _, value in self.samples)
 
-    def apart(self, key: Callable[[Any], Any]) -> Iterator[tuple[Any, Values]]:
+    def grouped(self, key: Callable[[Any], Any]) -> Iterator[tuple[Any, Values]]:
         """The values apart for each key that they have, without those whose key is None."""
         found: dict[Any, list[Value]] = defaultdict(list)
         for value in self.samples:
