@@ -11,7 +11,7 @@ from pxr import Sdf, Tf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.engine.site import blamed_spec
-from usdvol_lint.facts.usd.clips import tells_of_clips
+from usdvol_lint.facts.usd.clips import concerns_only_clips
 from usdvol_lint.facts.usd.instances import path_in_prototype, shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
@@ -132,7 +132,7 @@ class OtherSelections:
         try:
             self._select(selection)
         except Tf.ErrorException as error:
-            if not tells_of_clips(error, self._stage):
+            if not concerns_only_clips(error, self._stage):
                 raise
 
     def _select(self, selection: Any) -> None:

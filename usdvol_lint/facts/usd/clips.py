@@ -108,7 +108,7 @@ def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
         return ()
 
 
-def tells_of_clips(error: Any, stage: Any) -> bool:
+def concerns_only_clips(error: Any, stage: Any) -> bool:
     """Whether an error of USD tells of value clips that do not open, and of nothing else.
 
     USD makes a manifest for clips without one, and so opens them when it composes the stage.
