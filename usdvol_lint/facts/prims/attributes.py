@@ -1,4 +1,4 @@
-"""The authored attributes of prims, held against what the schemas declare."""
+"""The authored properties of prims, sorted by what the schemas declare."""
 
 from __future__ import annotations
 
@@ -14,20 +14,24 @@ from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 
 Shape: TypeAlias = tuple[tuple[str, ...], bool, bool]
-"""The names of authored properties; whether there are several specs; whether there are clips."""
+"""The names of authored properties; whether a prim has several specs; whether clips apply to it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Authored:
-    """What prims of one kind share on which the same properties are authored.
+    """The properties authored on prims of one kind and shape: these prims share it.
 
-    `schemas` are those that they answer to.
-    `declared` are those that UsdVol's schemas, or the ones they derive from, declare, with those
-    that have values in clips alone; `types` are theirs, `tokens` and `uniform` are some of them.
-    `bound` are the names of a Volume's `field:` namespace.
-    `undeclared` are names that no schema declares; `misspellings` are those of them with a likely
-    correction, and the type that this one has.
-    `is_layered` says that several specs have a say, `is_clipped` that value clips may.
+    `schemas`: those that the prims answer to.
+    `declared`: by name, the attributes that UsdVol's schemas or their bases declare, including
+    those that have values only in clips.
+    `types`: the names of these with their `Sdf.ValueTypeName`s.
+    `tokens`: the names of those that allow only certain tokens, with these.
+    `uniform`: the names of those that must not be animated.
+    `bound`: the property names in the `field:` namespace, for Volumes.
+    `undeclared`: the names that no schema declares.
+    `misspellings`: those of them with a likely correction: name, corrected name, its type.
+    `is_layered`: whether the prims have several specs.
+    `is_clipped`: whether value clips apply to them.
     """
 
     schemas: frozenset[str]
@@ -43,7 +47,7 @@ class Authored:
 
 
 class AuthoredReader:
-    """Finds what is authored on prims: there are few combinations, and many prims of each."""
+    """Reads what is authored on prims, once for all prims of one kind and shape."""
 
     def __init__(self, kinds: PrimKinds, clips: Clips) -> None:
         self._kinds = kinds
@@ -51,7 +55,7 @@ class AuthoredReader:
         self._shared: dict[tuple[KindKey, Shape], Authored] = {}
 
     def shapes(self, batch: PrimBatch, key: KindKey) -> list[Shape]:
-        """What makes prims of one kind alike: names, and who else may have a say in the values."""
+        """The shapes of prims of one kind; attributes with values in clips count as authored."""
         are_clipped = self._clips.reach(batch)
         are_layered = [len(stack) > 1 for stack in batch.stacks]
         shapes = list(zip(batch.names, are_layered, are_clipped, strict=True))
@@ -59,16 +63,18 @@ class AuthoredReader:
             known = schema.attributes_of(self._kinds.names(key))
             for row, prim in enumerate(batch.prims):
                 if are_clipped[row]:
-                    also = (name for name in known if prim.GetAttribute(name).HasAuthoredValue())
-                    shapes[row] = ((*batch.names[row], *also), are_layered[row], True)
+                    valued = (name for name in known if prim.GetAttribute(name).HasAuthoredValue())
+                    shapes[row] = ((*batch.names[row], *valued), are_layered[row], True)
         return shapes
 
     def read(self, prim: Any, key: KindKey, shape: Shape) -> Authored:
-        """What is authored on all prims of a kind that are of a shape; `prim` is one of them."""
-        found = self._shared.get((key, shape))
-        if found is None:
-            found = self._shared[key, shape] = _compare(prim, self._kinds.names(key), *shape)
-        return found
+        """What is authored on the prims of a kind and shape; `prim` is one of them."""
+        authored = self._shared.get((key, shape))
+        if authored is None:
+            authored = self._shared[key, shape] = _sort_by_schema(
+                prim, self._kinds.names(key), *shape
+            )
+        return authored
 
     def read_alone(self, prim: Any) -> Authored:
         """What is authored on one prim."""
@@ -77,7 +83,7 @@ class AuthoredReader:
         return self.read(prim, key, shape)
 
 
-def _compare(
+def _sort_by_schema(
     prim: Any, schemas: frozenset[str], names: Iterable[str], is_layered: bool, is_clipped: bool
 ) -> Authored:
     known = schema.attributes_of(schemas)

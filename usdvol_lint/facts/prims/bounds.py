@@ -10,10 +10,10 @@ from usdvol_lint.facts.usd.calls import get_attribute, has_value
 
 
 def has_bounds(prim: Any) -> bool:
-    """Whether USD can tell the bounds of a prim: by its extent, a model's hint or a plugin."""
+    """Whether USD can tell the bounds of a prim: from its extent, a model's hint, or a plugin."""
     if has_value(get_attribute(prim, "extent")) or _is_hinted(prim):
         return True
-    from pxr import UsdGeom  # costs start-up time, and extents are rarely missing
+    from pxr import UsdGeom  # costs start-up time, and is rarely needed
 
     boundable = UsdGeom.Boundable(prim)
     if not boundable:
@@ -23,7 +23,7 @@ def has_bounds(prim: Any) -> bool:
 
 
 def _is_hinted(prim: Any) -> bool:
-    """Whether a model with an `extentsHint` holds the prim wherever the stage shows it."""
+    """Whether a model with an `extentsHint` has the prim, through each instance of a prototype."""
     while not prim.IsPseudoRoot():
         if prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue():
             return True

@@ -16,9 +16,9 @@ from usdvol_lint.facts.usd.values import Values, values_of
 
 
 class Mistyped(NamedTuple):
-    """A spec of another type than the schema declares.
+    """A spec of another type than the schema declares: `found` instead of `wanted`.
 
-    `only_role` says that the values are the same and only what they stand for differs.
+    `only_role`: whether the types differ only in role, as float3 and color3f do.
     """
 
     attribute: Any
@@ -29,14 +29,14 @@ class Mistyped(NamedTuple):
 
 
 class Misspelt(NamedTuple):
-    """An attribute that no schema declares, and the name that was probably meant."""
+    """An attribute that no schema declares, and the name that was probably intended."""
 
     attribute: Any
     meant: str
 
 
 class Unlisted(NamedTuple):
-    """A token that is not one of those that the schema allows, and where it is a value."""
+    """A token that is not one of the `allowed`, and the values of attribute `name` that it is."""
 
     name: str
     token: str
@@ -45,54 +45,53 @@ class Unlisted(NamedTuple):
 
 
 def may_be_mistyped(batch: PrimBatch, authored: Authored) -> list[bool]:
-    """Whether `mistyped` may find anything, for each of many prims that are alike."""
+    """Whether `mistyped` may find anything on each prim of a batch; all have these properties."""
     if authored.is_layered:
         return [any(mistyped(prim, authored)) for prim in batch.prims]
-    holders = [stack[0] for stack in batch.stacks]
-    found = [False] * len(holders)
+    prim_specs = [stack[0] for stack in batch.stacks]
+    differ = [False] * len(prim_specs)
     for name, wanted in authored.types:
-        specs = map(own_attribute, holders, repeat(Sdf.Path(f".{name}")))
+        specs = map(own_attribute, prim_specs, repeat(Sdf.Path(f".{name}")))
         types = [None if spec is None else type_of_spec(spec) for spec in specs]
         if types.count(wanted) < len(types):
-            found = [odd or own != wanted for odd, own in zip(found, types, strict=True)]
-    return found
+            differ = [known or own != wanted for known, own in zip(differ, types, strict=True)]
+    return differ
 
 
 def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
-    """The specs, in every layer, whose type is not the one that the schema declares."""
+    """The specs, in all layers, whose type is not the one that the schema declares."""
     types = authored.types
     stack = get_prim_stack(prim) if types else ()
-    for holder in stack:
+    for prim_spec in stack:
         for name, wanted in types:
-            place = Sdf.Path(f".{name}")
-            spec = own_attribute(holder, place)
+            path = Sdf.Path(f".{name}")
+            spec = own_attribute(prim_spec, path)
             if spec is None:
-                spec = holder.GetRelationshipAtPath(place)
+                spec = prim_spec.GetRelationshipAtPath(path)
                 if spec:
                     yield Mistyped(get_attribute(prim, name), spec, "rel", str(wanted), False)
             elif (found := type_of_spec(spec)) != wanted:
-                same_values = found.type == wanted.type
-                attribute = get_attribute(prim, name)
-                yield Mistyped(attribute, spec, str(found), str(wanted), same_values)
+                only_role = found.type == wanted.type
+                yield Mistyped(get_attribute(prim, name), spec, str(found), str(wanted), only_role)
 
 
 def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
-    """The attributes with values that nobody reads for a slip in their names.
+    """The attributes with values that are not read because their names are misspelt.
 
-    Where the right one has a value, or could not hold this one, it is none.
+    Skipped if the intended attribute has a value too, or if its type can't hold the value.
     """
-    for name, meant, wanted in authored.misspellings:
+    for name, intended, wanted in authored.misspellings:
         attribute = prim.GetAttribute(name)
         if not attribute or not attribute.HasAuthoredValue():
             continue
         names_another = name.startswith("particleField:")
         could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
-        if could_hold and not prim.GetAttribute(meant).HasAuthoredValue():
-            yield Misspelt(attribute, meant)
+        if could_hold and not prim.GetAttribute(intended).HasAuthoredValue():
+            yield Misspelt(attribute, intended)
 
 
 def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
-    """The tokens that the schema does not allow; an empty one is as good as none."""
+    """The tokens that the schema does not allow; an empty one counts as none."""
     for name, allowed in authored.tokens:
         for token, values in values_of(get_attribute(prim, name)).grouped(_token):
             if token not in allowed:
@@ -100,12 +99,12 @@ def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
 
 
 def may_have_unlisted(batch: PrimBatch, authored: Authored) -> list[bool]:
-    """Whether `unlisted_tokens` may find anything, for each of many prims that are alike."""
-    found = [False] * len(batch.prims)
+    """Whether `unlisted_tokens` may find anything on each prim of a batch, as `may_be_mistyped`."""
+    may_have = [False] * len(batch.prims)
     for name, allowed in authored.tokens:
-        columns = zip(found, batch.values(name), batch.counts(name), strict=True)
-        found = [odd or value not in allowed or count > 0 for odd, value, count in columns]
-    return found
+        columns = zip(may_have, batch.values(name), batch.counts(name), strict=True)
+        may_have = [known or value not in allowed or count > 0 for known, value, count in columns]
+    return may_have
 
 
 def _token(value: Any) -> str | None:

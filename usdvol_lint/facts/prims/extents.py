@@ -1,4 +1,4 @@
-"""The values of `extent`: as boxes for those that compare, as authored for those that show them."""
+"""The values of `extent`: as boxes to compare with, and as authored to report."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ Corner: TypeAlias = tuple[float, float, float]
 _ORIGIN = (0.0, 0.0, 0.0)
 _LARGEST = 3.4028234663852886e38
 _EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
-"""What USD writes for an extent with nothing in it: no box, but not malformed."""
+"""What USD writes as the extent of nothing: its minimum is above its maximum, but it is valid."""
 
 
 class Extent(NamedTuple):
-    """One value of an `extent`: its corners if there are two, and how many elements it has."""
+    """One value of `extent`: its number of elements, and its corners, zeros unless it has two."""
 
     size: int
     low: Corner
@@ -30,23 +30,23 @@ class Extent(NamedTuple):
 
     @property
     def is_empty_range(self) -> bool:
-        """Whether it is what USD writes for nothing at all."""
+        """Whether it is what USD writes as the extent of nothing."""
         return self.size == 2 and (self.low, self.high) == _EMPTY_RANGE
 
 
 class Limits:
-    """The authored values of an extent, as boxes; one that is malformed counts as none."""
+    """The authored values of `extent` as boxes, in which a malformed value counts as None."""
 
-    __slots__ = ("_default", "_get", "_samples", "are_odd", "attribute")
+    __slots__ = ("_default", "_get", "_samples", "are_malformed", "attribute")
 
     def __init__(self, attribute: Any, values: Iterable[tuple[Time, Any]]) -> None:
         self.attribute = attribute
-        self.are_odd = False
+        self.are_malformed = False
         self._default: Bounds | None = None
         self._samples: dict[float, Bounds | None] = {}
         for time, value in values:
             box = box_of(value)
-            self.are_odd = self.are_odd or (box is None and value is not None)
+            self.are_malformed = self.are_malformed or (box is None and value is not None)
             if time is None:
                 self._default = box
             else:
@@ -55,21 +55,23 @@ class Limits:
 
     @property
     def times(self) -> Iterable[float]:
+        """The times of the samples, in ascending order."""
         return self._samples.keys()
 
     @property
     def are_authored(self) -> bool:
+        """Whether at least one value is a box."""
         return self._default is not None or (bool(self._samples) and any(self._samples.values()))
 
     def at(self, time: Time) -> Bounds | None:
-        """The value as USD gives it: samples hide a default, and are interpolated between."""
+        """The value at a time, as USD resolves it: samples hide a default, and are interpolated."""
         if time is None or self._get is None:
             return self._default
         return self._samples[time] if time in self._samples else box_of(self._get(time))
 
 
 def read_limits(batch: PrimBatch) -> list[Limits]:
-    """Every `extent` of many prims as boxes."""
+    """The `extent` of each prim of a batch."""
     attributes, counts = batch.attributes("extent"), batch.counts("extent")
     return [
         Limits(attribute, read_values(attribute) if count else ((None, value),))
@@ -78,7 +80,7 @@ def read_limits(batch: PrimBatch) -> list[Limits]:
 
 
 def box_of(value: Any) -> Bounds | None:
-    """The corners of an extent, if it is one or the empty range."""
+    """The corners of a valid value of `extent`, which may be the empty range; else None."""
     if not isinstance(value, Vt.Vec3fArray) or len(value) != 2:
         return None
     corners: Any = memoryview(value).tolist()  # a tenth of the time that USD's own vectors take
@@ -89,7 +91,7 @@ def box_of(value: Any) -> Bounds | None:
 
 
 def read_extents(attribute: Any) -> Values:
-    """Every value that is an array of vectors: what else there may be is no extent to USD."""
+    """All values that are arrays of vectors, as `Extent`; USD takes no other for an extent."""
     values = values_of(attribute)
     extents = [
         Value(time, _extent(value))
