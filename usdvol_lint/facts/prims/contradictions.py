@@ -32,7 +32,7 @@ class Misspelt(NamedTuple):
     """An attribute that no schema declares, and the name that was probably intended."""
 
     attribute: Any
-    meant: str
+    intended: str
 
 
 class Unlisted(NamedTuple):
