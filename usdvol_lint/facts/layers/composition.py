@@ -1,4 +1,4 @@
-"""What USD could not compose of a stage, and which prims lack something for it."""
+"""What USD could not compose, and which prims of the stage may lack opinions or values."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ _ASSET_ERRORS = frozenset({Pcp.ErrorType_InvalidAssetPath, Pcp.ErrorType_Invalid
 
 @dataclass(frozen=True, slots=True)
 class MissingLayer:
-    """A layer that an arc names and USD can't open.
+    """A layer that USD can't open, named by an arc or a clip set.
 
-    `arc` is sublayer, reference, payload, clip, clip template or clip manifest; `asset` is the
-    path as authored, `path` the absolute one.  `spec` holds the arc; `prims` are those of the
-    stage that lack something for it.  `reason` is what is wrong with a file that is there, or "".
+    `arc`, `asset`, `path` and `spec` are as in `LayerArc`.
+    `reason`: what is wrong with a file that exists, or "".
+    `prims`: those of the stage that are composed without it, at least one.
     """
 
     arc: str
@@ -44,16 +44,23 @@ class MissingLayer:
 
     @property
     def prim(self) -> Any:
+        """The first of the prims."""
         return self.prims[0]
 
     @property
     def is_uri(self) -> bool:
+        """Whether the authored path is a URI."""
         return is_uri(self.asset)
 
 
 @dataclass(frozen=True, slots=True)
 class CompositionError:
-    """Any other error: `message` in one line, `spec` is to blame, `prims` are where it shows."""
+    """Any other error.
+
+    `message`: USD's text in one line.
+    `spec`: the one to blame, if the text names it.
+    `prims`: those of the stage where it occurs, at least one.
+    """
 
     message: str
     spec: Any | None
@@ -61,14 +68,15 @@ class CompositionError:
 
     @property
     def prim(self) -> Any:
+        """The first of the prims."""
         return self.prims[0]
 
 
 @dataclass(frozen=True)
 class Composition:
-    """Everything that a stage could not compose, each once, in a stable order.
+    """What a stage could not compose, without duplicates and in the same order in every run.
 
-    `unloaded` are the prims with payloads that were not loaded.
+    `unloaded`: the prims with payloads that were not loaded.
     """
 
     missing_layers: tuple[MissingLayer, ...]
@@ -77,7 +85,7 @@ class Composition:
 
     @property
     def is_whole(self) -> bool:
-        """Whether every layer that an arc names was there and loaded."""
+        """Whether every layer that an arc names could be opened and was loaded."""
         return not self.unloaded and not self._lack_opinions
 
     def may_lack(self, prim: Any) -> bool:
@@ -98,9 +106,9 @@ class Composition:
 
 
 def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
-    """Reads the composition errors of the whole stage and opens what the clip sets name.
+    """Reads the composition errors of the stage and opens the layers that clip sets name.
 
-    An error in a layer that many prims compose is one error: that of its spec.
+    An error in a layer that many prims compose becomes one error, known by its spec.
     """
     missing: dict[LayerArc, list[Any]] = defaultdict(list)
     reported: dict[str, set[str]] = defaultdict(set)
@@ -119,7 +127,7 @@ def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
 
 
 def _errors(stage: Any) -> Iterator[tuple[Any, Any]]:
-    """The composition errors, each with the live prim where it shows."""
+    """The composition errors, each with the prim where it occurs; none of inactive prims."""
     for error in stage.GetCompositionErrors():
         prim = stage.GetPrimAtPath(error.rootSite.path) or stage.GetPseudoRoot()
         if prim.IsActive():
@@ -149,7 +157,7 @@ def _others(errors: Mapping[tuple[str, Any], Iterable[Any]]) -> tuple[Compositio
 
 def _unloaded(stage: Any) -> tuple[Any, ...]:
     if stage.GetLoadRules() == Usd.StageLoadRules.LoadAll():
-        return ()  # to find what can be loaded, USD would traverse the whole stage once more
+        return ()  # FindLoadable would traverse the whole stage
     loadable = map(stage.GetPrimAtPath, sorted(stage.FindLoadable()))
     return tuple(prim for prim in loadable if prim and not prim.IsLoaded())
 
@@ -159,7 +167,7 @@ def _sorted(prims: Iterable[Any]) -> tuple[Any, ...]:
 
 
 def _as_walked(missing_layers: Iterable[MissingLayer]) -> frozenset[Any]:
-    """The paths of the prims that lack something, in prototypes where the walk meets them there."""
+    """The paths of the prims as the walk visits them: those in instances are in prototypes."""
     prims = [prim for missing in missing_layers for prim in missing.prims]
     prims += [prim.GetPrototype() for prim in prims if prim.IsInstance()]
     return frozenset(in_prototype(prim).GetPath() for prim in prims)

@@ -1,4 +1,4 @@
-"""What the texts of USD's composition errors say: Python can read nothing else of these errors."""
+"""Reads the texts of USD's composition errors, which are all that Python can see of them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pxr import Sdf
 from usdvol_lint.paths import display
 
 ARCS = ("sublayer", "reference", "payload")
-"""The arcs that USD names in the text of an error about a layer."""
+"""The composition arcs that name a layer, in the words of these texts."""
 
 _QUOTED = re.compile(r"@(.+?)@(?:<([^>]*)>)?")
 _INTRODUCED = re.compile(r"introduced by @(.+?)@<([^>]*)>")
@@ -23,8 +23,8 @@ _ANONYMOUS = re.compile(r"(?:,@)?anon:0x[0-9a-f]+(?::[^@>\s]*)?@?")
 class LayerArc(NamedTuple):
     """An arc or clip set that names a layer, and the spec that holds it.
 
-    `arc` is one of `ARCS`, or clip, clip template or clip manifest; `asset` is the path as
-    authored, `path` the absolute one.
+    `arc`: one of `ARCS`, or clip, clip template or clip manifest.
+    `asset`: the path as authored; `path`: the absolute path.
     """
 
     arc: str
@@ -34,7 +34,10 @@ class LayerArc(NamedTuple):
 
 
 def missing_arc(text: str) -> LayerArc | None:
-    """The arc of an error about a layer that does not open; the text is alike in all versions."""
+    """The arc in an error about a layer that does not open; None if its spec can't be found.
+
+    All supported versions of USD use the same words.
+    """
     quoted = _QUOTED.findall(text)
     if len(quoted) < 2:
         return None
@@ -48,25 +51,25 @@ def missing_arc(text: str) -> LayerArc | None:
 
 
 def reason_in(text: str, resolved: str) -> str:
-    """Why a layer does not open, if the text of an error gives the reason; else ""."""
+    """Why a layer does not open, or "" if the text of the error gives no reason."""
     reason = text.partition(" -- ")[2].removesuffix("; skipping.")
     return as_reason(reason, resolved)
 
 
 def as_reason(text: str, resolved: str) -> str:
-    """USD's words about the layer at a path in the manner of messages, the layer called `it`."""
+    """USD's words about a layer in the style of our messages, with `it` for the layer."""
     text = text.replace(f"<{resolved}>", "it").replace(resolved, display(resolved))
     return _one_line(text).rstrip(". ")
 
 
 def as_sentence(text: str) -> str:
-    """USD's words in the manner of messages, with layers relative to the working directory."""
+    """USD's words in the style of our messages, with layers relative to the working directory."""
     line = _ABSOLUTE.sub(lambda path: display(path.group()), _one_line(text)).rstrip(". ")
     return line[:1].lower() + line[1:]
 
 
 def blamed_spec(text: str) -> Any | None:
-    """The spec that introduced an error, if the text names one of an open layer."""
+    """The spec that the text blames, if it names one; its layer must be open."""
     introduced = _INTRODUCED.search(text)
     if introduced:
         return _spec(introduced[1], introduced[2])
@@ -85,7 +88,7 @@ def _spec(identifier: str, path: str) -> Any | None:
 
 
 def _authored(spec: Any, resolved: str) -> str:
-    """The asset path as the layer has it; the text has only what it resolved to."""
+    """The asset path as authored in the layer; the text has only what it resolved to."""
     named = list(_assets_named(spec))
     for asset in named:
         anchored = spec.layer.ComputeAbsolutePath(asset)

@@ -1,4 +1,4 @@
-"""Layers that USD can't open: those that clip sets name, and the reason for any."""
+"""Layers that USD can't open: those that clip sets name, and the reasons."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
 
 
 def missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[LayerArc, Any]]:
-    """What clip sets name and USD can't open, each with the prim of the clip set."""
+    """The layers that clip sets name and USD can't open, each with the prim of its clip set."""
     for clip_set in clip_sets:
         for arc, key, asset in _clip_assets(clip_set):
             if not open_layer(asset):
@@ -25,7 +25,7 @@ def missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[LayerArc, Any]
 
 
 def _clip_assets(clip_set: ClipSet) -> Iterator[tuple[str, str, Any]]:
-    """What a clip set names: the kind of layer, the key that names it, the asset path."""
+    """The layers that a clip set names: `LayerArc.arc`, the key in the clip set, the asset path."""
     if clip_set.template and not clip_set.clips:
         yield "clip template", "templateAssetPath", Sdf.AssetPath(clip_set.template)
     if not clip_set.template:
@@ -35,10 +35,10 @@ def _clip_assets(clip_set: ClipSet) -> Iterator[tuple[str, str, Any]]:
 
 
 def unopened_reason(path: str, reported: Iterable[str]) -> str:
-    """What is wrong with a layer that is there, in the same words in every run; else "".
+    """What is wrong with the layer at a path, in the same words in every run; "" if it is missing.
 
-    `reported` are the reasons in USD's errors: it gives one for only some of the arcs that name
-    the layer, and not for the same ones in every run.
+    `reported` are the reasons in USD's errors, the last resort: USD gives them for only some of the
+    arcs that name the layer, and not for the same arcs in every run.
     """
     fault = file_fault(path)
     if os.path.exists(path):
@@ -49,7 +49,7 @@ def unopened_reason(path: str, reported: Iterable[str]) -> str:
 
 
 def _why_not_open(resolved: str) -> str:
-    """Why USD can't open a layer that is there, or "" if it can."""
+    """Why USD can't open the layer at a path, or "" if it can."""
     try:
         return "" if Sdf.Layer.FindOrOpen(resolved) else "it is not a valid layer"
     except Tf.ErrorException as error:
