@@ -85,7 +85,7 @@ def test_how_many_are_looked_at_together(
         "SCH005",
     } <= codes.keys()
     for prims, batch in ((1, 1), (2, 3), (7, 64)):
-        monkeypatch.setattr(tables, "_MOST_PRIMS", prims)
+        monkeypatch.setattr(tables, "_CHUNK_SIZE", prims)
         monkeypatch.setattr(walk, "_BATCH", batch)
         assert lint().findings == whole.findings
 
