@@ -210,7 +210,7 @@ class Tables:
         return chunk.find(index)
 
     @cached_property
-    def fields(self) -> Mapping[Any, Slot]:
+    def field_slots(self) -> Mapping[Any, Slot]:
         """The slots of all live fields, by path."""
         kinds = [key for key in self._chunks if schema.FIELD in self._kinds.names(key)]
         return {

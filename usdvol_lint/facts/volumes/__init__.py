@@ -59,7 +59,7 @@ class Volumes(Wing):
     def bound(self, table: Table) -> Sequence[Bound]:
         """What the `field:` namespaces of Volumes bind, in brief."""
         return self._binding_reader.read_many(
-            table.batch, table.authored, self.tables.fields, self._layers.may_lack
+            table.batch, table.authored, self.tables.field_slots, self._layers.may_lack
         )
 
     @summary
@@ -86,13 +86,13 @@ class Volumes(Wing):
         """The field prims below a Volume that no Volume targets."""
         from usdvol_lint.facts.volumes.usage import unbound_fields
 
-        return unbound_fields(volume, self._kinds, self.tables.fields, self._users)
+        return unbound_fields(volume, self._kinds, self.tables.field_slots, self._users)
 
     def is_shared(self, volume: Any, field: Any) -> bool:
         """Whether other Volumes target a field of this one too, or instances of this one do."""
         from usdvol_lint.facts.volumes.usage import is_shared
 
-        return is_shared(volume, field, self.tables.fields, self._users)
+        return is_shared(volume, field, self.tables.field_slots, self._users)
 
     @cached_property
     def unused_fields(self) -> list[Any]:
@@ -103,7 +103,7 @@ class Volumes(Wing):
         """
         from usdvol_lint.facts.volumes.usage import accounted_for
 
-        places, used = self.tables.fields, self._users
+        places, used = self.tables.field_slots, self._users
         self._used.add(path for path, place in places.items() if place in used)
         volumes = self._prims.of(schema.VOLUME)
         if not volumes or not self._used.missing_of(places) or not self._layers.are_whole:
