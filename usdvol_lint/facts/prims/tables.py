@@ -38,7 +38,7 @@ class Table:
     __slots__ = ("_alone", "_authored", "_columns", "_failed", "batch")
 
     def __init__(self, batch: PrimBatch, authored: Authored | AuthoredReader) -> None:
-        """`authored` is a reader for a single prim whose authored properties USD failed to read."""
+        """A single prim whose authored properties can't be read has their reader as `authored`."""
         self.batch = batch
         self._columns: dict[column[Any, Any], Sequence[Any]] = {}
         self._authored = authored
@@ -177,9 +177,7 @@ class Tables:
         for table in self.of(*schemas):
             try:
                 authored = table.authored
-            except (
-                Exception
-            ) as error:  # whatever it is: it is reported, and keeps no other prims back
+            except Exception as error:  # whatever it is: the engine reports it
                 self.unreadable.append((table.prims[0], error))
             else:
                 yield table.prims, authored

@@ -88,19 +88,20 @@ def authored_path(asset: Any) -> str:
 
 def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
     """The clip sets authored on this prim, by name; one without a valid `primPath` is ignored."""
+    names = sorted(Usd.ClipsAPI(prim).GetClips() or ())
+    return tuple(filter(None, (_read_clip_set(prim, name) for name in names)))
+
+
+def _read_clip_set(prim: Any, name: str) -> ClipSet | None:
     api = Usd.ClipsAPI(prim)
-    found = []
-    for name in sorted(api.GetClips() or ()):
-        prim_path = api.GetClipPrimPath(name)
-        if prim_path and Sdf.Path.IsValidPathString(prim_path):
-            manifest = api.GetClipManifestAssetPath(name)
-            paths = _clip_paths(api, name)
-            named = manifest is not None and bool(manifest.path)
-            template = None if api.GetClipAssetPaths(name) else api.GetClipTemplateAssetPath(name)
-            found.append(
-                ClipSet(prim, name, prim_path, paths, manifest if named else None, template or None)
-            )
-    return tuple(found)
+    prim_path = api.GetClipPrimPath(name)
+    if not prim_path or not Sdf.Path.IsValidPathString(prim_path):
+        return None
+    manifest = api.GetClipManifestAssetPath(name)
+    if manifest is not None and not manifest.path:
+        manifest = None
+    template = None if api.GetClipAssetPaths(name) else api.GetClipTemplateAssetPath(name)
+    return ClipSet(prim, name, prim_path, _clip_paths(api, name), manifest, template or None)
 
 
 def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
