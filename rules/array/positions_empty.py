@@ -8,7 +8,7 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     if not arrays.lack_positions or facts.layers.may_lack_values(particles):
         return
-    if any(slip.meant.startswith("positions") for slip in facts.prims.misspelt(particles)):
+    if any(slip.intended.startswith("positions") for slip in facts.prims.misspelt(particles)):
         return  # SCH004 says it
     yield Problem(
         "no particles at any time",

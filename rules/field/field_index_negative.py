@@ -6,7 +6,7 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, authored, ru
 @rule("FLD004", on="FieldAsset", when=authored("fieldIndex"), severity=ERROR, since="0.1")
 def field_index_negative(field: Prim, facts: Facts) -> Problems:
     values = facts.prims.values(field, "fieldIndex")
-    for index, held in values.apart(lambda value: value if type(value) is int and value < 0 else None):
+    for index, held in values.grouped(lambda value: value if type(value) is int and value < 0 else None):
         yield Problem(
             f"fieldIndex {index} is negative: it counts the grids of one name from 0{held.count}",
             at=held,

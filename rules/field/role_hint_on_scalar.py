@@ -13,7 +13,7 @@ def role_hint_on_scalar(field: Prim, facts: Facts) -> Problems:
     if not all(isinstance(name, str) and name in SCALAR_DATA_TYPES for name in types):
         return
     roles = [token for token in declared[_ROLE].tokens if token != "None"]
-    for role, held in facts.prims.values(field, _ROLE).apart(lambda value: _among(roles, value)):
+    for role, held in facts.prims.values(field, _ROLE).grouped(lambda value: _among(roles, value)):
         yield Problem(
             f"{_ROLE} {role!r} on a field of type {types[0]!r}, which is no vector{held.count}",
             at=held,

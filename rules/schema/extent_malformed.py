@@ -15,7 +15,7 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Prims, Problem, Problems, When,
     since="0.1",
 )
 def extent_malformed(prim: Prim, facts: Facts) -> Problems:
-    for fault, held in facts.prims.extents(prim).apart(_fault):
+    for fault, held in facts.prims.extents(prim).grouped(_fault):
         first = next(iter(held))
         corners = f": {first.low}, {first.high}" if first.size == 2 else ""
         yield Problem(

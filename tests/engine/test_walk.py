@@ -14,7 +14,7 @@ from usdvol_lint.engine.assign import assign
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.walk import Walk, walk
 from usdvol_lint.facts import Context, Facts
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.model import Severity
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
@@ -49,7 +49,7 @@ def walked(
     Those in a prototype are named by where they are in it.
     """
     stage = Usd.Stage.Open(write_stage(folder, text, **layers), load)
-    result = walk(stage, [asks("ONE001", "Volume")], Kinds())
+    result = walk(stage, [asks("ONE001", "Volume")], PrimKinds())
     kept = [prim for prims in result.kept.values() for prim in prims]
     return result.prims, sorted(map(_path, kept))
 
@@ -165,7 +165,7 @@ def Sphere "ball"
     ]
     rules = [asks(name, name) for name, _ in asked]
     rules.append(asks("TWO001", "Volume", "Gprim", "MaterialBindingAPI"))
-    found = walk(stage, rules, Kinds())
+    found = walk(stage, rules, PrimKinds())
     pairs = Counter((rule.code, prim.GetName()) for rule, prim in assigned(stage, found, rules))
     assert pairs == Counter(
         (code, name)
@@ -194,13 +194,13 @@ def Volume "cloud"
 """
     stage = Usd.Stage.Open(write_stage(tmp_path, f"{cloud}{field}}}\n"))
     rules = list(catalog.rules.values())
-    pairs = assigned(stage, walk(stage, rules, Kinds()), rules)
+    pairs = assigned(stage, walk(stage, rules, PrimKinds()), rules)
     assert [rule.code for rule, _ in pairs if rule.when] == []
 
 
 def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
     stage = Usd.Stage.Open(write_stage(tmp_path, 'def Sphere "ball"\n{\n}\n' + LIVE))
-    result = walk(stage, [], Kinds())
+    result = walk(stage, [], PrimKinds())
     assert result.prims == 2
     assert [str(prim.GetPath()) for prims in result.kept.values() for prim in prims] == ["/live"]
 

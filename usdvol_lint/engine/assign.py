@@ -12,7 +12,7 @@ from usdvol_lint.engine.walk import Walk
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.prims.tables import Chunk, Table
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
-from usdvol_lint.facts.usd.kinds import Key
+from usdvol_lint.facts.usd.kinds import KindKey
 from usdvol_lint.rule import Rule, When
 
 Options: TypeAlias = Mapping[str, Mapping[str, Any]]
@@ -133,7 +133,7 @@ class _RulesByKey:
             return True
 
 
-def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[Key, Chunk]]:
+def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[KindKey, Chunk]]:
     """The kept prims by kind, some at a time, roughly in the order of the walk.
 
     What Volumes are asked needs what their fields hold: of prims that the walk met together,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from pxr import Ar, Usd
 
 from usdvol_lint.facts.usd.instances import shown
-from usdvol_lint.facts.usd.opinions import opinion
+from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.model import Site
 from usdvol_lint.paths import display
 from usdvol_lint.rule import NotChecked, Problem
@@ -71,7 +71,7 @@ def blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None
         return _blamed_prim_spec(problem.at), None
     if isinstance(problem.at, Usd.Attribute) and (problem.at_default or problem.times):
         time = None if problem.at_default else problem.times[0]
-        if held := opinion(problem.at, time):
+        if held := strongest_opinion(problem.at, time):
             spec, offset = held
             return spec, None if time is None else offset.GetInverse() * time
     specs = problem.at.GetPropertyStack()

@@ -11,7 +11,7 @@ from pxr import Sdf, Tf, Usd
 
 from usdvol_lint.engine.trouble import Unreadable
 from usdvol_lint.facts.files.disk import LFS_SIGNATURE
-from usdvol_lint.facts.usd.clips import tells_of_clips
+from usdvol_lint.facts.usd.clips import concerns_only_clips
 from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
 from usdvol_lint.model import quoted
 from usdvol_lint.paths import SUFFIXES, display
@@ -68,7 +68,7 @@ def _open(layer: Any, session: Any | None, policy: Any) -> Any:
             return Usd.Stage.Open(layer, session, policy)
     except Tf.ErrorException as error:
         stage = next(iter(cache.GetAllStages()), None)
-        if stage is None or not tells_of_clips(error, stage):
+        if stage is None or not concerns_only_clips(error, stage):
             raise
         return stage
 

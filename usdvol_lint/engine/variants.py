@@ -11,9 +11,9 @@ from pxr import Sdf, Tf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.engine.site import blamed_spec
-from usdvol_lint.facts.usd.clips import tells_of_clips
+from usdvol_lint.facts.usd.clips import concerns_only_clips
 from usdvol_lint.facts.usd.instances import path_in_prototype, shown
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
 
 _OURS = frozenset(
@@ -67,7 +67,7 @@ class OtherSelections:
     The stage needs a session layer of its own.
     """
 
-    def __init__(self, stage: Any, kinds: Kinds, limit: int) -> None:
+    def __init__(self, stage: Any, kinds: PrimKinds, limit: int) -> None:
         self.composed = 0
         self._stage = stage
         self._kinds = kinds
@@ -132,7 +132,7 @@ class OtherSelections:
         try:
             self._select(selection)
         except Tf.ErrorException as error:
-            if not tells_of_clips(error, self._stage):
+            if not concerns_only_clips(error, self._stage):
                 raise
 
     def _select(self, selection: Any) -> None:

@@ -11,7 +11,7 @@ from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import has_metadata
-from usdvol_lint.facts.usd.kinds import Key, Kinds
+from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 from usdvol_lint.rule import Rule
 
 _BATCH = 256
@@ -28,17 +28,17 @@ class Walk:
 
     prims: int = 0
     clipped: list[Any] = field(default_factory=list)
-    kept: dict[Key, list[Any]] = field(default_factory=dict)
+    kept: dict[KindKey, list[Any]] = field(default_factory=dict)
 
 
-def walk(stage: Any, rules: Iterable[Rule], kinds: Kinds) -> Walk:
+def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
     """Walks the stage and each prototype once; abstract, inactive and unloaded prims stay outside.
 
     Whether a prim is kept is decided once for each combination of type and applied schemas, so
     the cost does not grow with the number of rules.
     """
     wanted = schema.OURS.union(*(rule.on for rule in rules))
-    of_kind: dict[Key, list[Any] | None] = {}
+    of_kind: dict[KindKey, list[Any] | None] = {}
     result = Walk()
     for prims in _batches(stage):
         result.prims += len(prims)

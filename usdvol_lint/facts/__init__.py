@@ -1,4 +1,4 @@
-"""What is known of a stage: found once, on demand, never computed unless a rule asks."""
+"""Facts about a stage: computed when a rule first asks for them, and cached."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from usdvol_lint.facts.volumes import Volumes
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.disk import Disk
-    from usdvol_lint.facts.usd.kinds import Key, Kinds
+    from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
     from usdvol_lint.facts.volumes.usage import UsedFields
     from usdvol_lint.volumefile.cache import VolumeFiles
 
@@ -24,14 +24,15 @@ _W = TypeVar("_W", bound=Wing)
 
 
 class Context(NamedTuple):
-    """What the facts of a stage stand on under every variant selection.
+    """What the facts of a stage share under all variant selections.
 
-    `disk` has the state of files and `volume_files` their content, of other stages too; `used` are
-    the fields that some selection uses; `advance` is told of progress in long sequences.
+    `disk`: caches the state of files; `volume_files`: caches their content, across stages too.
+    `used`: collects the fields that are used under any selection.
+    `advance`: called with how many samples of a long sequence were processed.
     """
 
     stage: Any
-    kinds: Kinds
+    kinds: PrimKinds
     depth: Depth
     disk: Disk
     volume_files: VolumeFiles
@@ -46,13 +47,13 @@ class Context(NamedTuple):
         volume_files: VolumeFiles | None = None,
         advance: Callable[[int], None] = lambda samples: None,
     ) -> Context:
-        """The context of a stage of which nothing is known yet."""
+        """The context of a stage with empty caches, but for those of `volume_files`."""
         from usdvol_lint.facts.files.disk import Disk
-        from usdvol_lint.facts.usd.kinds import Kinds
+        from usdvol_lint.facts.usd.kinds import PrimKinds
         from usdvol_lint.facts.volumes.usage import UsedFields
         from usdvol_lint.volumefile.cache import VolumeFiles
 
-        kinds = Kinds(stage.GetMetadata("fallbackPrimTypes"))
+        kinds = PrimKinds(stage.GetMetadata("fallbackPrimTypes"))
         files = volume_files or VolumeFiles()
         return cls(stage, kinds, depth, Disk(), files, UsedFields(), advance)
 
@@ -60,16 +61,14 @@ class Context(NamedTuple):
 class Facts:
     """The facts of one stage under one variant selection: read-only for rules.
 
-    `stage` is the `Usd.Stage`; each wing has the facts about one subject, found when first asked
-    for, and kept.
-    Modules that need pxr are imported where they are used, so that the words rules are written in
-    can be loaded where there is no pxr.
+    `stage` is the `Usd.Stage`; each wing has the facts about one subject.
+    Modules that need pxr are imported in functions, so that rules can be loaded without pxr.
     """
 
     def __init__(
-        self, context: Context, kept: Mapping[Key, Sequence[Any]], clipped: Sequence[Any]
+        self, context: Context, kept: Mapping[KindKey, Sequence[Any]], clipped: Sequence[Any]
     ) -> None:
-        """`kept` are the prims that rules ask for, by kind; on `clipped` clips are authored."""
+        """`kept`: the prims that rules ask for, by kind; `clipped`: all that author clip sets."""
         from usdvol_lint.facts.prims.attributes import AuthoredReader
         from usdvol_lint.facts.prims.tables import Tables
         from usdvol_lint.facts.usd.clips import Clips
@@ -90,6 +89,6 @@ class Facts:
         self.particles = Particles(tables, kinds, self.prims, depth, advance)
 
     def wing(self, wing: type[_W]) -> _W:
-        """The wing of a class, as what is declared there names it."""
-        found: _W = getattr(self, wing.__name__.lower())
-        return found
+        """The wing of that class: `Files` is `files`."""
+        own: _W = getattr(self, wing.__name__.lower())
+        return own

@@ -1,4 +1,4 @@
-"""The one mechanism for what is found once: declared in a wing, found when asked for, and kept."""
+"""How facts are declared in wings: computed when first asked for, and cached."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ _W = TypeVar("_W", bound="Wing")
 
 
 class Wing:
-    """The facts about one subject; `tables` are the prims of the stage.
+    """The facts about one subject; `tables` hold the prims of the stage.
 
-    A wing is given the objects below it when it is made, and nothing that leads back to it: a
-    circle of references would keep the stage and its layers alive after the last question.
+    A wing is given the objects that it builds on, and nothing that refers back to it: a reference
+    cycle would keep the stage and its layers alive after the last question.
     """
 
     def __init__(self, tables: Tables) -> None:
         self.tables = tables
-        self.known: dict[Any, dict[fact[Any, Any], Any]] = defaultdict(dict)
-        """What `fact` found, by prim."""
+        self.cache: dict[Any, dict[fact[Any, Any], Any]] = defaultdict(dict)
+        """By prim, the values of what is declared as a `fact`."""
 
 
 class _Declared(Generic[_W]):
-    """What a wing declares, known by the wing's class and a name."""
+    """A declaration in the body of a wing; it knows the wing's class and its own name there."""
 
     def __set_name__(self, owner: type[_W], name: str) -> None:
         self.owner = owner
@@ -40,7 +40,11 @@ class _Declared(Generic[_W]):
 
 
 class column(_Declared[_W], Generic[_W, _T]):  # noqa: N801  (a decorator, as property is)
-    """A fact that is found for all prims of a table at once, and kept in the table."""
+    """A fact that is computed for all prims of a table at once, and cached in the table.
+
+    The decorated method takes a table and returns one value for each of its prims, in order.
+    On a wing, the name is a `Column`.
+    """
 
     def __init__(self, find: Callable[[_W, Table], Sequence[_T]]) -> None:
         self.find = find
@@ -51,16 +55,19 @@ class column(_Declared[_W], Generic[_W, _T]):  # noqa: N801  (a decorator, as pr
     @overload
     def __get__(self, wing: _W, owner: type[_W]) -> Column[_T]: ...
     def __get__(self, wing: _W | None, owner: type[_W]) -> column[_W, _T] | Column[_T]:
-        # Made anew each time: kept in the wing it would be a circle.
+        # Made anew each time: cached in the wing, it would be a reference cycle.
         return self if wing is None else Column(self, wing)
 
     def keys(self, wing: _W, table: Table) -> Sequence[_T]:
-        """What preconditions look at, of each prim of a table."""
-        return table.each(self, wing)
+        """What preconditions look at: the value for each prim of a table."""
+        return table.cells(self, wing)
 
 
 class Column(Generic[_T]):
-    """A column of one wing; inside loops take it out of the wing first."""
+    """A column of one wing.
+
+    It is made at each access to the wing's attribute: loops should bind it to a local name first.
+    """
 
     __slots__ = ("_declared", "_wing")
 
@@ -69,22 +76,22 @@ class Column(Generic[_T]):
         self._wing = wing
 
     def __call__(self, prim: Any) -> _T:
-        """The fact of one prim, whether or not that of others can be found."""
+        """The value for one prim; raises only what this prim is to blame for."""
         table, row = self._wing.tables.find(prim)
         return table.cell(row, self._declared, self._wing)
 
     def at(self, table: Table, row: int) -> _T:
-        """The same, by the place of the prim."""
+        """The value for the prim in a row of a table, as for a prim."""
         return table.cell(row, self._declared, self._wing)
 
-    def each(self, table: Table) -> Sequence[_T]:
-        """The whole column; raises where the fact of one prim can't be found."""
-        return table.each(self._declared, self._wing)
+    def all(self, table: Table) -> Sequence[_T]:
+        """The values for all prims of a table; raises if that for one of them can't be found."""
+        return table.cells(self._declared, self._wing)
 
     def readable(self, *schemas: str) -> Iterator[tuple[Any, _T]]:
-        """The prims that answer to a schema, with the fact of each.
+        """The prims that answer to one of these schemas, each with its value.
 
-        Prims that USD can't read are left out, and stand in `Tables.unreadable`.
+        Prims whose value can't be found are left out, and added to `Tables.unreadable`.
         """
         tables = self._wing.tables
         for table in tables.of(*schemas):
@@ -92,7 +99,10 @@ class Column(Generic[_T]):
 
 
 class summary(_Declared[_W], Generic[_W, _K]):  # noqa: N801  (a decorator, as property is)
-    """Hashable keys that preconditions look at: asked for once a table, and not kept."""
+    """Hashable keys, one for each prim of a table, that preconditions look at.
+
+    They are asked for once for each table, so they are not cached.
+    """
 
     def __init__(self, find: Callable[[_W, Table], Sequence[_K]]) -> None:
         self.find = find
@@ -104,7 +114,7 @@ class summary(_Declared[_W], Generic[_W, _K]):  # noqa: N801  (a decorator, as p
 
 
 class fact(_Declared[_W], Generic[_W, _T]):  # noqa: N801  (a decorator, as property is)
-    """A fact that is found for one prim at a time, and kept."""
+    """A fact that is computed for one prim at a time, and cached in the wing."""
 
     def __init__(self, find: Callable[[_W, Any], _T]) -> None:
         self.find = find
@@ -118,8 +128,8 @@ class fact(_Declared[_W], Generic[_W, _T]):  # noqa: N801  (a decorator, as prop
         return self if wing is None else partial(self._of, wing)
 
     def _of(self, wing: _W, prim: Any) -> _T:
-        known = wing.known[prim]
-        if self not in known:
-            known[self] = self.find(wing, prim)
-        found: _T = known[self]
-        return found
+        values = wing.cache[prim]
+        if self not in values:
+            values[self] = self.find(wing, prim)
+        value: _T = values[self]
+        return value

@@ -23,7 +23,7 @@ from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.particles import memory
 from usdvol_lint.facts.particles.arrays import Misfits, chosen
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.values import Value
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import activate
@@ -721,7 +721,7 @@ def test_an_old_usd_is_said_once_a_stage(lint_text: Callable[[str], StageReport]
     report = lint_text(bare("").replace('"Splats"', '"One"') + bare("").partition("\n")[2])
     said = [finding for finding in report.findings if finding.code == "LNT004"]
     assert codes(report.findings) == codes(tuple(said))
-    assert len(said) == (0 if Kinds().knows_particle_fields else 1)
+    assert len(said) == (0 if PrimKinds().knows_particle_fields else 1)
     for finding in said:
         assert (finding.severity.label, finding.site.prim) == ("warning", None)
 

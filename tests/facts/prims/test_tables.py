@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import shutil
 from collections import Counter
 from collections.abc import Callable
@@ -11,7 +12,7 @@ from typing import Any
 
 import pytest
 from process import ROOT
-from pxr import Tf
+from pxr import Sdf, Tf
 
 from usdvol_lint.config import Config
 from usdvol_lint.engine import walk
@@ -84,7 +85,7 @@ def test_how_many_are_looked_at_together(
         "SCH005",
     } <= codes.keys()
     for prims, batch in ((1, 1), (2, 3), (7, 64)):
-        monkeypatch.setattr(tables, "_MOST_PRIMS", prims)
+        monkeypatch.setattr(tables, "_CHUNK_SIZE", prims)
         monkeypatch.setattr(walk, "_BATCH", batch)
         assert lint().findings == whole.findings
 
@@ -136,6 +137,23 @@ def test_what_is_left_out_of_a_stage_as_a_whole_is_said_under_any_rules(
         unread = [each.site.prim for each in findings if each.code == "LNT001"]
         assert "/v30" in unread
         assert set(unread) <= {"/v30", "/v30/density"}
+
+
+@pytest.mark.parametrize("question", ["get_property_names", "get_prim_stack", "get_value"])
+def test_a_prim_that_can_not_be_read_keeps_no_layer_alive(
+    question: str,
+    lint: Callable[[], StageReport],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    """The traceback of what was raised holds frames, which hold the stage."""
+    monkeypatch.setattr(batches, question, failing(getattr(batches, question), "/v30"))
+    gc.disable()
+    try:
+        assert "LNT001" in {finding.code for finding in lint().findings}
+        assert Sdf.Layer.Find(str(tmp_path.resolve() / "stage.usda")) is None
+    finally:
+        gc.enable()
 
 
 def besides(report: StageReport, prim: str) -> list[Finding]:

@@ -12,7 +12,7 @@ from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
@@ -211,7 +211,7 @@ def Volume "cloud" {{
 }}
 """
     stage = Usd.Stage.Open(write(tmp_path / "stage.usda", text))
-    walked = walk(stage, [], Kinds())
+    walked = walk(stage, [], PrimKinds())
     facts = Facts(Context.of(stage), walked.kept, walked.clipped)
     cloud, density = stage.GetPrimAtPath("/cloud"), stage.GetPrimAtPath("/cloud/density")
     assert not facts.volumes.is_shared(cloud, density)

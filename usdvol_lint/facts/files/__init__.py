@@ -42,7 +42,7 @@ class Files(Wing):
     @summary
     def path_marks(self, table: Table) -> Sequence[frozenset[Enum]]:
         """The states of the values of `filePath`, and what is remarkable about them."""
-        return self._marks.of(self.paths.each(table), table.authored)
+        return self._marks.of(self.paths.all(table), table.authored)
 
     @fact
     def sequence(self, field: Any) -> SampleSequence | None:

@@ -18,7 +18,7 @@ from usdvol_lint.facts.files.states import PLACES, AssetState, FileFault
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.instances import shown
-from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
+from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import Occurrences, read_values
 from usdvol_lint.model import frame_ranges, quoted
 
@@ -139,7 +139,7 @@ class Affected(Occurrences):
 
     def _authored(self, times: Sequence[float]) -> Sequence[float]:
         """The times as the layer of the first sample has them, before its layer offset."""
-        held = opinion(self.attribute, times[0])
+        held = strongest_opinion(self.attribute, times[0])
         if held is None or held.offset.IsIdentity():
             return times
         inverse = held.offset.GetInverse()
@@ -149,7 +149,7 @@ class Affected(Occurrences):
         """The names of the layers that hold the samples; only clips spread them over several."""
         from_clips = is_from_clips(self.attribute, times[0])
         asked = self.samples if from_clips else (self.samples[0], self.samples[-1])
-        held = (opinion(self.attribute, sample.time) for sample in asked)
+        held = (strongest_opinion(self.attribute, sample.time) for sample in asked)
         return list(dict.fromkeys(found.spec.layer.GetDisplayName() for found in held if found))
 
     def anchored(self) -> str:
@@ -204,7 +204,7 @@ def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:
     specs = attribute.GetPropertyStack()
     if len(specs) < 2 and not clips:
         return None  # so it is nearly always, and all that follows takes time
-    held = opinion(attribute, None)
+    held = strongest_opinion(attribute, None)
     if held is None or attribute.Get() is None or attribute.GetNumTimeSamples():
         return None
     for spec in specs:
@@ -234,7 +234,7 @@ def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips 
     """The clips that would give the attribute its values if the manifest declared it."""
     if not clips or attribute.GetNumTimeSamples():
         return None
-    held = opinion(attribute, None)
+    held = strongest_opinion(attribute, None)
     for clip_set in clips:
         if held and clip_set.is_outranked_by(held.spec):
             return None
@@ -274,7 +274,7 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Sam
 
 
 def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
-    held = opinion(attribute, time)
+    held = strongest_opinion(attribute, time)
     if held is None:
         return None
     spec, offset = held
@@ -297,7 +297,7 @@ def _resolved_without_arguments(attribute: Any, time: float | None, path: str) -
 def _anchored(attribute: Any, time: float | None, path: str) -> str:
     """The absolute path, in relation to the layer that holds the opinion, without arguments."""
     bare = str(Sdf.Layer.SplitIdentifier(path)[0])
-    held = opinion(attribute, time)
+    held = strongest_opinion(attribute, time)
     if held is None:
         return bare
     layer = held.spec.layer

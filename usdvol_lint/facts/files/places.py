@@ -12,7 +12,7 @@ from pxr import Ar
 from usdvol_lint.facts.files.assets import Affected, AssetSamples, Sample
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.states import AssetState
-from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
+from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 
 _THERE = frozenset({AssetState.FILE, AssetState.NOT_A_FILE})
 _HERE = _THERE | {AssetState.MISSING}
@@ -63,7 +63,7 @@ def package_of(layer: Any | None) -> str:
 
 def below_layer(affected: Affected) -> str | None:
     """The first path in relation to the folder of the layer that holds it, if it lies below it."""
-    held = opinion(affected.attribute, affected.first.time)
+    held = strongest_opinion(affected.attribute, affected.first.time)
     folder = os.path.dirname(held.spec.layer.realPath) if held else ""
     below = affected.first.path.removeprefix(f"{folder}/")
     return f"./{below}" if folder and below != affected.first.path else None
@@ -84,7 +84,7 @@ class _Layers:
         """The layer that holds a sample."""
         time = self.key(sample)
         if time not in self._known:
-            held = opinion(self._paths.attribute, time)
+            held = strongest_opinion(self._paths.attribute, time)
             self._known[time] = held.spec.layer if held else None
         return self._known[time]
 

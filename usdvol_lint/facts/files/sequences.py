@@ -16,7 +16,7 @@ from pxr import Ar
 
 from usdvol_lint.facts.files.assets import Affected, AssetSamples, Sample
 from usdvol_lint.facts.files.states import AssetState
-from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
+from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.model import format_time, quoted
 
 _DIGITS = re.compile(r"([0-9]+)")
@@ -226,7 +226,7 @@ class SampleSequence:
     def _layer_times(self, gap: Gap) -> list[float] | None:
         """The times of a gap in the layer that holds it, or None if they mean nothing there."""
         attribute, time = self._paths.attribute, gap.before.time
-        held = opinion(attribute, time)
+        held = strongest_opinion(attribute, time)
         if held is None or gap.before.state not in _ON_DISK or is_from_clips(attribute, time):
             return None
         inverse = held.offset.GetInverse()

@@ -48,13 +48,13 @@ class Grids(Wing):
     @column
     def timelines(self, table: Table) -> Sequence[Timeline]:
         """What is inside the files that fields name, over time; fields may share one."""
-        paths, claims = self._files.paths.each(table), self.claims.each(table)
+        paths, claims = self._files.paths.all(table), self.claims.all(table)
         return self._content_reader.read(paths, claims, table.authored)
 
     @summary
     def content_classes(self, table: Table) -> Sequence[tuple[Kind, ...]]:
         """The classes of what is inside the files that a field names."""
-        return [tuple([kind for kind, _ in each.kinds]) for each in self.timelines.each(table)]
+        return [tuple([kind for kind, _ in each.kinds]) for each in self.timelines.all(table)]
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""

@@ -1,8 +1,9 @@
-"""The layers that a stage is composed of, and what could not be composed."""
+"""The layers that a stage is composed of, and what USD could not compose."""
 
 from __future__ import annotations
 
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Layers(Wing):
-    """What USD could not compose of the stage, and what the root layer says of its time."""
+    """What USD could not compose, and the time range that the stage declares."""
 
     def __init__(self, tables: Tables, stage: Any, clips: Clips) -> None:
         super().__init__(tables)
@@ -24,12 +25,12 @@ class Layers(Wing):
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
-        """The layers that an arc or a clip set names and USD can't open."""
+        """The layers that an arc or a clip set names, and that USD can't open."""
         return self._composition.missing_layers
 
     @property
     def errors(self) -> tuple[CompositionError, ...]:
-        """Every other composition error."""
+        """All other composition errors."""
         return self._composition.errors
 
     @property
@@ -39,20 +40,20 @@ class Layers(Wing):
 
     @property
     def are_whole(self) -> bool:
-        """Whether every layer that an arc names was there and loaded."""
+        """Whether every layer that an arc names could be opened and was loaded."""
         return self._composition.is_whole
 
     def may_lack(self, prim: Any) -> bool:
-        """Whether a layer that does not open may say something about a prim and what is below."""
+        """Whether a layer that failed to open may have opinions on a prim or those below it."""
         return self._composition.may_lack(prim)
 
     def may_lack_values(self, prim: Any) -> bool:
-        """The same, counting value clips too, which supply only values of attributes."""
+        """As `may_lack`, and value clips count too, which supply only attribute values."""
         return self._composition.may_lack_values(prim)
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:
-        """The stage's startTimeCode and endTimeCode, where both are authored and in this order."""
+        """startTimeCode and endTimeCode; None unless both are authored, in ascending order."""
         if not self._stage.HasAuthoredTimeCodeRange():
             return None
         start, end = self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
@@ -63,10 +64,8 @@ class Layers(Wing):
         from usdvol_lint.facts.layers.composition import read_composition
 
         clipped: list[Any] = []
-        for table in self.tables.of(*schema.OURS):
-            if table.fault:
-                self.tables.unreadable.append((table.prims[0], table.fault))
-            elif table.authored.is_clipped:
-                clipped += table.prims
-        clip_sets = dict.fromkeys(found for prim in clipped for found in self._clips.reaching(prim))
-        return read_composition(self._stage, clip_sets)
+        for prims, authored in self.tables.authored(*schema.OURS):
+            if authored.is_clipped:
+                clipped += prims
+        clip_sets = chain.from_iterable(map(self._clips.reaching, clipped))
+        return read_composition(self._stage, dict.fromkeys(clip_sets))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.extent import Strays
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
-    from usdvol_lint.facts.usd.kinds import Kinds
+    from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.model import ParticleFieldStats
 
 
@@ -30,7 +30,7 @@ class Particles(Wing):
     def __init__(
         self,
         tables: Tables,
-        kinds: Kinds,
+        kinds: PrimKinds,
         prims: Prims,
         depth: Depth,
         advance: Callable[[int], None],

@@ -8,7 +8,7 @@ from typing import Any
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.kinds import Kinds, is_registered, raw_apis
+from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class ParticleApis:
         return f"; {names}, unknown to this USD, may provide this" if names else ""
 
 
-def read_particle_apis(prim: Any, kinds: Kinds) -> ParticleApis:
+def read_particle_apis(prim: Any, kinds: PrimKinds) -> ParticleApis:
     """Reads the applied schemas, composed and raw."""
     applied = tuple(dict.fromkeys(kinds.applied(prim)))
     unregistered = [

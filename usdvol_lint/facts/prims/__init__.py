@@ -1,28 +1,30 @@
-"""What is authored on prims, held against what the schemas declare."""
+"""What is authored on prims, compared with what the schemas declare."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from itertools import filterfalse
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.prims.attributes import Authored, Misspelt, Mistyped, Unlisted
+    from usdvol_lint.facts.prims.attributes import Authored
+    from usdvol_lint.facts.prims.contradictions import Misspelt, Mistyped, Unlisted
     from usdvol_lint.facts.prims.encodings import Encoding
     from usdvol_lint.facts.prims.extents import Limits
     from usdvol_lint.facts.prims.nesting import Nested, Nesting
     from usdvol_lint.facts.prims.tables import Table, Tables
-    from usdvol_lint.facts.usd.kinds import Kinds
+    from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
 
 
 class Prims(Wing):
-    """The prims that rules ask for: their schemas, attributes, extents, and what is around them."""
+    """The prims that rules ask for: schemas, attributes, extents, and Gprims above and below."""
 
-    def __init__(self, tables: Tables, kinds: Kinds) -> None:
+    def __init__(self, tables: Tables, kinds: PrimKinds) -> None:
         super().__init__(tables)
         self._kinds = kinds
 
@@ -35,105 +37,106 @@ class Prims(Wing):
         return self._kinds.is_a(prim, schema_name)
 
     def shown_path(self, prim: Any) -> str:
-        """The path of a prim as the stage shows it, also in a prototype."""
+        """The path of a prim; for one in a prototype, the first at which an instance has it."""
         from usdvol_lint.facts.usd.instances import shown
 
         return shown(prim).path
 
     def values(self, prim: Any, name: str) -> Values:
-        """Every value of an attribute, the default first."""
+        """All values of an attribute, the default first."""
         from usdvol_lint.facts.usd.values import values_of
 
         return values_of(prim.GetAttribute(name))
 
     @column
     def authored(self, table: Table) -> Sequence[Authored]:
-        """The authored attributes of prims, by what the schemas declare of them."""
+        """The authored properties of prims, sorted by what the schemas declare."""
         return [table.authored] * len(table.prims)
 
     @summary
     def may_be_mistyped(self, table: Table) -> Sequence[bool]:
-        """Whether some spec may have another type than the schema declares."""
-        from usdvol_lint.facts.prims.attributes import may_be_mistyped
+        """Whether a spec may have another type than the schema declares."""
+        from usdvol_lint.facts.prims.contradictions import may_be_mistyped
 
         return may_be_mistyped(table.batch, table.authored)
 
     @summary
     def may_have_unlisted_tokens(self, table: Table) -> Sequence[bool]:
-        """Whether some token may be one that the schema does not allow."""
-        from usdvol_lint.facts.prims.attributes import may_have_unlisted
+        """Whether a token may be one that the schema does not allow."""
+        from usdvol_lint.facts.prims.contradictions import may_have_unlisted
 
         return may_have_unlisted(table.batch, table.authored)
 
     @summary
     def may_be_encoded_otherwise(self, table: Table) -> Sequence[bool]:
-        """Whether prims are of no type of ours, or have properties that no schema declares."""
+        """Whether a prim is of no type of ours, or has properties that no schema declares."""
         is_foreign = schema.OURS.isdisjoint(table.authored.schemas)
-        return [is_foreign or bool(table.authored.undeclared)] * len(table.prims)
+        may_be = is_foreign or bool(table.authored.undeclared)
+        return [may_be] * len(table.prims)
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
-        """The specs of a prim's attributes that have another type than the schema declares."""
-        from usdvol_lint.facts.prims.attributes import mistyped
+        """The specs of a prim's attributes whose type is not the one that the schema declares."""
+        from usdvol_lint.facts.prims.contradictions import mistyped
 
         return mistyped(prim, self.authored(prim))
 
     def misspelt(self, prim: Any) -> Iterator[Misspelt]:
-        """The attributes of a prim that no schema declares for a slip in their names."""
-        from usdvol_lint.facts.prims.attributes import misspelt
+        """The attributes of a prim whose names are probably misspelt."""
+        from usdvol_lint.facts.prims.contradictions import misspelt
 
         return misspelt(prim, self.authored(prim))
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
-        """The tokens in attributes of a prim that the schema does not allow there."""
-        from usdvol_lint.facts.prims.attributes import unlisted_tokens
+        """The values of a prim's attributes that are tokens the schema does not allow."""
+        from usdvol_lint.facts.prims.contradictions import unlisted_tokens
 
         return unlisted_tokens(prim, self.authored(prim))
 
     @fact
     def encoding(self, prim: Any) -> Encoding | None:
-        """The encoding from before the schema that a prim is in, if it is in one."""
+        """The encoding of a prim that predates the schema, if it has one."""
         from usdvol_lint.facts.prims.encodings import recognise
 
         return recognise(prim)
 
     @column
     def limits(self, table: Table) -> Sequence[Limits]:
-        """Every `extent` of prims as a box."""
+        """The `extent` of prims, all values as boxes."""
         from usdvol_lint.facts.prims.extents import read_limits
 
         return read_limits(table.batch)
 
     @summary
     def have_malformed_extents(self, table: Table) -> Sequence[bool]:
-        """Whether some authored `extent` is no box."""
-        return [limits.are_odd for limits in self.limits.each(table)]
+        """Whether an authored `extent` is malformed."""
+        return [limits.are_malformed for limits in self.limits.all(table)]
 
     def extents(self, prim: Any) -> Values:
-        """Every `extent` of a prim, the default first; empty where none is authored."""
+        """All values of `extent` that are arrays of vectors, as `Extent`, the default first."""
         from usdvol_lint.facts.prims.extents import read_extents
 
         return read_extents(prim.GetAttribute("extent"))
 
     @cached_property
     def without_extent(self) -> list[Any]:
-        """The Volumes and particle fields that have no bounds to USD, by their paths."""
-        from usdvol_lint.facts.prims.extents import has_bounds
+        """The Volumes and particle fields whose bounds USD can't tell, sorted by path."""
+        from usdvol_lint.facts.prims.bounds import has_bounds
 
-        found = self.limits.readable(schema.VOLUME, schema.PARTICLE_FIELD)
-        bare = (prim for prim, limits in found if not limits.are_authored and not has_bounds(prim))
-        return sorted(bare, key=self.shown_path)
+        readable = self.limits.readable(schema.VOLUME, schema.PARTICLE_FIELD)
+        unauthored = (prim for prim, limits in readable if not limits.are_authored)
+        return sorted(filterfalse(has_bounds, unauthored), key=self.shown_path)
 
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:
-        """Whether there is a Gprim above or below."""
+        """Whether there is a Gprim among the ancestors or descendants."""
         return self._nesting.are_likely(table.batch)
 
     def gprim_above(self, prim: Any) -> Any | None:
-        """The nearest Gprim among the ancestors of a prim."""
+        """The nearest Gprim among the ancestors of a prim; None if there is none."""
         return self._nesting.above(prim)
 
     def gprims_below(self, prim: Any) -> Iterator[Nested]:
-        """The Gprims below a prim, but none that is a Volume or particle field or below one."""
+        """The Gprims below a prim, except Volumes, particle fields and what is below these."""
         return self._nesting.below(prim)
 
     @cached_property

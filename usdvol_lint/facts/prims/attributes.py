@@ -1,36 +1,37 @@
-"""The authored attributes of prims, held against what the schemas declare."""
+"""The authored properties of prims, sorted by what the schemas declare."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from itertools import repeat
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
 from usdvol_lint.facts.usd.clips import Clips
-from usdvol_lint.facts.usd.kinds import Key, Kinds
-from usdvol_lint.facts.usd.values import Values, values_of
+from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 
 Shape: TypeAlias = tuple[tuple[str, ...], bool, bool]
-"""The names of authored properties; whether there are several specs; whether there are clips."""
+"""The names of authored properties; whether a prim has several specs; whether clips apply to it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Authored:
-    """What prims of one kind share on which the same properties are authored.
+    """The properties authored on prims of one kind and shape: these prims share it.
 
-    `schemas` are those that they answer to.
-    `declared` are those that UsdVol's schemas, or the ones they derive from, declare, with those
-    that have values in clips alone; `types` are theirs, `tokens` and `uniform` are some of them.
-    `bound` are the names of a Volume's `field:` namespace.
-    `undeclared` are names that no schema declares; `misspellings` are those of them with a likely
-    correction, and the type that this one has.
-    `is_layered` says that several specs have a say, `is_clipped` that value clips may.
+    `schemas`: those that the prims answer to.
+    `declared`: by name, the attributes that UsdVol's schemas or their bases declare, including
+    those that have values only in clips.
+    `types`: the names of these with their `Sdf.ValueTypeName`s.
+    `tokens`: the names of those that allow only certain tokens, with these.
+    `uniform`: the names of those that must not be animated.
+    `bound`: the property names in the `field:` namespace, for Volumes.
+    `undeclared`: the names that no schema declares.
+    `misspellings`: those of them with a likely correction: name, corrected name, its type.
+    `is_layered`: whether the prims have several specs.
+    `is_clipped`: whether value clips apply to them.
     """
 
     schemas: frozenset[str]
@@ -45,45 +46,16 @@ class Authored:
     is_clipped: bool
 
 
-class Mistyped(NamedTuple):
-    """A spec of another type than the schema declares.
-
-    `only_role` says that the values are the same and only what they stand for differs.
-    """
-
-    attribute: Any
-    spec: Any
-    found: str
-    wanted: str
-    only_role: bool
-
-
-class Misspelt(NamedTuple):
-    """An attribute that no schema declares, and the name that was probably meant."""
-
-    attribute: Any
-    meant: str
-
-
-class Unlisted(NamedTuple):
-    """A token that is not one of those that the schema allows, and where it is a value."""
-
-    name: str
-    token: str
-    allowed: tuple[str, ...]
-    values: Values
-
-
 class AuthoredReader:
-    """Finds what is authored on prims: there are few combinations, and many prims of each."""
+    """Reads what is authored on prims, once for all prims of one kind and shape."""
 
-    def __init__(self, kinds: Kinds, clips: Clips) -> None:
+    def __init__(self, kinds: PrimKinds, clips: Clips) -> None:
         self._kinds = kinds
         self._clips = clips
-        self._shared: dict[tuple[Key, Shape], Authored] = {}
+        self._shared: dict[tuple[KindKey, Shape], Authored] = {}
 
-    def shapes(self, batch: PrimBatch, key: Key) -> list[Shape]:
-        """What makes prims of one kind alike: names, and who else may have a say in the values."""
+    def shapes(self, batch: PrimBatch, key: KindKey) -> list[Shape]:
+        """The shapes of prims of one kind; attributes with values in clips count as authored."""
         are_clipped = self._clips.reach(batch)
         are_layered = [len(stack) > 1 for stack in batch.stacks]
         shapes = list(zip(batch.names, are_layered, are_clipped, strict=True))
@@ -91,83 +63,27 @@ class AuthoredReader:
             known = schema.attributes_of(self._kinds.names(key))
             for row, prim in enumerate(batch.prims):
                 if are_clipped[row]:
-                    also = (name for name in known if prim.GetAttribute(name).HasAuthoredValue())
-                    shapes[row] = ((*batch.names[row], *also), are_layered[row], True)
+                    valued = (name for name in known if prim.GetAttribute(name).HasAuthoredValue())
+                    shapes[row] = ((*batch.names[row], *valued), are_layered[row], True)
         return shapes
 
-    def read(self, prim: Any, key: Key, shape: Shape) -> Authored:
-        """What is authored on all prims of a kind that are of a shape; `prim` is one of them."""
-        found = self._shared.get((key, shape))
-        if found is None:
-            found = self._shared[key, shape] = _compare(prim, self._kinds.names(key), *shape)
-        return found
+    def read(self, prim: Any, key: KindKey, shape: Shape) -> Authored:
+        """What is authored on the prims of a kind and shape; `prim` is one of them."""
+        authored = self._shared.get((key, shape))
+        if authored is None:
+            authored = self._shared[key, shape] = _sort_by_schema(
+                prim, self._kinds.names(key), *shape
+            )
+        return authored
+
+    def read_alone(self, prim: Any) -> Authored:
+        """What is authored on one prim."""
+        key = self._kinds.key(prim)
+        (shape,) = self.shapes(PrimBatch((prim,)), key)
+        return self.read(prim, key, shape)
 
 
-def may_be_mistyped(batch: PrimBatch, authored: Authored) -> list[bool]:
-    """Whether `mistyped` may find anything, for each of many prims that are alike."""
-    if authored.is_layered:
-        return [any(mistyped(prim, authored)) for prim in batch.prims]
-    holders = [stack[0] for stack in batch.stacks]
-    found = [False] * len(holders)
-    for name, wanted in authored.types:
-        specs = map(own_attribute, holders, repeat(Sdf.Path(f".{name}")))
-        types = [None if spec is None else type_of_spec(spec) for spec in specs]
-        if types.count(wanted) < len(types):
-            found = [odd or own != wanted for odd, own in zip(found, types, strict=True)]
-    return found
-
-
-def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
-    """The specs, in every layer, whose type is not the one that the schema declares."""
-    types = authored.types
-    stack = get_prim_stack(prim) if types else ()
-    for holder in stack:
-        for name, wanted in types:
-            place = Sdf.Path(f".{name}")
-            spec = own_attribute(holder, place)
-            if spec is None:
-                spec = holder.GetRelationshipAtPath(place)
-                if spec:
-                    yield Mistyped(get_attribute(prim, name), spec, "rel", str(wanted), False)
-            elif (found := type_of_spec(spec)) != wanted:
-                same_values = found.type == wanted.type
-                attribute = get_attribute(prim, name)
-                yield Mistyped(attribute, spec, str(found), str(wanted), same_values)
-
-
-def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
-    """The attributes with values that nobody reads for a slip in their names.
-
-    Where the right one has a value, or could not hold this one, it is none.
-    """
-    for name, meant, wanted in authored.misspellings:
-        attribute = prim.GetAttribute(name)
-        if not attribute or not attribute.HasAuthoredValue():
-            continue
-        names_another = name.startswith("particleField:")
-        could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
-        if could_hold and not prim.GetAttribute(meant).HasAuthoredValue():
-            yield Misspelt(attribute, meant)
-
-
-def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
-    """The tokens that the schema does not allow; an empty one is as good as none."""
-    for name, allowed in authored.tokens:
-        for token, values in values_of(get_attribute(prim, name)).apart(_token):
-            if token not in allowed:
-                yield Unlisted(name, token, allowed, values)
-
-
-def may_have_unlisted(batch: PrimBatch, authored: Authored) -> list[bool]:
-    """Whether `unlisted_tokens` may find anything, for each of many prims that are alike."""
-    found = [False] * len(batch.prims)
-    for name, allowed in authored.tokens:
-        columns = zip(found, batch.values(name), batch.counts(name), strict=True)
-        found = [odd or value not in allowed or count > 0 for odd, value, count in columns]
-    return found
-
-
-def _compare(
+def _sort_by_schema(
     prim: Any, schemas: frozenset[str], names: Iterable[str], is_layered: bool, is_clipped: bool
 ) -> Authored:
     known = schema.attributes_of(schemas)
@@ -200,7 +116,3 @@ def _compare(
         is_layered=is_layered,
         is_clipped=is_clipped,
     )
-
-
-def _token(value: Any) -> str | None:
-    return value if isinstance(value, str) and value else None

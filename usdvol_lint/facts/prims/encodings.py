@@ -1,4 +1,4 @@
-"""Volumes and splats in encodings from before the schema: what gives each away, and what to do."""
+"""Encodings of volumes and splats that predate the schema: how they are recognised, what to do."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from usdvol_lint.facts.usd.kinds import raw_apis
 
 @dataclass(frozen=True, slots=True)
 class Encoding:
-    """What a prim is in and what to do about it; `sign` is what gave it away, in words."""
+    """Where an encoding comes from, what to do, and by which `sign` on a prim it was recognised."""
 
     origin: str
     advice: str
@@ -53,7 +53,7 @@ _BY_TYPE = {
 }
 _BY_API = {"GaussiansAPI": _GAUSSIANS_API, "SphericalHarmonicsAPI": _GAUSSIANS_API}
 _Fingerprints: TypeAlias = dict[tuple[str, ...], Encoding]
-"""Encodings by the beginnings of names of properties, which must all be there."""
+"""Encodings by prefixes of property names; there must be a property for each prefix."""
 
 _RADIANCE_PRIMVARS: _Fingerprints = {("primvars:radiance:sphericalHarmonics",): _LIGHT_FIELD}
 _BY_PROPERTIES: dict[str, _Fingerprints] = {
@@ -69,7 +69,7 @@ _BY_PROPERTIES: dict[str, _Fingerprints] = {
 
 
 def recognise(prim: Any) -> Encoding | None:
-    """The encoding of a prim; asks little of each, for a stage may hold 100,000 Points."""
+    """The encoding of a prim; makes few queries, since a stage may hold 100,000 Points."""
     type_name = prim.GetTypeName()
     if type_name in _BY_TYPE:
         return replace(_BY_TYPE[type_name], sign=f"type {type_name!r}")
@@ -84,14 +84,15 @@ def recognise(prim: Any) -> Encoding | None:
 def _by_properties(prim: Any, known: _Fingerprints) -> Encoding | None:
     names = prim.GetAuthoredPropertyNames()
     text = " ".join(names)
-    for beginnings, encoding in known.items():
-        if beginnings[0] in text and all(_begins(names, beginning) for beginning in beginnings):
+    for prefixes, encoding in known.items():
+        # Most prims end with the first of these tests, which is the fastest.
+        if prefixes[0] in text and all(_any_begins(names, prefix) for prefix in prefixes):
             if any(child.GetTypeName() in _BY_TYPE for child in prim.GetChildren()):
-                return None  # the field prims below say it
-            first = next(name for name in names if name.startswith(beginnings[0]))
+                return None  # it is reported on these fields
+            first = next(name for name in names if name.startswith(prefixes[0]))
             return replace(encoding, sign=f"property {first!r}")
     return None
 
 
-def _begins(names: list[str], beginning: str) -> bool:
-    return any(name.startswith(beginning) for name in names)
+def _any_begins(names: list[str], prefix: str) -> bool:
+    return any(name.startswith(prefix) for name in names)

@@ -1,4 +1,4 @@
-"""Extents of Volumes and particle fields: every authored one, and the prims that need one."""
+"""The values of `extent`: as boxes to compare with, and as authored to report."""
 
 from __future__ import annotations
 
@@ -9,16 +9,20 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Usd, Vt
 
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.calls import get_attribute, has_value
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import Value, Values, read_values, values_of
 from usdvol_lint.volumefile import Bounds
 
 Corner: TypeAlias = tuple[float, float, float]
 
+_ORIGIN = (0.0, 0.0, 0.0)
+_LARGEST = 3.4028234663852886e38
+_EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
+"""What USD writes as the extent of nothing: its minimum is above its maximum, but it is valid."""
+
 
 class Extent(NamedTuple):
-    """One value of an `extent`: its corners if there are two, and how many elements it has."""
+    """One value of `extent`: its number of elements, and its corners, zeros unless it has two."""
 
     size: int
     low: Corner
@@ -26,26 +30,23 @@ class Extent(NamedTuple):
 
     @property
     def is_empty_range(self) -> bool:
-        """Whether it is what USD writes for nothing at all."""
-        return self.size == 2 and (self.low, self.high) == EMPTY_RANGE
-
-
-_ORIGIN = (0.0, 0.0, 0.0)
+        """Whether it is what USD writes as the extent of nothing."""
+        return self.size == 2 and (self.low, self.high) == _EMPTY_RANGE
 
 
 class Limits:
-    """The authored values of an extent, as boxes; one that is malformed counts as none."""
+    """The authored values of `extent` as boxes, in which a malformed value counts as None."""
 
-    __slots__ = ("_default", "_get", "_samples", "are_odd", "attribute")
+    __slots__ = ("_default", "_get", "_samples", "are_malformed", "attribute")
 
     def __init__(self, attribute: Any, values: Iterable[tuple[Time, Any]]) -> None:
         self.attribute = attribute
-        self.are_odd = False
+        self.are_malformed = False
         self._default: Bounds | None = None
         self._samples: dict[float, Bounds | None] = {}
         for time, value in values:
             box = box_of(value)
-            self.are_odd = self.are_odd or (box is None and value is not None)
+            self.are_malformed = self.are_malformed or (box is None and value is not None)
             if time is None:
                 self._default = box
             else:
@@ -54,21 +55,23 @@ class Limits:
 
     @property
     def times(self) -> Iterable[float]:
+        """The times of the samples, in ascending order."""
         return self._samples.keys()
 
     @property
     def are_authored(self) -> bool:
+        """Whether at least one value is a box."""
         return self._default is not None or (bool(self._samples) and any(self._samples.values()))
 
     def at(self, time: Time) -> Bounds | None:
-        """The value as USD gives it: samples hide a default, and are interpolated between."""
+        """The value at a time, as USD resolves it: samples hide a default, and are interpolated."""
         if time is None or self._get is None:
             return self._default
         return self._samples[time] if time in self._samples else box_of(self._get(time))
 
 
 def read_limits(batch: PrimBatch) -> list[Limits]:
-    """Every `extent` of many prims as boxes."""
+    """The `extent` of each prim of a batch."""
     attributes, counts = batch.attributes("extent"), batch.counts("extent")
     return [
         Limits(attribute, read_values(attribute) if count else ((None, value),))
@@ -76,24 +79,19 @@ def read_limits(batch: PrimBatch) -> list[Limits]:
     ]
 
 
-_LARGEST = 3.4028234663852886e38
-EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
-"""What USD writes for an extent with nothing in it: no box, but not malformed."""
-
-
 def box_of(value: Any) -> Bounds | None:
-    """The corners of an extent, if it is one or the empty range."""
+    """The corners of a valid value of `extent`, which may be the empty range; else None."""
     if not isinstance(value, Vt.Vec3fArray) or len(value) != 2:
         return None
     corners: Any = memoryview(value).tolist()  # a tenth of the time that USD's own vectors take
     (a, b, c), (x, y, z) = corners
     ordered = -inf < a <= x < inf and -inf < b <= y < inf and -inf < c <= z < inf
     box = (a, b, c), (x, y, z)
-    return box if ordered or box == EMPTY_RANGE else None
+    return box if ordered or box == _EMPTY_RANGE else None
 
 
 def read_extents(attribute: Any) -> Values:
-    """Every value that is an array of vectors: what else there may be is no extent to USD."""
+    """All values that are arrays of vectors, as `Extent`; USD takes no other for an extent."""
     values = values_of(attribute)
     extents = [
         Value(time, _extent(value))
@@ -106,30 +104,4 @@ def read_extents(attribute: Any) -> Values:
 def _extent(value: Any) -> Extent:
     if len(value) != 2:
         return Extent(len(value), _ORIGIN, _ORIGIN)
-    corners: Any = memoryview(value).tolist()  # a tenth of the time that USD's own vectors take
-    low, high = corners
-    return Extent(2, tuple(low), tuple(high))
-
-
-def has_bounds(prim: Any) -> bool:
-    """Whether USD can tell the bounds of a prim: by its extent, a model's hint or a plugin."""
-    if has_value(get_attribute(prim, "extent")) or _is_hinted(prim):
-        return True
-    from pxr import UsdGeom  # costs start-up time, and extents are rarely missing
-
-    boundable = UsdGeom.Boundable(prim)
-    if not boundable:
-        return False  # a type that this USD does not know
-    computed = UsdGeom.Boundable.ComputeExtentFromPlugins(boundable, Usd.TimeCode.EarliestTime())
-    return computed is not None
-
-
-def _is_hinted(prim: Any) -> bool:
-    """Whether a model with an `extentsHint` holds the prim wherever the stage shows it."""
-    while not prim.IsPseudoRoot():
-        if prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue():
-            return True
-        if prim.IsPrototype():
-            return all(_is_hinted(instance) for instance in prim.GetInstances())
-        prim = prim.GetParent()
-    return False
+    return Extent(2, tuple(value[0]), tuple(value[1]))

@@ -1,105 +1,108 @@
-"""Gprims above and below a prim: USD has each of them be a leaf among its kind."""
+"""Gprims above and below a prim: USD asks for none to be nested in another."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from pxr import Usd
-
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.calls import get_children, get_parent, get_type
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_parent, get_type
+from usdvol_lint.facts.usd.kinds import PrimKinds
 
-_WITH_INSTANCES = Usd.TraverseInstanceProxies()
-_UNKNOWN = object()
+_NOT_CACHED = object()
 
 
 class Nested(NamedTuple):
-    """A Gprim below another; `place` is to blame: itself, or the instance that holds it."""
+    """A Gprim below another, and the prim to blame for it: itself, or the instance that has it."""
 
     gprim: Any
-    place: Any
+    to_blame: Any
 
 
 class Nesting:
-    """Finds Gprims above and below prims, each ancestor looked at once."""
+    """Finds Gprims above and below prims; what is found for an ancestor is cached."""
 
-    def __init__(self, kinds: Kinds) -> None:
+    def __init__(self, kinds: PrimKinds) -> None:
         self._kinds = kinds
-        self._at_or_above: dict[Any, Any | None] = {}
-        self._gprims: dict[str, bool] = {}
+        self._cache: dict[Any, Any | None] = {}
+        self._is_gprim_type: dict[str, bool] = {}
 
     def above(self, prim: Any) -> Any | None:
-        """The nearest Gprim among the ancestors, those of the instances of a prototype too."""
-        return self._from(get_parent(prim))
+        """The nearest Gprim among the ancestors; above a prototype, those of its instances."""
+        return self._at_or_above(get_parent(prim))
 
-    def _from(self, prim: Any) -> Any | None:
-        """The nearest Gprim from a prim upwards."""
-        found = self._at_or_above.get(prim, _UNKNOWN)
-        if found is _UNKNOWN:
-            found = self._at_or_above[prim] = self._find_at_or_above(prim)
-        return found
+    def _at_or_above(self, prim: Any) -> Any | None:
+        """The prim itself if it is a Gprim, or else the nearest above."""
+        gprim = self._cache.get(prim, _NOT_CACHED)
+        if gprim is _NOT_CACHED:
+            gprim = self._cache[prim] = self._find_at_or_above(prim)
+        return gprim
 
     def are_likely(self, batch: PrimBatch) -> list[bool]:
-        """Whether there is a Gprim above or below, Volumes and particle fields counted too."""
+        """Whether each prim has any Gprim above or below, Volumes and particle fields included."""
         return [
-            bool(self._from(parent)) or self._hold_gprims(children)
+            bool(self._at_or_above(parent)) or self._any_has_gprims(children)
             for parent, children in zip(batch.parents, batch.children, strict=True)
         ]
 
     def below(self, prim: Any) -> Iterator[Nested]:
-        """The topmost Gprims below, one for each instance; Volumes and particle fields speak for
-        themselves and what is below them.
+        """The topmost Gprims below a prim, one in each instance.
+
+        Volumes and particle fields are left out: they are reported as nested themselves.
         """
-        places = set()
-        for descendant in self._topmost_gprims(prim):
-            instance = _instance_above(descendant)
-            place = descendant if instance == prim else instance
-            speaks = self._kinds.is_a(descendant, schema.VOLUME)
-            speaks = speaks or self._kinds.is_a(descendant, schema.PARTICLE_FIELD)
-            if not speaks and place not in places:
-                places.add(place)
-                yield Nested(descendant, place)
+        blamed = set()
+        for gprim in self._topmost_gprims(prim):
+            instance = _outermost_instance(gprim)
+            to_blame = gprim if instance == prim else instance
+            if to_blame not in blamed and not self._is_reported_itself(gprim):
+                blamed.add(to_blame)
+                yield Nested(gprim, to_blame)
+
+    def _is_reported_itself(self, gprim: Any) -> bool:
+        is_volume = self._kinds.is_a(gprim, schema.VOLUME)
+        return is_volume or self._kinds.is_a(gprim, schema.PARTICLE_FIELD)
 
     def _topmost_gprims(self, prim: Any) -> Iterator[Any]:
-        # The end of a PrimRange takes longer than to look at a Volume with its fields.
-        for child in get_children(prim, _WITH_INSTANCES):
+        # To end a Usd.PrimRange takes longer than to visit a Volume with its fields this way.
+        for child in get_children(prim, WITH_INSTANCES):
             if self._is_gprim(child):
                 yield child
             else:
                 yield from self._topmost_gprims(child)
 
-    def _hold_gprims(self, prims: Sequence[Any]) -> bool:
+    def _any_has_gprims(self, prims: Sequence[Any]) -> bool:
+        """Whether one of these prims is a Gprim or has one below it."""
         for prim in prims:
             if self._is_gprim(prim):
                 return True
-            below = get_children(prim, _WITH_INSTANCES)
-            if below and self._hold_gprims(below):
+            below = get_children(prim, WITH_INSTANCES)
+            if below and self._any_has_gprims(below):
                 return True
         return False
 
     def _is_gprim(self, prim: Any) -> bool:
-        """By the type alone: no applied schema makes a Gprim."""
+        """Looks at the type alone, since no applied schema makes a prim a Gprim."""
         type_name = get_type(prim)
-        found = self._gprims.get(type_name)
-        if found is None:
-            found = self._gprims[type_name] = schema.GPRIM in self._kinds.names((type_name,))
-        return found
+        known = self._is_gprim_type.get(type_name)
+        if known is None:
+            known = schema.GPRIM in self._kinds.names((type_name,))
+            self._is_gprim_type[type_name] = known
+        return known
 
     def _find_at_or_above(self, prim: Any) -> Any | None:
-        if prim.IsPseudoRoot() or self._is_gprim(prim):
-            return None if prim.IsPseudoRoot() else prim
+        if prim.IsPseudoRoot():
+            return None
+        if self._is_gprim(prim):
+            return prim
         if prim.IsPrototype():
-            found = map(self._find_at_or_above, prim.GetInstances())
-            return next((gprim for gprim in found if gprim), None)
+            gprims = map(self._find_at_or_above, prim.GetInstances())
+            return next(filter(None, gprims), None)
         return self.above(prim)
 
 
-def _instance_above(prim: Any) -> Any:
-    """The prim itself, or the outermost instance that shows it."""
-    place = prim
+def _outermost_instance(prim: Any) -> Any:
+    """The outermost instance above an instance proxy; any other prim itself."""
     while prim.IsInstanceProxy():
-        place = prim = prim.GetParent()
-    return place
+        prim = prim.GetParent()
+    return prim

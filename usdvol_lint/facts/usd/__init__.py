@@ -1,1 +1,1 @@
-"""What USD says, asked in one way: of many prims at once, of one attribute over time."""
+"""Queries to USD: about many prims at once, and about one attribute over time."""

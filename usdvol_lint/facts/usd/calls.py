@@ -1,4 +1,4 @@
-"""USD's methods, looked up once: to do so on an object takes as long as what most of them do."""
+"""USD's methods, looked up once: a look-up on an object takes as long as most of the methods."""
 
 from __future__ import annotations
 
@@ -36,3 +36,6 @@ is_in_prototype: Any = Usd.Prim.IsInPrototype
 get_targets: Any = Usd.Relationship.GetForwardedTargets
 
 prim_at: Any = Usd.Stage.GetPrimAtPath
+
+WITH_INSTANCES: Any = Usd.TraverseInstanceProxies()
+"""A predicate for `get_children`: what a traversal visits, and the children of instances too."""

@@ -1,4 +1,4 @@
-"""The value clips that reach a prim: its own and those of its ancestors."""
+"""Value clips: the sets authored on a prim, and those on its ancestors that apply to it too."""
 
 from __future__ import annotations
 
@@ -12,16 +12,18 @@ from pxr import Sdf, Tf, Usd
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.diagnostics import commentary
 
-_CLIPS_LOOKED_AT = 4
+_CLIPS_OPENED = 4
+"""How many clips of a set are searched for samples, since opening all may take long."""
 _ALL = Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)
 
 
 @dataclass(frozen=True, slots=True)
 class ClipSet:
-    """One clip set as authored on `prim`: asset paths are as USD resolved them.
+    """One clip set authored on `prim`.
 
-    `template` names clips by a pattern, and is None where `clips` are named one by one.
-    Where there is no `manifest`, USD makes one.
+    `clips` and `manifest` are `Sdf.AssetPath`s, resolved by USD.
+    `template` is the pattern that names the clips, or None where they are named one by one.
+    Without a `manifest`, USD generates one.
     """
 
     prim: Any
@@ -32,21 +34,21 @@ class ClipSet:
     template: str | None
 
     def path_in_layers(self, attribute: Any) -> Any:
-        """Where the values of an attribute of this prim, or of one below it, lie in the clips."""
-        place = attribute.GetPrim().GetPath().ReplacePrefix(self.prim.GetPath(), self.prim_path)
-        return place.AppendProperty(attribute.GetName())
+        """The path in the clips of an attribute of this prim or of one below it."""
+        path = attribute.GetPrim().GetPath().ReplacePrefix(self.prim.GetPath(), self.prim_path)
+        return path.AppendProperty(attribute.GetName())
 
     def layer_with_samples(self, attribute: Any) -> Any | None:
-        """The first of the leading clip layers that holds time samples of an attribute."""
+        """The first layer with time samples of an attribute, among the first clips."""
         path = self.path_in_layers(attribute)
-        for clip in self.clips[:_CLIPS_LOOKED_AT]:
+        for clip in self.clips[:_CLIPS_OPENED]:
             layer = open_layer(clip)
             if layer and layer.GetNumTimeSamplesForPath(path):
                 return layer
         return None
 
     def spec_with(self, key: str) -> Any:
-        """The strongest spec of the prim that authors a key of the clip set."""
+        """The strongest spec of the prim that authors a key of the clip set, or the strongest."""
         stack = self.prim.GetPrimStack()
         authors = (
             spec
@@ -56,9 +58,10 @@ class ClipSet:
         return next(authors, stack[0])
 
     def is_outranked_by(self, spec: Any) -> bool:
-        """Whether a spec of an attribute, of this prim or of one below it, beats the clips.
+        """Whether a spec of an attribute, of this prim or one below it, is stronger than the clips.
 
-        Clips are weaker than what their own layer says, and stronger than weaker layers.
+        Clips are weaker than opinions in the layer that names them, and stronger than opinions in
+        weaker layers.
         """
         stack = self.prim.GetPrimStack()
         own = self.spec_with("templateAssetPath" if self.template else "assetPaths")
@@ -71,7 +74,7 @@ class ClipSet:
 
 
 def open_layer(asset: Any) -> Any | None:
-    """The layer at a resolved asset path; None where there is none that USD can read."""
+    """The layer that an `Sdf.AssetPath` resolved to; None where USD can't read one there."""
     try:
         return Sdf.Layer.FindOrOpen(asset.resolvedPath) if asset.resolvedPath else None
     except Tf.ErrorException:
@@ -79,41 +82,43 @@ def open_layer(asset: Any) -> Any | None:
 
 
 def authored_path(asset: Any) -> str:
-    """An asset path as written; empty in a USD that forgets what it was evaluated from."""
+    """An asset path before expressions were evaluated; "" in versions of USD that lose it."""
     return str(getattr(asset, "authoredPath", ""))
 
 
 def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
-    """The clip sets authored on this very prim."""
+    """The clip sets authored on this prim, by name; one without a valid `primPath` is ignored."""
+    names = sorted(Usd.ClipsAPI(prim).GetClips() or ())
+    return tuple(filter(None, (_read_clip_set(prim, name) for name in names)))
+
+
+def _read_clip_set(prim: Any, name: str) -> ClipSet | None:
     api = Usd.ClipsAPI(prim)
-    found = []
-    for name in sorted(api.GetClips() or ()):
-        prim_path = api.GetClipPrimPath(name)
-        if prim_path and Sdf.Path.IsValidPathString(prim_path):
-            manifest = api.GetClipManifestAssetPath(name)
-            paths = _clip_paths(api, name)
-            named = manifest is not None and bool(manifest.path)
-            template = None if api.GetClipAssetPaths(name) else api.GetClipTemplateAssetPath(name)
-            found.append(
-                ClipSet(prim, name, prim_path, paths, manifest if named else None, template or None)
-            )
-    return tuple(found)
+    prim_path = api.GetClipPrimPath(name)
+    if not prim_path or not Sdf.Path.IsValidPathString(prim_path):
+        return None
+    manifest = api.GetClipManifestAssetPath(name)
+    if manifest is not None and not manifest.path:
+        manifest = None
+    template = None if api.GetClipAssetPaths(name) else api.GetClipTemplateAssetPath(name)
+    return ClipSet(prim, name, prim_path, _clip_paths(api, name), manifest, template or None)
 
 
 def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
     try:
         return tuple(api.ComputeClipAssetPaths(name) or ())
     except Tf.ErrorException:
-        # So USD answers where a template fits no file, and for a set that it can't use.
+        # USD raises where a template matches no file, and for a set that it can't use.
         return ()
 
 
-def tells_of_clips(error: Any, stage: Any) -> bool:
-    """Whether an error of USD tells of value clips that do not open, and of nothing else.
+def concerns_only_clips(error: Any, stage: Any) -> bool:
+    """Whether an error that USD raised is about value clips that do not open, and nothing else.
 
-    USD makes a manifest for clips without one, and so opens them when it composes the stage.
+    USD generates a manifest for clips without one, so it opens the clips when it composes the
+    stage.
     """
-    words: set[str] = set()
+    known: set[str] = set()
     with_clips = (
         prim for prim in Usd.PrimRange.Stage(stage, _ALL) if prim.HasAuthoredMetadata("clips")
     )
@@ -121,34 +126,34 @@ def tells_of_clips(error: Any, stage: Any) -> bool:
         for clip in filter(None, (asset.resolvedPath for asset in clip_set.clips)):
             try:
                 Sdf.Layer.FindOrOpen(clip)
-            except Tf.ErrorException as its:
-                words.update(map(commentary, its.args))
-    return set(map(commentary, error.args)) <= words
+            except Tf.ErrorException as clip_error:
+                known.update(map(commentary, clip_error.args))
+    return set(map(commentary, error.args)) <= known
 
 
 class Clips:
-    """Finds clip sets; `prims` are those of the stage on which some are authored."""
+    """The clip sets of a stage; `prims` include all on which clip sets are authored."""
 
     def __init__(self, prims: Iterable[Any]) -> None:
         self._prims = frozenset(prims)
         self._own: dict[Any, tuple[ClipSet, ...]] = {}
 
     def reach(self, batch: PrimBatch) -> list[bool]:
-        """Whether there are clip sets for each of many prims."""
+        """Whether clip sets apply to each prim of a batch."""
         if not self._prims:
-            return [False] * len(batch.prims)  # so it is nearly always
+            return [False] * len(batch.prims)  # as on most stages
         return [bool(self.reaching(prim)) for prim in batch.prims]
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
-        """The clip sets on the prim and its ancestors, nearest first."""
-        found: tuple[ClipSet, ...] = ()
+        """The clip sets that apply to a prim: its own, then those of each ancestor upwards."""
+        clip_sets: tuple[ClipSet, ...] = ()
         while self._prims and not prim.IsPseudoRoot():
             if prim in self._prims:
-                found += self._of(prim)
+                clip_sets += self._on(prim)
             prim = prim.GetParent()
-        return found
+        return clip_sets
 
-    def _of(self, prim: Any) -> tuple[ClipSet, ...]:
+    def _on(self, prim: Any) -> tuple[ClipSet, ...]:
         if prim not in self._own:
             self._own[prim] = clip_sets_on(prim)
         return self._own[prim]

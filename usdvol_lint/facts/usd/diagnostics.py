@@ -1,4 +1,4 @@
-"""What USD says in its errors, without the names of its C++."""
+"""The text of errors that USD raises, without the names of its C++ functions."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any
 from pxr import Tf
 
 UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
-"""What USD raises for what it can't read: a string that is no text reaches Python as the latter."""
+"""What USD raises for what it can't read; the latter for a string that is not valid UTF-8."""
 
 _UNEXPECTED = r"(?s)parse error matching .*? at '(?P<text>.*)'(?= in <)"
 
 
 def commentary(error: Any) -> str:
-    """What one of USD's errors says, which need not be text, because it quotes the file."""
+    """The message of one `Tf.Error`; it quotes the file, so it need not be valid UTF-8."""
     try:
         return str(error.commentary)
     except UnicodeDecodeError as undecodable:
@@ -22,7 +22,7 @@ def commentary(error: Any) -> str:
 
 
 def without_parser_rule(text: str) -> str:
-    """A parse error that says what was unexpected, not which rule of USD's grammar missed it."""
+    """A parse error in one line that says what was unexpected, not which grammar rule failed."""
     return re.sub(_UNEXPECTED, _unexpected, " ".join(text.split()))
 
 

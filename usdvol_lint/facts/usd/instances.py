@@ -1,4 +1,4 @@
-"""Where a prim of an instancing prototype shows on the stage, and how often."""
+"""Where a prim of a prototype appears on the stage, and how often."""
 
 from __future__ import annotations
 
@@ -6,25 +6,24 @@ from typing import Any, NamedTuple
 
 
 class Shown(NamedTuple):
-    """The first stage path that shows a prim, and by how many instances it is shown."""
+    """The first of the stage paths at which a prim appears, and through how many instances."""
 
     path: str
     instances: int
 
 
 def shown(prim: Any) -> Shown:
-    """A prim outside prototypes shows at its own path, once."""
+    """Where a prim appears; outside prototypes, once, at its own path."""
     if not prim.IsInPrototype():
         return Shown(str(prim.GetPath()), 1)
     below = path_in_prototype(prim)
-    places = [shown(instance) for instance in _prototype(prim).GetInstances()]
-    return Shown(
-        min(place.path for place in places) + below, sum(place.instances for place in places)
-    )
+    through = [shown(instance) for instance in _prototype(prim).GetInstances()]
+    path = min(instance.path for instance in through)
+    return Shown(path + below, sum(instance.instances for instance in through))
 
 
 def shown_paths(prim: Any) -> list[str]:
-    """Every stage path that shows a prim, in their order."""
+    """Every stage path at which a prim appears, in ascending order."""
     if not prim.IsInPrototype():
         return [str(prim.GetPath())]
     below = path_in_prototype(prim)
@@ -33,13 +32,13 @@ def shown_paths(prim: Any) -> list[str]:
 
 
 def path_in_prototype(prim: Any) -> str:
-    """The path below the prototype, which is the same for each instance; else the prim's own."""
+    """The path relative to the prototype, equal for all instances; outside one, the whole path."""
     path = str(prim.GetPath())
     return path[len(str(_prototype(prim).GetPath())) :] if prim.IsInPrototype() else path
 
 
 def shown_path(stage: Any, path: Any) -> str:
-    """A path as the stage shows it, also where no prim is."""
+    """A path, of a prim or of none, with a prototype replaced by the first of its instances."""
     root = path.GetPrefixes()[0] if path.pathElementCount else path
     prim = stage.GetPrimAtPath(root)
     if not prim or not prim.IsInPrototype():
@@ -55,5 +54,5 @@ def _prototype(prim: Any) -> Any:
 
 
 def in_prototype(prim: Any) -> Any:
-    """The prim that the walk meets in place of an instance proxy."""
+    """The prim of the prototype for an instance proxy; any other prim itself."""
     return prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim

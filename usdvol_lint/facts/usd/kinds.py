@@ -1,4 +1,4 @@
-"""Which schemas a prim answers to, memoised by type name and applied schemas."""
+"""Which schemas a prim answers to, cached by its type name and applied schemas."""
 
 from __future__ import annotations
 
@@ -10,55 +10,59 @@ from pxr import Usd
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import get_applied, get_type
 
-Key: TypeAlias = tuple[str, ...]
+KindKey: TypeAlias = tuple[str, ...]
 """A prim's type name, then the names of its applied schemas."""
 
 
-class Kinds:
+class PrimKinds:
     """The schema names of each kind of prim: its type and bases, and its applied APIs.
 
-    `fallbacks` are the types that the stage names for types which nobody registers.
+    `fallbacks` is the stage's `fallbackPrimTypes`: the types that stand in for one that no plugin
+    registers.
     """
 
     def __init__(self, fallbacks: Mapping[str, Sequence[str]] | None = None) -> None:
         self.knows_particle_fields = is_registered(schema.PARTICLE_FIELD)
         self._fallbacks = fallbacks or {}
-        self._names: dict[Key, frozenset[str]] = {}
-        self._known_keys: dict[tuple[str, Key, Key], Key] = {}
+        self._names: dict[KindKey, frozenset[str]] = {}
+        self._known_keys: dict[tuple[str, tuple[str, ...], tuple[str, ...]], KindKey] = {}
 
-    def key(self, prim: Any) -> Key:
-        """What prims of one kind share."""
+    def key(self, prim: Any) -> KindKey:
+        """The key of a prim's kind."""
         return self.keys((prim,))[0]
 
-    def keys(self, prims: Sequence[Any]) -> list[Key]:
-        """What each of many prims shares with its kind: a third of the time of one by one."""
+    def keys(self, prims: Sequence[Any]) -> list[KindKey]:
+        """The keys of many prims' kinds, in a third of the time of asking for each."""
         types = map(get_type, prims)
         applied = map(get_applied, prims)
         if self.knows_particle_fields:
             return [(name, *apis) for name, apis in zip(types, applied, strict=True)]
         known = self._known_keys
-        said = zip(types, map(tuple, applied), map(raw_apis, prims), strict=True)
-        return [known[each] if each in known else self._with_ours(*each) for each in said]
+        schemas = zip(types, map(tuple, applied), map(raw_apis, prims), strict=True)
+        return [known[names] if names in known else self._with_ours(*names) for names in schemas]
 
     def applied(self, prim: Any) -> tuple[str, ...]:
-        """The applied schemas; on a USD without particle fields, ours as written too."""
+        """The applied schemas, those of particle fields also on a USD that does not know them."""
         return self.key(prim)[1:]
 
-    def _with_ours(self, type_name: str, applied: tuple[str, ...], written: tuple[str, ...]) -> Key:
+    def _with_ours(
+        self, type_name: str, applied: tuple[str, ...], written: tuple[str, ...]
+    ) -> KindKey:
+        """The key on a USD without particle fields, whose APIs are known only as `written`."""
         ours = tuple(name for name in written if name in schema.API_INCLUDES)
         built_in = schema.BUILT_IN_APIS.get(type_name, ())
         key = (type_name, *applied, *schema.expand_apis(built_in + ours))
         self._known_keys[type_name, applied, written] = key
         return key
 
-    def names(self, key: Key) -> frozenset[str]:
-        """The schema names that prims of this kind answer to, UNKNOWN_TYPE or ABSTRACT_TYPE too."""
+    def names(self, key: KindKey) -> frozenset[str]:
+        """The schemas that prims of this kind answer to, UNKNOWN_TYPE or ABSTRACT_TYPE included."""
         if key not in self._names:
             self._names[key] = frozenset(key[1:]) | type_names(self._known_type(key[0]))
         return self._names[key]
 
     def _known_type(self, type_name: str) -> str:
-        """The type that USD takes a prim for."""
+        """The type itself if it is registered, else the first fallback that USD can use."""
         if is_registered(type_name):
             return type_name
         fallbacks = self._fallbacks.get(type_name, ())
@@ -70,17 +74,17 @@ class Kinds:
 
 
 def is_registered(type_name: str) -> bool:
-    """Whether some plugin declares a schema, for prims or applied, of that name."""
+    """Whether a plugin declares a schema of that name, a prim type or an applied API."""
     return not Usd.SchemaRegistry.GetTypeFromSchemaTypeName(type_name).isUnknown
 
 
 def is_concrete(type_name: str) -> bool:
-    """Whether prims of that type may exist."""
+    """Whether prims can have that type: it is registered and not abstract."""
     return Usd.SchemaRegistry().FindConcretePrimDefinition(type_name) is not None
 
 
 def type_names(type_name: str) -> frozenset[str]:
-    """A prim type with its bases, as schema names."""
+    """The schema names of a prim type and its bases; UNKNOWN_TYPE or ABSTRACT_TYPE if it is one."""
     if not type_name:
         return frozenset()
     if not is_registered(type_name):
@@ -92,12 +96,13 @@ def type_names(type_name: str) -> frozenset[str]:
         return frozenset((schema.ABSTRACT_TYPE,))
     ancestors = Usd.SchemaRegistry.GetTypeFromName(type_name).GetAllAncestorTypes()
     names = {Usd.SchemaRegistry.GetSchemaTypeName(ancestor) for ancestor in ancestors}
-    names.update(*(schema.TYPE_BASES.get(name, ()) for name in names))  # those of newer USD too
+    # A newer USD may have more bases than the installed one.
+    names.update(*(schema.TYPE_BASES.get(name, ()) for name in names))
     if "VolumeFieldAsset" in names:
-        names.add(schema.FIELD_ASSET)  # what old USD calls it, and what rules subscribe to
+        names.add(schema.FIELD_ASSET)  # its name in old USD, which rules subscribe to
     return frozenset(names - {""})
 
 
 def raw_apis(prim: Any) -> tuple[str, ...]:
-    """The composed `apiSchemas` as written, those that nobody registers among them."""
+    """The composed `apiSchemas` as written, including APIs that no plugin registers."""
     return tuple(prim.GetPrimTypeInfo().GetAppliedAPISchemas())

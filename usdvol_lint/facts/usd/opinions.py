@@ -1,4 +1,4 @@
-"""Which spec holds the value that USD gives for an attribute."""
+"""Which spec holds the value of an attribute."""
 
 from __future__ import annotations
 
@@ -8,27 +8,27 @@ from pxr import Tf, Usd
 
 
 class Opinion(NamedTuple):
-    """A spec that holds a value, and the offset from its layer's time to the stage's."""
+    """A spec that holds a value, and the `Sdf.LayerOffset` from its layer's time to the stage's."""
 
     spec: Any
     offset: Any
 
 
-def opinion(attribute: Any, time: float | None) -> Opinion | None:
-    """The opinion that counts at a time code of the stage; None stands for the default time.
+def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
+    """The opinion that gives the value at a time code of the stage, or at the default time (None).
 
-    Stronger specs may hold only metadata, and time samples say nothing of the default.
+    Stronger specs are skipped if they hold only metadata, or at the default time only time samples.
     """
     code = Usd.TimeCode.Default() if time is None else time
-    kinds = ("default",) if time is None else ("timeSamples", "default", "spline")
+    keys = ("default",) if time is None else ("timeSamples", "default", "spline")
     for spec, offset in _stack(attribute, code):
-        if any(spec.HasInfo(kind) for kind in kinds):
+        if any(spec.HasInfo(key) for key in keys):
             return Opinion(spec, offset)
     return None
 
 
 def _stack(attribute: Any, code: Any) -> Any:
-    """The specs with their offsets, strongest first, without value clips if one does not open."""
+    """The specs and their offsets, strongest first; those in clips only if all clips open."""
     try:
         return attribute.GetPropertyStackWithLayerOffsets(code)
     except Tf.ErrorException:
@@ -36,7 +36,7 @@ def _stack(attribute: Any, code: Any) -> Any:
 
 
 def is_from_clips(attribute: Any, time: float | None) -> bool:
-    """Whether a value clip gives the value: then each time may have a layer of its own."""
+    """Whether the value comes from a value clip: then it may lie in another layer at each time."""
     if time is None:
         return False
     source = attribute.GetResolveInfo(time).GetSource()

@@ -1,4 +1,4 @@
-"""Values that hold from one sample to the next, as USD has it for all that it can't interpolate."""
+"""Held (step) interpolation, which USD uses for types that it can't interpolate."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ Time: TypeAlias = float | None
 
 
 class StepSamples(Generic[_T]):
-    """The values of an attribute, or what they stand for, at any time.
+    """Samples, of an attribute or derived from one, that each hold until the next.
 
-    The samples ascend in time, the default first.
+    `samples` ascend in time, with the default, if there is one, first.
     """
 
     def __init__(self, samples: Iterable[tuple[Time, _T]]) -> None:

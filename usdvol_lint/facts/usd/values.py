@@ -1,4 +1,4 @@
-"""Every value that USD gives for an attribute: the default, time samples, value clips."""
+"""All values of an attribute: the default, time samples, and samples in value clips."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class Value(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Occurrences:
-    """Where something stands in the values of an attribute: `Occurrence`, as rules hand it on.
+    """Some of an attribute's values, which rules hand on as an `Occurrence`.
 
-    `samples` are never none, in ascending time, the default first; each has its `time`.
-    `total` is how many time samples the attribute has.
+    `samples` ascend in `time`, with that of the default time (None) first; what is reported has at
+    least one.  `total` is the number of the attribute's time samples.
     """
 
     attribute: Any
@@ -34,21 +34,22 @@ class Occurrences:
 
     @property
     def times(self) -> tuple[float, ...]:
-        """The stage times, without the default."""
-        return tuple(each.time for each in self.samples if each.time is not None)
+        """The time codes of the stage, without the default time."""
+        return tuple(sample.time for sample in self.samples if sample.time is not None)
 
     @property
     def at_default(self) -> bool:
+        """Whether the default is one of the values."""
         return self.samples[0].time is None
 
     @property
     def asset(self) -> str | None:
-        """The asset path that the line should point to, as authored."""
+        """The authored asset path whose line a finding should point to."""
         return None
 
     @property
     def count(self) -> str:
-        """Empty for a single value, else ` (4 of 240 samples)`."""
+        """Which share of the time samples these are: ` (4 of 240 samples)`, or "" without any."""
         if self.total == 0:
             return ""
         times = self.times
@@ -57,32 +58,32 @@ class Occurrences:
         return f" ({', '.join([f'{len(times)} of {self.total} samples', *self._more(times)])})"
 
     def _more(self, times: Sequence[float]) -> Iterator[str]:
-        """What else to say where some of the time samples are meant."""
+        """Further phrases for `count`, if there are `times`."""
         yield from ()
 
 
 @dataclass(frozen=True, slots=True)
 class Values(Occurrences):
-    """Some of an attribute's values."""
+    """Some of an attribute's values, as USD returns them."""
 
     samples: tuple[Value, ...]
 
     def __iter__(self) -> Iterator[Any]:
         return (value for _, value in self.samples)
 
-    def apart(self, key: Callable[[Any], Any]) -> Iterator[tuple[Any, Values]]:
-        """The values apart for each key that they have, without those whose key is None."""
-        found: dict[Any, list[Value]] = defaultdict(list)
-        for value in self.samples:
-            name = key(value.value)
-            if name is not None:
-                found[name].append(value)
-        for name, values in found.items():
-            yield name, Values(self.attribute, tuple(values), self.total)
+    def grouped(self, key: Callable[[Any], Any]) -> Iterator[tuple[Any, Values]]:
+        """The values of each key, in the order of first values, without those whose key is None."""
+        groups: dict[Any, list[Value]] = defaultdict(list)
+        for sample in self.samples:
+            group = key(sample.value)
+            if group is not None:
+                groups[group].append(sample)
+        for group, samples in groups.items():
+            yield group, Values(self.attribute, tuple(samples), self.total)
 
 
 def values_of(attribute: Any) -> Values:
-    """Every value of an attribute, kept; the default is None where there is nothing at all."""
+    """All values of an attribute, in memory at once; a default of None if it has none."""
     if not count_samples(attribute):
         return Values(attribute, (Value(None, get_value(attribute)),), 0)
     values = tuple(read_values(attribute))
@@ -90,7 +91,7 @@ def values_of(attribute: Any) -> Values:
 
 
 def read_values(attribute: Any) -> Iterator[Value]:
-    """Reads the default and the samples; the default is None where there is nothing at all."""
+    """Yields the default, then each sample as it is read; a default of None if there is neither."""
     default = get_value(attribute)
     times = sample_times(attribute)
     if default is not None or not times:
@@ -103,7 +104,7 @@ def read_values(attribute: Any) -> Iterator[Value]:
 
 
 def sample_times(attribute: Any) -> list[float]:
-    """The times at which an attribute has samples."""
+    """The time codes of the stage at which an attribute has samples, those in clips included."""
     if not count_samples(attribute):
         return []
     times: list[float] = attribute.GetTimeSamples()

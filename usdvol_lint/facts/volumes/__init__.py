@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers import Layers
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Slot, Table, Tables
-    from usdvol_lint.facts.usd.kinds import Kinds
+    from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.volumes.bindings import (
         Binding,
         BindingReader,
@@ -39,7 +39,7 @@ class Volumes(Wing):
         self,
         tables: Tables,
         stage: Any,
-        kinds: Kinds,
+        kinds: PrimKinds,
         prims: Prims,
         files: Files,
         layers: Layers,
@@ -59,13 +59,13 @@ class Volumes(Wing):
     def bound(self, table: Table) -> Sequence[Bound]:
         """What the `field:` namespaces of Volumes bind, in brief."""
         return self._binding_reader.read_many(
-            table.batch, table.authored, self.tables.fields, self._layers.may_lack
+            table.batch, table.authored, self.tables.field_slots, self._layers.may_lack
         )
 
     @summary
     def binding_marks(self, table: Table) -> Sequence[frozenset[Enum]]:
         """What is remarkable about what the `field:` namespace of a Volume binds."""
-        return [bound.marks for bound in self.bound.each(table)]
+        return [bound.marks for bound in self.bound.all(table)]
 
     def bindings(self, volume: Any) -> FieldBindings:
         """What the `field:` namespace of a Volume really binds."""
@@ -86,13 +86,13 @@ class Volumes(Wing):
         """The field prims below a Volume that no Volume targets."""
         from usdvol_lint.facts.volumes.usage import unbound_fields
 
-        return unbound_fields(volume, self._kinds, self.tables.fields, self._users)
+        return unbound_fields(volume, self._kinds, self.tables.field_slots, self._users)
 
     def is_shared(self, volume: Any, field: Any) -> bool:
         """Whether other Volumes target a field of this one too, or instances of this one do."""
         from usdvol_lint.facts.volumes.usage import is_shared
 
-        return is_shared(volume, field, self.tables.fields, self._users)
+        return is_shared(volume, field, self.tables.field_slots, self._users)
 
     @cached_property
     def unused_fields(self) -> list[Any]:
@@ -103,7 +103,7 @@ class Volumes(Wing):
         """
         from usdvol_lint.facts.volumes.usage import accounted_for
 
-        places, used = self.tables.fields, self._users
+        places, used = self.tables.field_slots, self._users
         self._used.add(path for path, place in places.items() if place in used)
         volumes = self._prims.of(schema.VOLUME)
         if not volumes or not self._used.missing_of(places) or not self._layers.are_whole:
@@ -129,7 +129,7 @@ class Volumes(Wing):
     @summary
     def overhangs(self, table: Table) -> Sequence[float]:
         """How far grids may reach out of extents, in relation to their largest coordinate."""
-        return self._enclosure.overhangs(table, self.bound.each(table))
+        return self._enclosure.overhangs(table, self.bound.all(table))
 
     def shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
         """What the grids of a Volume have outside its extent, if one is authored."""

@@ -26,7 +26,7 @@ from usdvol_lint.facts.usd.calls import (
     prim_path,
 )
 from usdvol_lint.facts.usd.instances import in_prototype, shown, shown_path
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.states import BindingMark, Emptiness, TargetState
 from usdvol_lint.nearest import closest_match
 
@@ -182,7 +182,7 @@ class BindingReader:
     `may_lack` is asked whether opinions about a prim may lie in a layer that does not open.
     """
 
-    def __init__(self, kinds: Kinds) -> None:
+    def __init__(self, kinds: PrimKinds) -> None:
         self._kinds = kinds
 
     def read_many(
@@ -283,7 +283,7 @@ def field_paths(bindings: FieldBindings) -> set[Any]:
     return {in_prototype(prim).GetPath() for prim in prims if prim}
 
 
-def fields_below(volume: Any, kinds: Kinds) -> list[Any]:
+def fields_below(volume: Any, kinds: PrimKinds) -> list[Any]:
     """The field prims below a Volume, those inside instances too."""
     below = Usd.PrimRange(volume, Usd.TraverseInstanceProxies())
     return [prim for prim in below if kinds.is_a(prim, schema.FIELD)]
@@ -339,7 +339,7 @@ def _meant_path(binding: Binding) -> Any | None:
 
 
 def _strays(
-    relationships: Iterable[Any], bindings: Iterable[Binding], kinds: Kinds
+    relationships: Iterable[Any], bindings: Iterable[Binding], kinds: PrimKinds
 ) -> Iterator[Any]:
     bound = {target.path for binding in bindings for target in binding.targets}
     for relationship in relationships:

@@ -31,7 +31,7 @@ class Enclosure:
     def overhangs(self, table: Table, bounds: Iterable[Bound]) -> list[float]:
         """How far grids may reach out of each extent, in relation to their largest coordinate."""
         overhang, placed = self._hulls.overhang, self._placed
-        columns = zip(table.prims, self._prims.limits.each(table), bounds, strict=True)
+        columns = zip(table.prims, self._prims.limits.all(table), bounds, strict=True)
         return [
             overhang(limits, placed(volume, bound)) if limits.are_authored else 0.0
             for volume, limits, bound in columns

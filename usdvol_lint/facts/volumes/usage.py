@@ -7,7 +7,7 @@ from typing import Any
 
 from usdvol_lint.facts.prims.tables import Slot
 from usdvol_lint.facts.usd.instances import in_prototype, shown
-from usdvol_lint.facts.usd.kinds import Kinds
+from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.bindings import FieldBindings, FieldNames, fields_below
 
 
@@ -31,7 +31,7 @@ class UsedFields:
 
 
 def accounted_for(
-    volume: Any, bindings: FieldBindings, kinds: Kinds, names: FieldNames
+    volume: Any, bindings: FieldBindings, kinds: PrimKinds, names: FieldNames
 ) -> Iterator[Any]:
     """The paths of unused fields for which something wrong with a Volume accounts.
 
@@ -43,7 +43,7 @@ def accounted_for(
 
 
 def unbound_fields(
-    volume: Any, kinds: Kinds, places: Mapping[Any, Slot], users: Mapping[Slot, int]
+    volume: Any, kinds: PrimKinds, places: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> list[Any]:
     """The field prims below a Volume that no Volume targets; `users` are counted by place."""
     below = fields_below(volume, kinds)

@@ -1,0 +1,57 @@
+"""Layers that USD can't open: those that clip sets name, and the reasons."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from pxr import Sdf, Tf
+
+from usdvol_lint.facts.files.disk import file_fault, is_packaged
+from usdvol_lint.facts.layers.error_texts import LayerArc, as_reason
+from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
+from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
+
+
+def missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[LayerArc, Any]]:
+    """The layers that clip sets name and USD can't open, each with the prim of its clip set."""
+    for clip_set in clip_sets:
+        for arc, key, asset in _clip_assets(clip_set):
+            if not open_layer(asset):
+                spec = clip_set.spec_with(key)
+                path = asset.resolvedPath or spec.layer.ComputeAbsolutePath(asset.path)
+                yield LayerArc(arc, authored_path(asset) or asset.path, path, spec), clip_set.prim
+
+
+def _clip_assets(clip_set: ClipSet) -> Iterator[tuple[str, str, Any]]:
+    """The layers that a clip set names: `LayerArc.arc`, the key in the clip set, the asset path."""
+    if clip_set.template and not clip_set.clips:
+        yield "clip template", "templateAssetPath", Sdf.AssetPath(clip_set.template)
+    if not clip_set.template:
+        yield from (("clip", "assetPaths", clip) for clip in clip_set.clips)
+    if clip_set.manifest:
+        yield "clip manifest", "manifestAssetPath", clip_set.manifest
+
+
+def unopened_reason(path: str, reported: Iterable[str]) -> str:
+    """What is wrong with the layer at a path, in the same words in every run; "" if it is missing.
+
+    `reported` are the reasons in USD's errors, the last resort: USD gives them for only some of the
+    arcs that name the layer, and not for the same arcs in every run.
+    """
+    fault = file_fault(path)
+    if os.path.exists(path):
+        reason = f"it is {fault}" if fault else _why_not_open(path)
+    else:
+        reason = _why_not_open(path) if is_packaged(path) and not fault else ""
+    return reason or min(filter(None, reported), default="")
+
+
+def _why_not_open(resolved: str) -> str:
+    """Why USD can't open the layer at a path, or "" if it can."""
+    try:
+        return "" if Sdf.Layer.FindOrOpen(resolved) else "it is not a valid layer"
+    except Tf.ErrorException as error:
+        words = "; ".join(dict.fromkeys(map(without_parser_rule, map(commentary, error.args))))
+        return as_reason(words, resolved) or "it is not a valid layer"

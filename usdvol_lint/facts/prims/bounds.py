@@ -1,0 +1,33 @@
+"""Whether USD can tell the bounds of a prim."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pxr import Usd
+
+from usdvol_lint.facts.usd.calls import get_attribute, has_value
+
+
+def has_bounds(prim: Any) -> bool:
+    """Whether USD can tell the bounds of a prim: from its extent, a model's hint, or a plugin."""
+    if has_value(get_attribute(prim, "extent")) or _is_hinted(prim):
+        return True
+    from pxr import UsdGeom  # costs start-up time, and is rarely needed
+
+    boundable = UsdGeom.Boundable(prim)
+    if not boundable:
+        return False  # a type that this USD does not know
+    computed = UsdGeom.Boundable.ComputeExtentFromPlugins(boundable, Usd.TimeCode.EarliestTime())
+    return computed is not None
+
+
+def _is_hinted(prim: Any) -> bool:
+    """Whether a model with an `extentsHint` has the prim, through each instance of a prototype."""
+    while not prim.IsPseudoRoot():
+        if prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue():
+            return True
+        if prim.IsPrototype():
+            return all(_is_hinted(instance) for instance in prim.GetInstances())
+        prim = prim.GetParent()
+    return False

@@ -1,0 +1,111 @@
+"""Attributes that contradict the schemas: another type, a misspelt name, a token not allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import repeat
+from typing import Any, NamedTuple
+
+from pxr import Sdf
+
+from usdvol_lint import schema
+from usdvol_lint.facts.prims.attributes import Authored
+from usdvol_lint.facts.usd.batches import PrimBatch
+from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
+from usdvol_lint.facts.usd.values import Values, values_of
+
+
+class Mistyped(NamedTuple):
+    """A spec of another type than the schema declares: `found` instead of `wanted`.
+
+    `only_role`: whether the types differ only in role, as float3 and color3f do.
+    """
+
+    attribute: Any
+    spec: Any
+    found: str
+    wanted: str
+    only_role: bool
+
+
+class Misspelt(NamedTuple):
+    """An attribute that no schema declares, and the name that was probably intended."""
+
+    attribute: Any
+    intended: str
+
+
+class Unlisted(NamedTuple):
+    """A token that is not one of the `allowed`, and the values of attribute `name` that it is."""
+
+    name: str
+    token: str
+    allowed: tuple[str, ...]
+    values: Values
+
+
+def may_be_mistyped(batch: PrimBatch, authored: Authored) -> list[bool]:
+    """Whether `mistyped` may find anything on each prim of a batch; all have these properties."""
+    if authored.is_layered:
+        return [any(mistyped(prim, authored)) for prim in batch.prims]
+    prim_specs = [stack[0] for stack in batch.stacks]
+    differ = [False] * len(prim_specs)
+    for name, wanted in authored.types:
+        specs = map(own_attribute, prim_specs, repeat(Sdf.Path(f".{name}")))
+        types = [None if spec is None else type_of_spec(spec) for spec in specs]
+        if types.count(wanted) < len(types):
+            differ = [known or own != wanted for known, own in zip(differ, types, strict=True)]
+    return differ
+
+
+def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
+    """The specs, in all layers, whose type is not the one that the schema declares."""
+    types = authored.types
+    stack = get_prim_stack(prim) if types else ()
+    for prim_spec in stack:
+        for name, wanted in types:
+            path = Sdf.Path(f".{name}")
+            spec = own_attribute(prim_spec, path)
+            if spec is None:
+                spec = prim_spec.GetRelationshipAtPath(path)
+                if spec:
+                    yield Mistyped(get_attribute(prim, name), spec, "rel", str(wanted), False)
+            elif (found := type_of_spec(spec)) != wanted:
+                only_role = found.type == wanted.type
+                yield Mistyped(get_attribute(prim, name), spec, str(found), str(wanted), only_role)
+
+
+def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
+    """The attributes with values that are not read because their names are misspelt.
+
+    Skipped if the intended attribute has a value too, or if its type can't hold the value.
+    """
+    for name, intended, wanted in authored.misspellings:
+        attribute = prim.GetAttribute(name)
+        if not attribute or not attribute.HasAuthoredValue():
+            continue
+        names_another = name.startswith("particleField:")
+        could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
+        if could_hold and not prim.GetAttribute(intended).HasAuthoredValue():
+            yield Misspelt(attribute, intended)
+
+
+def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:
+    """The tokens that the schema does not allow; an empty one counts as none."""
+    for name, allowed in authored.tokens:
+        for token, values in values_of(get_attribute(prim, name)).grouped(_token):
+            if token not in allowed:
+                yield Unlisted(name, token, allowed, values)
+
+
+def may_have_unlisted(batch: PrimBatch, authored: Authored) -> list[bool]:
+    """Whether `unlisted_tokens` may find anything on each prim of a batch, as `may_be_mistyped`."""
+    may_have = [False] * len(batch.prims)
+    for name, allowed in authored.tokens:
+        columns = zip(may_have, batch.values(name), batch.counts(name), strict=True)
+        may_have = [known or value not in allowed or count > 0 for known, value, count in columns]
+    return may_have
+
+
+def _token(value: Any) -> str | None:
+    return value if isinstance(value, str) and value else None
