@@ -18,16 +18,12 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Slot, Table, Tables
     from usdvol_lint.facts.usd.kinds import Kinds
-    from usdvol_lint.facts.volumes.bindings import (
-        Binding,
-        BindingReader,
-        Bound,
-        FieldBindings,
-        FieldNames,
-    )
+    from usdvol_lint.facts.volumes.bindings import Binding, Bound, FieldBindings
     from usdvol_lint.facts.volumes.enclosure import Enclosure
+    from usdvol_lint.facts.volumes.intended import FieldNames
     from usdvol_lint.facts.volumes.mixture import MixedFiles
     from usdvol_lint.facts.volumes.placement import Displacement
+    from usdvol_lint.facts.volumes.reading import BindingReader
     from usdvol_lint.facts.volumes.shortfall import Shortfall
     from usdvol_lint.facts.volumes.usage import UsedFields
 
@@ -156,13 +152,13 @@ class Volumes(Wing):
 
     @cached_property
     def _field_names(self) -> FieldNames:
-        from usdvol_lint.facts.volumes.bindings import FieldNames
+        from usdvol_lint.facts.volumes.intended import FieldNames
 
         return FieldNames(self._prims.of(schema.FIELD), self._prims.of(schema.VOLUME))
 
     @cached_property
     def _binding_reader(self) -> BindingReader:
-        from usdvol_lint.facts.volumes.bindings import BindingReader
+        from usdvol_lint.facts.volumes.reading import BindingReader
 
         return BindingReader(self._kinds)
 

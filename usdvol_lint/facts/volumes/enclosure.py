@@ -11,10 +11,11 @@ from usdvol_lint.facts.grids.contents import Timeline
 from usdvol_lint.facts.prims import Prims
 from usdvol_lint.facts.prims.tables import Table, Tables
 from usdvol_lint.facts.usd.instances import in_prototype
-from usdvol_lint.facts.volumes.bindings import Bound, FieldBindings, Target
+from usdvol_lint.facts.volumes.bindings import Bound, FieldBindings
 from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
 from usdvol_lint.facts.volumes.placement import AT_REST, Placement, read_placements
 from usdvol_lint.facts.volumes.shortfall import PlacedField, Shortfall, find_shortfall
+from usdvol_lint.facts.volumes.targets import Target
 
 
 class Enclosure:

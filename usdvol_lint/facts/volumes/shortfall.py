@@ -11,7 +11,6 @@ from usdvol_lint.facts.files.assets import AssetSamples
 from usdvol_lint.facts.grids.contents import Timeline
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.facts.volumes.bindings import Target
 from usdvol_lint.facts.volumes.boxes import (
     AXES,
     Sides,
@@ -22,6 +21,7 @@ from usdvol_lint.facts.volumes.boxes import (
 )
 from usdvol_lint.facts.volumes.hulls import GridBoxes, carried
 from usdvol_lint.facts.volumes.placement import IDENTITY, Placement
+from usdvol_lint.facts.volumes.targets import Target
 from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Grid, Matrix
 

@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
+from pxr import Usd
+
+from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Slot
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import Kinds
-from usdvol_lint.facts.volumes.bindings import FieldBindings, FieldNames, fields_below
+from usdvol_lint.facts.volumes.bindings import FieldBindings
+from usdvol_lint.facts.volumes.intended import FieldNames
 
 
 class UsedFields:
@@ -38,7 +42,7 @@ def accounted_for(
     They lie below it, or a broken relationship was probably meant to target them.
     """
     if not bindings.is_sound:
-        yield from (in_prototype(field).GetPath() for field in fields_below(volume, kinds))
+        yield from (in_prototype(field).GetPath() for field in _fields_below(volume, kinds))
         yield from filter(None, map(names.meant_by, bindings.bindings))
 
 
@@ -46,7 +50,7 @@ def unbound_fields(
     volume: Any, kinds: Kinds, places: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> list[Any]:
     """The field prims below a Volume that no Volume targets; `users` are counted by place."""
-    below = fields_below(volume, kinds)
+    below = _fields_below(volume, kinds)
     return [each for each in below if places.get(in_prototype(each).GetPath()) not in users]
 
 
@@ -59,3 +63,9 @@ def is_shared(
         return True
     instanced = volume.IsInPrototype() and not field.IsInPrototype()
     return bool(instanced and shown(volume).instances > 1)
+
+
+def _fields_below(volume: Any, kinds: Kinds) -> list[Any]:
+    """The field prims below a Volume, those inside instances too."""
+    below = Usd.PrimRange(volume, Usd.TraverseInstanceProxies())
+    return [prim for prim in below if kinds.is_a(prim, schema.FIELD)]
