@@ -3,24 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
+from math import inf
 from typing import Any, NamedTuple
 
 from pxr import Usd
 
-from usdvol_lint.facts.particles import memory
-from usdvol_lint.facts.particles.memory import Mask, Range, Row, Rows, Spot
+from usdvol_lint.facts.particles import matches
+from usdvol_lint.facts.particles.chunks import Row, Rows, rows_of
+from usdvol_lint.facts.particles.counts import NO_COUNTS
+from usdvol_lint.facts.particles.elements import Found
+from usdvol_lint.facts.particles.matches import Mask, Spot
+from usdvol_lint.facts.particles.ranges import (
+    Range,
+    column_range,
+    counted_column_range,
+    finiteness,
+    joined,
+    norm_range,
+)
 from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.facts.usd.values import Value, Values
+from usdvol_lint.facts.usd.values import Value
 
-_INFINITY = float("inf")
 _NO_NORM = 1e-12
 """A square: a quaternion that is shorter can not be made a unit one."""
 
-
 _NOUNS = {"radiance:sphericalHarmonicsCoefficients": "coefficients"}
-_MEASURES = {"orientations": memory.norm_range, "coefficients": memory.finiteness}
+_MEASURES = {"orientations": norm_range, "coefficients": finiteness}
 _COUNTED = frozenset({"scales", "opacities"})
 
 
@@ -29,37 +39,6 @@ class Sample(NamedTuple):
 
     time: Time
     size: int
-
-
-@dataclass(frozen=True, slots=True)
-class Found(Values):
-    """Elements of an array that have something in common: those in each sample.
-
-    `sizes` are the samples', `noun` their elements'.
-    """
-
-    sizes: tuple[int, ...]
-    noun: str
-
-    @property
-    def share(self) -> float:
-        """How much of the samples it is in."""
-        return self._count / sum(self.sizes)
-
-    @property
-    def amount(self) -> str:
-        """`3 of 1,000,000 opacities (0.0003 %)`."""
-        return f"{self._count:,} of {sum(self.sizes):,} {self.noun} ({_percent(self.share)})"
-
-    @property
-    def first(self) -> str:
-        """`first 1.5 at [17] (4 of 240 samples)`."""
-        spot = next(iter(self))
-        return f"first {written(spot.value)} at [{spot.first}]{self.count}"
-
-    @property
-    def _count(self) -> int:
-        return sum(spot.count for spot in self)
 
 
 class ParticleArray:
@@ -90,13 +69,13 @@ class ParticleArray:
         self.total = total
         self.sizes = StepSamples(samples)
         self._with_counts = with_counts
-        self._counts = memory.NO_COUNTS
+        self._counts = NO_COUNTS
         self._advance = advance
 
     @property
     def begins_populated(self) -> bool:
         """Whether there is one at USD's earliest time."""
-        return bool(self.sizes.at(-_INFINITY))
+        return bool(self.sizes.at(-inf))
 
     @cached_property
     def ranges(self) -> tuple[tuple[Sample, Range], ...]:
@@ -104,9 +83,9 @@ class ParticleArray:
 
         Of coefficients, most of the data, there is none: they may have any value that is finite.
         """
-        measure = _MEASURES.get(self.noun, memory.column_range)
+        measure = _MEASURES.get(self.noun, column_range)
         if self._with_counts and self.noun in _COUNTED:
-            measure = memory.counted_column_range
+            measure = counted_column_range
         ranges = []
         for sample, rows in self.read():
             found = measure(rows)
@@ -125,12 +104,12 @@ class ParticleArray:
     @property
     def low(self) -> Row | None:
         """The least finite number in each column."""
-        return memory.joined(min, (found.low for _, found in self.ranges))
+        return joined(min, (found.low for _, found in self.ranges))
 
     @property
     def high(self) -> Row | None:
         """The greatest finite number in each column."""
-        return memory.joined(max, (found.high for _, found in self.ranges))
+        return joined(max, (found.high for _, found in self.ranges))
 
     @property
     def has_nan(self) -> bool:
@@ -148,14 +127,14 @@ class ParticleArray:
         """The elements with a finite number outside of the limits."""
         return self._suspects(
             lambda least, greatest: min(least) < low or max(greatest) > high,
-            lambda chunk, _: memory.outside(chunk, low, high),
+            lambda chunk, _: matches.outside(chunk, low, high),
         )
 
     def without_direction(self) -> Found | None:
         """The quaternions of no length, or next to none."""
         return self._suspects(
             lambda least, _: least[0] < _NO_NORM,
-            lambda chunk, _: memory.squared_norms(chunk) < _NO_NORM,
+            lambda chunk, _: matches.squared_norms(chunk) < _NO_NORM,
         )
 
     def not_unit(self, tolerance: float) -> Found | None:
@@ -163,9 +142,9 @@ class ParticleArray:
         low, high = (1 - tolerance) ** 2, (1 + tolerance) ** 2
 
         def mask(chunk: Rows, start: int) -> Rows:
-            norms = memory.squared_norms(chunk)
+            norms = matches.squared_norms(chunk)
             picked: Rows = ((norms < low) & (norms >= _NO_NORM)) | (norms > high)
-            return picked & memory.is_finite(chunk)
+            return picked & matches.is_finite(chunk)
 
         return self._suspects(lambda least, most: least[0] < low or most[0] > high, mask)
 
@@ -179,13 +158,13 @@ class ParticleArray:
     def repetitions(self) -> Found | None:
         """The elements that are the same as the one after them."""
         return self._found(
-            (sample, memory.repetitions(rows)) for sample, rows in self.read() if sample.size > 1
+            (sample, matches.repetitions(rows)) for sample, rows in self.read() if sample.size > 1
         )
 
     def picked(self, masks: Mapping[Time, Mask]) -> Found | None:
         """The elements that a mask picks, which may be another for each sample."""
         return self._found(
-            (sample, memory.spot(rows, masks[sample.time]))
+            (sample, matches.spot(rows, masks[sample.time]))
             for sample, rows in self.read(lambda sample: sample.time in masks)
         )
 
@@ -197,7 +176,7 @@ class ParticleArray:
         for sample in self.samples:
             if sample.size and wanted(sample):
                 value = self.attribute.Get() if sample.time is None else get(sample.time)
-                yield sample, memory.rows_of(value)
+                yield sample, rows_of(value)
                 self._advance(1)
 
     def _suspects(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Found | None:
@@ -216,16 +195,3 @@ class ParticleArray:
         values = tuple(Value(sample.time, spot) for sample, spot in found)
         sizes = tuple(sample.size for sample, _ in found)
         return Found(self.attribute, values, self.total, sizes, self.noun)
-
-
-def written(row: Row) -> str:
-    """An element as a text layer has it."""
-    if len(row) == 4:
-        row = (row[3], *row[:3])  # in memory the real part of a quaternion comes last
-    numbers = ", ".join(f"{number:.6g}" for number in row)
-    return numbers if len(row) == 1 else f"({numbers})"
-
-
-def _percent(share: float) -> str:
-    percent = 100 * share
-    return f"{percent:.3g} %" if percent >= 0.001 else "less than 0.001 %"

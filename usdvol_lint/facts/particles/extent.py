@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeAlias
+from math import inf
+from typing import Any, ClassVar
 
-from usdvol_lint.facts.particles import memory
-from usdvol_lint.facts.particles.array import Found, ParticleArray, Sample, written
-from usdvol_lint.facts.particles.memory import Mask, Row
+from usdvol_lint.facts.particles import matches
+from usdvol_lint.facts.particles.array import ParticleArray, Sample
+from usdvol_lint.facts.particles.elements import Found, written
+from usdvol_lint.facts.particles.matches import Mask
+from usdvol_lint.facts.prims.boxes import encloses
 from usdvol_lint.facts.prims.extents import box_of
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import sample_times
+from usdvol_lint.volumefile import Bounds
 
-Box: TypeAlias = tuple[Row, Row]
-
-_INFINITY = float("inf")
 _HALF_STEP = 2.0**-24
 """Between halfs next to zero, where their error is not relative any more."""
 
@@ -31,8 +32,8 @@ class Strays:
     attribute: Any
     """The extent."""
     when: tuple[Time, ...]
-    extent: Box
-    positions: Box
+    extent: Bounds
+    positions: Bounds
     asset: ClassVar[None] = None
 
     @property
@@ -60,7 +61,7 @@ def positions_outside_extent(
     A coordinate of `clamp`, or its negative, is where an exporter cut the extent off.
     """
     when: list[Time] = []
-    boxes: dict[Time, Box] = {}
+    boxes: dict[Time, Bounds] = {}
     masks: dict[Time, Mask] = {}
     for sample, found in positions.ranges:
         for time in _times_of_extent(positions, sample, extent):
@@ -68,7 +69,7 @@ def positions_outside_extent(
             if not box or not found.low or not found.high:
                 continue
             limits = _limits(box, slack, clamp, positions.is_half)
-            if not _encloses(limits, (found.low, found.high)):
+            if not encloses(limits, _box(found.low, found.high), 0.0):
                 when.append(time)
                 boxes.setdefault(sample.time, box)
                 masks.setdefault(sample.time, _outside(limits))
@@ -76,7 +77,8 @@ def positions_outside_extent(
     if not strays or not positions.low or not positions.high:
         return None
     first = strays.samples[0].time
-    return Strays(strays, extent, tuple(when), boxes[first], (positions.low, positions.high))
+    span = _box(positions.low, positions.high)
+    return Strays(strays, extent, tuple(when), boxes[first], span)
 
 
 def _times_of_extent(positions: ParticleArray, sample: Sample, extent: Any) -> Iterable[Time]:
@@ -84,29 +86,25 @@ def _times_of_extent(positions: ParticleArray, sample: Sample, extent: Any) -> I
     return (positions.total < 2 and sample_times(extent)) or [sample.time]
 
 
-def _limits(box: Box, slack: float, clamp: float, is_half: bool) -> Box:
+def _limits(box: Bounds, slack: float, clamp: float, is_half: bool) -> Bounds:
+    """An extent widened by its slack along each axis, and without limit where it was cut off."""
     step = _HALF_STEP if is_half else 0.0
-    margins = [max(map(abs, sides)) * slack + step for sides in zip(*box, strict=True)]
     low, high = box
-    return (
-        tuple(
-            -_INFINITY if least == -clamp else least - margin
-            for least, margin in zip(low, margins, strict=True)
-        ),
-        tuple(
-            _INFINITY if most == clamp else most + margin
-            for most, margin in zip(high, margins, strict=True)
-        ),
+    margins = [max(map(abs, sides)) * slack + step for sides in zip(low, high, strict=True)]
+    return _box(
+        [-inf if end == -clamp else end - by for end, by in zip(low, margins, strict=True)],
+        [inf if end == clamp else end + by for end, by in zip(high, margins, strict=True)],
     )
 
 
-def _encloses(outer: Box, inner: Box) -> bool:
-    return all(map(float.__le__, outer[0], inner[0])) and all(map(float.__ge__, outer[1], inner[1]))
+def _box(low: Sequence[float], high: Sequence[float]) -> Bounds:
+    (a, b, c), (x, y, z) = low, high
+    return (a, b, c), (x, y, z)
 
 
-def _outside(limits: Box) -> Mask:
-    return lambda chunk, _: memory.outside(chunk, *limits)
+def _outside(limits: Bounds) -> Mask:
+    return lambda chunk, _: matches.outside(chunk, *limits)
 
 
-def _shown(box: Box) -> str:
+def _shown(box: Bounds) -> str:
     return f"{written(box[0])} to {written(box[1])}"

@@ -6,7 +6,8 @@ import numpy as np
 
 from usdvol_lint.facts.particles.array import ParticleArray
 from usdvol_lint.facts.particles.arrays import ParticleArrays
-from usdvol_lint.facts.particles.memory import Row, Rows, bins
+from usdvol_lint.facts.particles.chunks import Row, Rows
+from usdvol_lint.facts.particles.counts import bins
 from usdvol_lint.model import ParticleFieldStats
 
 _QUANTILES = {"p01": 0.01, "p10": 0.1, "p50": 0.5, "p90": 0.9, "p99": 0.99}

@@ -8,8 +8,8 @@ from operator import le
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.grids.contents import Timeline
+from usdvol_lint.facts.prims.boxes import magnitude, union
 from usdvol_lint.facts.prims.extents import Limits
-from usdvol_lint.facts.volumes.boxes import magnitude
 from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement
 from usdvol_lint.volumefile import Bounds, Grid, IndexBounds, Matrix
 
@@ -99,9 +99,8 @@ class Hulls:
             whole = self._boxes.whole(grid, matrix)
             return Hull(whole, magnitude(whole)) if whole else None
         lows, highs = (list(zip(*corners, strict=True)) for corners in zip(*boxes, strict=True))
-        outer: Any = tuple(map(min, lows)), tuple(map(max, highs))
         inner: Any = tuple(map(max, lows)), tuple(map(min, highs))
-        whole = carried(grid._replace(index_bounds=outer), matrix, _HALF_VOXEL)
+        whole = carried(grid._replace(index_bounds=union(boxes)), matrix, _HALF_VOXEL)
         shared = None
         if all(map(le, *inner)):
             shared = carried(grid._replace(index_bounds=inner), matrix, _HALF_VOXEL)
@@ -126,6 +125,5 @@ def _overhang(limit: Bounds, hull: Hull) -> float:
 def _joined(hulls: Sequence[Hull]) -> Hull:
     if len(hulls) == 1:
         return hulls[0]
-    lows, highs = zip(*(hull.box for hull in hulls), strict=True)
-    box: Any = tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
+    box = union(hull.box for hull in hulls)
     return Hull(box, min(hull.least_magnitude for hull in hulls))

@@ -9,9 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSamples
 from usdvol_lint.facts.grids.contents import Timeline
-from usdvol_lint.facts.prims.extents import Limits
-from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.facts.volumes.boxes import (
+from usdvol_lint.facts.prims.boxes import (
     AXES,
     Sides,
     encloses,
@@ -19,6 +17,8 @@ from usdvol_lint.facts.volumes.boxes import (
     magnitude,
     sides_outside,
 )
+from usdvol_lint.facts.prims.extents import Limits
+from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.volumes.hulls import GridBoxes, carried
 from usdvol_lint.facts.volumes.placement import IDENTITY, Placement
 from usdvol_lint.facts.volumes.targets import Target
