@@ -22,7 +22,8 @@ from pxr import Sdf, Usd, Vt
 from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.particles import chunks, matches, ranges
-from usdvol_lint.facts.particles.arrays import Misfits, chosen
+from usdvol_lint.facts.particles.arrays import Misfits
+from usdvol_lint.facts.particles.reading import chosen
 from usdvol_lint.facts.usd.kinds import Kinds
 from usdvol_lint.facts.usd.values import Value
 from usdvol_lint.model import Finding, StageReport

@@ -51,7 +51,7 @@ class Particles(Wing):
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:
         """The arrays of a particle field: empty where SCH011 says that it is no UsdVol."""
-        from usdvol_lint.facts.particles.arrays import read_particle_arrays
+        from usdvol_lint.facts.particles.reading import read_particle_arrays
 
         is_ours = not self._prims.encoding(prim)
         mistyped = self._prims.mistyped(prim)
