@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.apis import ParticleApis
     from usdvol_lint.facts.particles.arrays import ParticleArrays
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
-    from usdvol_lint.facts.particles.extent import Strays
+    from usdvol_lint.facts.particles.extent import OutsideExtent
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.kinds import Kinds
@@ -65,7 +65,9 @@ class Particles(Wing):
             self._advance,
         )
 
-    def positions_outside_extent(self, prim: Any, slack: float, clamp: float) -> Strays | None:
+    def positions_outside_extent(
+        self, prim: Any, slack: float, clamp: float
+    ) -> OutsideExtent | None:
         """The positions that lie outside the extent at the same time."""
         from usdvol_lint.facts.particles.extent import positions_outside_extent
 

@@ -13,8 +13,8 @@ from pxr import Usd
 from usdvol_lint.facts.particles import matches
 from usdvol_lint.facts.particles.chunks import Row, Rows, rows_of
 from usdvol_lint.facts.particles.counts import NO_COUNTS
-from usdvol_lint.facts.particles.elements import Found
-from usdvol_lint.facts.particles.matches import Mask, Spot
+from usdvol_lint.facts.particles.elements import Elements
+from usdvol_lint.facts.particles.matches import Mask, Matches
 from usdvol_lint.facts.particles.ranges import (
     Range,
     column_range,
@@ -34,7 +34,7 @@ _MEASURES = {"orientations": norm_range, "coefficients": finiteness}
 _COUNTED = frozenset({"scales", "opacities"})
 
 
-class Sample(NamedTuple):
+class ArraySample(NamedTuple):
     """One value of an array; `time` is None for the default, `size` 0 where there is nothing."""
 
     time: Time
@@ -54,7 +54,7 @@ class ParticleArray:
     def __init__(
         self,
         attribute: Any,
-        samples: tuple[Sample, ...],
+        samples: tuple[ArraySample, ...],
         total: int,
         with_counts: bool = False,
         advance: Callable[[int], None] = lambda count: None,
@@ -78,7 +78,7 @@ class ParticleArray:
         return bool(self.sizes.at(-inf))
 
     @cached_property
-    def ranges(self) -> tuple[tuple[Sample, Range], ...]:
+    def ranges(self) -> tuple[tuple[ArraySample, Range], ...]:
         """The range of each column in each sample; of orientations that of their squared norms.
 
         Of coefficients, most of the data, there is none: they may have any value that is finite.
@@ -119,25 +119,25 @@ class ParticleArray:
     def has_infinity(self) -> bool:
         return any(found.has_infinity for _, found in self.ranges)
 
-    def non_finite(self) -> Found | None:
+    def non_finite(self) -> Elements | None:
         """The elements with NaN or infinity in them."""
-        return self._found((sample, found.non_finite) for sample, found in self.ranges)
+        return self._elements((sample, found.non_finite) for sample, found in self.ranges)
 
-    def outside(self, low: float, high: float) -> Found | None:
+    def outside(self, low: float, high: float) -> Elements | None:
         """The elements with a finite number outside of the limits."""
         return self._suspects(
             lambda least, greatest: min(least) < low or max(greatest) > high,
             lambda chunk, _: matches.outside(chunk, low, high),
         )
 
-    def without_direction(self) -> Found | None:
+    def without_direction(self) -> Elements | None:
         """The quaternions of no length, or next to none."""
         return self._suspects(
             lambda least, _: least[0] < _NO_NORM,
             lambda chunk, _: matches.squared_norms(chunk) < _NO_NORM,
         )
 
-    def not_unit(self, tolerance: float) -> Found | None:
+    def not_unit(self, tolerance: float) -> Elements | None:
         """The other quaternions whose length is not 1."""
         low, high = (1 - tolerance) ** 2, (1 + tolerance) ** 2
 
@@ -148,29 +148,29 @@ class ParticleArray:
 
         return self._suspects(lambda least, most: least[0] < low or most[0] > high, mask)
 
-    def zeros(self, axes: int = 1) -> Found | None:
+    def zeros(self, axes: int = 1) -> Elements | None:
         """The elements in which so many numbers, or more, are zero."""
         return self._suspects(
             lambda least, _: sum(number <= 0 for number in least) >= axes,
             lambda chunk, _: (chunk == 0).sum(axis=1) >= axes,
         )
 
-    def repetitions(self) -> Found | None:
+    def repetitions(self) -> Elements | None:
         """The elements that are the same as the one after them."""
-        return self._found(
+        return self._elements(
             (sample, matches.repetitions(rows)) for sample, rows in self.read() if sample.size > 1
         )
 
-    def picked(self, masks: Mapping[Time, Mask]) -> Found | None:
+    def picked(self, masks: Mapping[Time, Mask]) -> Elements | None:
         """The elements that a mask picks, which may be another for each sample."""
-        return self._found(
-            (sample, matches.spot(rows, masks[sample.time]))
+        return self._elements(
+            (sample, matches.find_matches(rows, masks[sample.time]))
             for sample, rows in self.read(lambda sample: sample.time in masks)
         )
 
     def read(
-        self, wanted: Callable[[Sample], bool] = lambda sample: True
-    ) -> Iterator[tuple[Sample, Rows]]:
+        self, wanted: Callable[[ArraySample], bool] = lambda sample: True
+    ) -> Iterator[tuple[ArraySample, Rows]]:
         """The samples that hold something, one after the other."""
         get = Usd.AttributeQuery(self.attribute).Get
         for sample in self.samples:
@@ -179,7 +179,7 @@ class ParticleArray:
                 yield sample, rows_of(value)
                 self._advance(1)
 
-    def _suspects(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Found | None:
+    def _suspects(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Elements | None:
         """The elements that a mask picks; reads only what has a suspicious range."""
         times = {
             sample.time
@@ -188,10 +188,10 @@ class ParticleArray:
         }
         return self.picked(dict.fromkeys(times, mask)) if times else None
 
-    def _found(self, spots: Iterable[tuple[Sample, Spot | None]]) -> Found | None:
-        found = [(sample, spot) for sample, spot in spots if spot]
+    def _elements(self, matched: Iterable[tuple[ArraySample, Matches | None]]) -> Elements | None:
+        found = [(sample, rows) for sample, rows in matched if rows]
         if not found:
             return None
-        values = tuple(Value(sample.time, spot) for sample, spot in found)
+        values = tuple(Value(sample.time, rows) for sample, rows in found)
         sizes = tuple(sample.size for sample, _ in found)
-        return Found(self.attribute, values, self.total, sizes, self.noun)
+        return Elements(self.attribute, values, self.total, sizes, self.noun)

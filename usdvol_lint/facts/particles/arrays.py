@@ -101,7 +101,7 @@ class ParticleArrays:
         for pair in self.pairs.values():
             yield from (array for array in pair.arrays if array.noun == noun)
 
-    def differ(self, one: ParticleArray, other: ParticleArray) -> str:
+    def size_difference(self, one: ParticleArray, other: ParticleArray) -> str:
         """The first sizes that differ at one time, in words, or nothing."""
         for time in (None, *self._times):
             sizes = one.sizes.at(time), other.sizes.at(time)
@@ -125,16 +125,16 @@ class ParticleArrays:
         return api in self._schemas and pair.is_known and not is_populated
 
     @property
-    def most(self) -> int:
+    def most_particles(self) -> int:
         """The greatest number of particles at any time."""
         samples = self.positions.samples if self.positions else ()
         return max((sample.size for sample in samples), default=0)
 
-    def short(self, array: ParticleArray, each: int = 1) -> Misfits | None:
+    def too_short(self, array: ParticleArray, each: int = 1) -> Misfits | None:
         """When an array has fewer elements than so many for each particle."""
         return self._misfits(array, each, lambda size, wanted: size < wanted)
 
-    def long(self, array: ParticleArray, each: int = 1) -> Misfits | None:
+    def too_long(self, array: ParticleArray, each: int = 1) -> Misfits | None:
         """When an array has more elements than so many for each particle, if there are any."""
         return self._misfits(array, each, lambda size, wanted: size > wanted > 0)
 

@@ -9,7 +9,7 @@ from usdvol_lint.facts.usd.values import Values
 
 
 @dataclass(frozen=True, slots=True)
-class Found(Values):
+class Elements(Values):
     """Elements of an array that have something in common: those in each sample.
 
     `sizes` are the samples', `noun` their elements'.
@@ -31,12 +31,12 @@ class Found(Values):
     @property
     def first(self) -> str:
         """`first 1.5 at [17] (4 of 240 samples)`."""
-        spot = next(iter(self))
-        return f"first {written(spot.value)} at [{spot.first}]{self.count}"
+        found = next(iter(self))
+        return f"first {written(found.value)} at [{found.first}]{self.count}"
 
     @property
     def _count(self) -> int:
-        return sum(spot.count for spot in self)
+        return sum(found.count for found in self)
 
 
 def written(row: Row) -> str:

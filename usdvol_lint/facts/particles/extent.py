@@ -8,8 +8,8 @@ from math import inf
 from typing import Any, ClassVar
 
 from usdvol_lint.facts.particles import matches
-from usdvol_lint.facts.particles.array import ParticleArray, Sample
-from usdvol_lint.facts.particles.elements import Found, written
+from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
+from usdvol_lint.facts.particles.elements import Elements, written
 from usdvol_lint.facts.particles.matches import Mask
 from usdvol_lint.facts.prims.boxes import encloses
 from usdvol_lint.facts.prims.extents import box_of
@@ -22,13 +22,13 @@ _HALF_STEP = 2.0**-24
 
 
 @dataclass(frozen=True, slots=True)
-class Strays:
+class OutsideExtent:
     """Positions outside the extent; `when` are the times at which it does not hold them all.
 
     `extent` is the first of these, `positions` what all positions span.
     """
 
-    found: Found
+    elements: Elements
     attribute: Any
     """The extent."""
     when: tuple[Time, ...]
@@ -55,7 +55,7 @@ class Strays:
 
 def positions_outside_extent(
     positions: ParticleArray, extent: Any, slack: float, clamp: float
-) -> Strays | None:
+) -> OutsideExtent | None:
     """The positions outside the extent by more than a share of its coordinates.
 
     A coordinate of `clamp`, or its negative, is where an exporter cut the extent off.
@@ -73,15 +73,15 @@ def positions_outside_extent(
                 when.append(time)
                 boxes.setdefault(sample.time, box)
                 masks.setdefault(sample.time, _outside(limits))
-    strays = positions.picked(masks) if masks else None
-    if not strays or not positions.low or not positions.high:
+    elements = positions.picked(masks) if masks else None
+    if not elements or not positions.low or not positions.high:
         return None
-    first = strays.samples[0].time
+    first = elements.samples[0].time
     span = _box(positions.low, positions.high)
-    return Strays(strays, extent, tuple(when), boxes[first], span)
+    return OutsideExtent(elements, extent, tuple(when), boxes[first], span)
 
 
-def _times_of_extent(positions: ParticleArray, sample: Sample, extent: Any) -> Iterable[Time]:
+def _times_of_extent(positions: ParticleArray, sample: ArraySample, extent: Any) -> Iterable[Time]:
     """When the extent has to hold a sample: positions that stand still meet all of its samples."""
     return (positions.total < 2 and sample_times(extent)) or [sample.time]
 

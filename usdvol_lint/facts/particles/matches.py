@@ -16,7 +16,7 @@ Mask: TypeAlias = Callable[[Rows, int], Rows]
 
 
 @dataclass(frozen=True, slots=True)
-class Spot:
+class Matches:
     """Rows of one kind in an array: how many, and the first one with its place."""
 
     count: int
@@ -24,20 +24,24 @@ class Spot:
     value: Row
 
 
-def spot(rows: Rows, mask: Mask) -> Spot | None:
+def find_matches(rows: Rows, mask: Mask) -> Matches | None:
     """The rows that a mask picks, in one pass."""
 
-    def measure(chunk: Rows, start: int) -> Spot | None:
-        return spot_in(chunk, start, mask(chunk, start))
+    def measure(chunk: Rows, start: int) -> Matches | None:
+        return matches_in(chunk, start, mask(chunk, start))
 
-    return fold(rows, measure, join_spots)
+    return fold(rows, measure, join_matches)
 
 
-def repetitions(rows: Rows) -> Spot | None:
+def repetitions(rows: Rows) -> Matches | None:
     """The rows that are the same as the next one, bit by bit, in one pass."""
     values, following = bits(rows[:-1]), bits(rows[1:])
-    found = spot(values, lambda chunk, start: _equal(chunk, following[start : start + len(chunk)]))
-    return found and Spot(found.count, found.first, tuple(rows[found.first].tolist()))
+
+    def mask(chunk: Rows, start: int) -> Rows:
+        return _equal(chunk, following[start : start + len(chunk)])
+
+    found = find_matches(values, mask)
+    return found and Matches(found.count, found.first, tuple(rows[found.first].tolist()))
 
 
 def outside(chunk: Rows, low: float | Row, high: float | Row) -> Rows:
@@ -61,18 +65,18 @@ def squared_norms(chunk: Rows) -> Rows:
     return sums[:, 0] + sums[:, 1]
 
 
-def spot_in(chunk: Rows, start: int, picked: Rows) -> Spot | None:
+def matches_in(chunk: Rows, start: int, picked: Rows) -> Matches | None:
     count = int(np.count_nonzero(picked))
     if not count:
         return None
     first = int(picked.argmax())
-    return Spot(count, start + first, tuple(chunk[first].tolist()))
+    return Matches(count, start + first, tuple(chunk[first].tolist()))
 
 
-def join_spots(one: Spot | None, other: Spot | None) -> Spot | None:
+def join_matches(one: Matches | None, other: Matches | None) -> Matches | None:
     if one is None or other is None:
         return one or other
-    return Spot(one.count + other.count, one.first, one.value)
+    return Matches(one.count + other.count, one.first, one.value)
 
 
 def _equal(chunk: Rows, other: Rows) -> Rows:

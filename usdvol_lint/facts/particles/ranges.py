@@ -11,7 +11,13 @@ import numpy as np
 from usdvol_lint.facts.particles.bits import bits, numbers, ordered
 from usdvol_lint.facts.particles.chunks import READ_ONCE, Row, Rows, fold
 from usdvol_lint.facts.particles.counts import count_numbers
-from usdvol_lint.facts.particles.matches import Spot, is_finite, join_spots, spot_in, squared_norms
+from usdvol_lint.facts.particles.matches import (
+    Matches,
+    is_finite,
+    join_matches,
+    matches_in,
+    squared_norms,
+)
 
 _FOLD = 128
 _HALF_INFINITY = 0x7C00
@@ -28,7 +34,7 @@ class Range:
 
     low: Row | None
     high: Row | None
-    non_finite: Spot | None = None
+    non_finite: Matches | None = None
     has_infinity: bool = False
     has_nan: bool = False
     counts: Rows | None = None
@@ -98,7 +104,7 @@ def _measure_finiteness(chunk: Rows, start: int) -> Range:
 def _without_non_finite(chunk: Rows, start: int, measure: Callable[[Rows, int], Range]) -> Range:
     """What to say of a chunk with NaN or infinity in it: where these are, and of the rest."""
     finite = is_finite(chunk)
-    found = spot_in(chunk, start, ~finite)
+    found = matches_in(chunk, start, ~finite)
     rest = chunk[finite]
     inner = measure(rest, start) if len(rest) else Range(None, None)
     infinity, nan = bool(np.isinf(chunk).any()), bool(np.isnan(chunk).any())
@@ -126,7 +132,7 @@ def _join_ranges(one: Range, other: Range) -> Range:
     return Range(
         _join_rows(min, one.low, other.low),
         _join_rows(max, one.high, other.high),
-        join_spots(one.non_finite, other.non_finite),
+        join_matches(one.non_finite, other.non_finite),
         one.has_infinity or other.has_infinity,
         one.has_nan or other.has_nan,
         None if one.counts is None or other.counts is None else one.counts + other.counts,

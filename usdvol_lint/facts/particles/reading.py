@@ -50,7 +50,7 @@ def read_particle_arrays(
     """
     names = [name for name in _TYPES if name in authored]
     sampled = {name: sample_times(prim.GetAttribute(name)) for name in names}
-    compared = chosen(sorted({time for own in sampled.values() for time in own}), times)
+    compared = chosen_times(sorted({time for own in sampled.values() for time in own}), times)
     arrays = {
         name: _read_array(prim.GetAttribute(name), sampled[name], compared, with_counts, advance)
         for name in names
@@ -60,7 +60,7 @@ def read_particle_arrays(
     return ParticleArrays(pairs, degree, tuple(compared), schemas)
 
 
-def chosen(times: Sequence[float], policy: Times) -> Sequence[float]:
+def chosen_times(times: Sequence[float], policy: Times) -> Sequence[float]:
     """The times that are looked at, of all that there are."""
     named = {"all": len(times), "first": 1, "ends": 2}
     count = policy if isinstance(policy, int) else named[policy]
@@ -81,7 +81,7 @@ def _read_array(
 ) -> ParticleArray | None:
     """The array with the samples that hold at the compared times; None if it is mistyped."""
     # NumPy's import costs start-up time, and a particle field without arrays needs none.
-    from usdvol_lint.facts.particles.array import ParticleArray, Sample
+    from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
 
     own = sorted({times[max(bisect_right(times, time) - 1, 0)] for time in compared if times})
     wanted = _TYPES[attribute.GetName()]
@@ -93,7 +93,7 @@ def _read_array(
             continue
         if value is not None and not isinstance(value, wanted):
             return None
-        samples.append(Sample(time, 0 if value is None else len(value)))
+        samples.append(ArraySample(time, 0 if value is None else len(value)))
     return ParticleArray(attribute, tuple(samples), len(times), with_counts, advance)
 
 

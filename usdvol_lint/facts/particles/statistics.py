@@ -24,7 +24,7 @@ def stats_of(prim: str, arrays: ParticleArrays) -> ParticleFieldStats:
     bounds = (positions.low, positions.high) if positions else (None, None)
     return ParticleFieldStats(
         prim=prim,
-        count=arrays.most,
+        count=arrays.most_particles,
         sh_degree=arrays.degree.value if "coefficients" in used else None,
         bytes=sum(map(_bytes, used.values())),
         precision="mixed" if len(kinds) > 1 else next(iter(kinds), None),

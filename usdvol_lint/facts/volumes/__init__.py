@@ -71,7 +71,7 @@ class Volumes(Wing):
     def _plain_bindings(self, volume: Any) -> FieldBindings:
         return self._binding_reader.read(volume, self._layers.may_lack)
 
-    def meant_field(self, binding: Binding) -> str | None:
+    def intended_field(self, binding: Binding) -> str | None:
         """The field that a relationship which binds none was probably meant to target."""
         from usdvol_lint.facts.usd.instances import shown_path
 

@@ -52,13 +52,13 @@ class Binding(NamedTuple):
 class FieldBindings(NamedTuple):
     """The bindings of one Volume, by name.
 
-    `strays` are relationships outside the namespace that a reader would take for fields: a bare
+    `undeclared` are relationships outside the namespace that a reader would take for fields: a bare
     `rel field`, or any other, unless a schema declares it, that targets a field prim which no
     relationship in the namespace does.
     """
 
     bindings: tuple[Binding, ...]
-    strays: tuple[Any, ...]
+    undeclared: tuple[Any, ...]
 
     @property
     def relationships(self) -> tuple[Binding, ...]:
@@ -100,8 +100,8 @@ class FieldBindings(NamedTuple):
                 found.add(BindingMark.NESTED)
         if len(self.bindings) != 1:
             found.add(BindingMark.SEVERAL if self.bindings else BindingMark.NONE)
-        if self.strays:
-            found.add(BindingMark.STRAY)
+        if self.undeclared:
+            found.add(BindingMark.UNDECLARED)
         return frozenset(found)
 
     @property
@@ -110,11 +110,11 @@ class FieldBindings(NamedTuple):
         return bool(self.bindings) and all(binding.is_bound for binding in self.bindings)
 
     def target_paths(self) -> set[Any]:
-        """The paths of all targeted prims, strays' among them, as the walk met them."""
+        """The paths of the prims that any of these relationships targets, as the walk met them."""
         prims = [target.prim for binding in self.bindings for target in binding.targets]
-        for stray in self.strays:
-            stage = stray.GetStage()
-            paths = stray.GetForwardedTargets()
+        for relationship in self.undeclared:
+            stage = relationship.GetStage()
+            paths = relationship.GetForwardedTargets()
             prims += [stage.GetPrimAtPath(path.GetPrimPath()) for path in paths]
         return {in_prototype(prim).GetPath() for prim in prims if prim}
 

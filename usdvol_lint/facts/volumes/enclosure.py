@@ -13,7 +13,7 @@ from usdvol_lint.facts.prims.tables import Table, Tables
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.volumes.bindings import Bound, FieldBindings
 from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
-from usdvol_lint.facts.volumes.placement import AT_REST, Placement, read_placements
+from usdvol_lint.facts.volumes.placement import UNTRANSFORMED, Placement, read_placements
 from usdvol_lint.facts.volumes.shortfall import PlacedField, Shortfall, find_shortfall
 from usdvol_lint.facts.volumes.targets import Target
 
@@ -69,7 +69,7 @@ class Enclosure:
                 placements = read_placements(volume, table.prims[row])
                 found += [(timeline, placement) for _, placement in placements]
             else:
-                found.append((timeline, AT_REST))
+                found.append((timeline, UNTRANSFORMED))
         return found
 
     def _with_grids(self, bindings: FieldBindings) -> Iterator[tuple[Target, Any, Timeline]]:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from usdvol_lint.facts.grids.contents import Timeline
 from usdvol_lint.facts.prims.boxes import magnitude, union
 from usdvol_lint.facts.prims.extents import Limits
-from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement
+from usdvol_lint.facts.volumes.placement import IDENTITY, UNTRANSFORMED, Placement
 from usdvol_lint.volumefile import Bounds, Grid, IndexBounds, Matrix
 
 _HALF_VOXEL = 0.5
@@ -38,7 +38,7 @@ class GridBoxes:
         # A grid is known by its identity, which nothing else has as long as it is kept here.
         key = (id(grid), None if matrix is IDENTITY else matrix)
         if key not in self._whole:
-            self._whole[key] = grid, carried(grid, matrix, _HALF_VOXEL)
+            self._whole[key] = grid, bounds_in_volume(grid, matrix, _HALF_VOXEL)
         return self._whole[key][1]
 
 
@@ -47,7 +47,7 @@ class Hulls:
 
     def __init__(self, boxes: GridBoxes) -> None:
         self._boxes = boxes
-        self._at_rest: dict[Timeline, Hull | None] = {}
+        self._untransformed: dict[Timeline, Hull | None] = {}
 
     def overhang(self, limits: Limits, placed: Iterable[tuple[Timeline, Placement]]) -> float:
         """How far any grid may reach out of an extent, in relation to its largest coordinate.
@@ -62,19 +62,19 @@ class Hulls:
                 if timeline.select_grids:
                     return inf
                 continue
-            known = timeline in self._at_rest
-            hull = self._at_rest[timeline] if known else self._find_at_rest(timeline)
+            known = timeline in self._untransformed
+            hull = self._untransformed[timeline] if known else self._find_untransformed(timeline)
             if hull is not _NOTHING:
-                if placement is not AT_REST:
+                if placement is not UNTRANSFORMED:
                     hull = None if placement.times else self._hull(timeline, placement.matrix(None))
                 if hull is None:
                     return inf
                 most = max(most, _overhang(limit, hull))
         return most
 
-    def _find_at_rest(self, timeline: Timeline) -> Hull | None:
+    def _find_untransformed(self, timeline: Timeline) -> Hull | None:
         found = self._hull(timeline, IDENTITY) if timeline.select_grids else _NOTHING
-        self._at_rest[timeline] = found
+        self._untransformed[timeline] = found
         return found
 
     def _hull(self, timeline: Timeline, matrix: Matrix | None) -> Hull | None:
@@ -100,14 +100,14 @@ class Hulls:
             return Hull(whole, magnitude(whole)) if whole else None
         lows, highs = (list(zip(*corners, strict=True)) for corners in zip(*boxes, strict=True))
         inner: Any = tuple(map(max, lows)), tuple(map(min, highs))
-        whole = carried(grid._replace(index_bounds=union(boxes)), matrix, _HALF_VOXEL)
+        whole = bounds_in_volume(grid._replace(index_bounds=union(boxes)), matrix, _HALF_VOXEL)
         shared = None
         if all(map(le, *inner)):
-            shared = carried(grid._replace(index_bounds=inner), matrix, _HALF_VOXEL)
+            shared = bounds_in_volume(grid._replace(index_bounds=inner), matrix, _HALF_VOXEL)
         return Hull(whole, magnitude(shared) if shared else 0.0) if whole else None
 
 
-def carried(grid: Grid, matrix: Matrix, padding: float) -> Bounds | None:
+def bounds_in_volume(grid: Grid, matrix: Matrix, padding: float) -> Bounds | None:
     """The box around a grid's voxel centres, widened by `padding` voxels, behind a matrix."""
     return grid.world_bounds(padding, None if matrix is IDENTITY else matrix)
 

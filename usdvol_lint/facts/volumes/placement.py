@@ -77,7 +77,7 @@ class Placement(NamedTuple):
         return " and ".join(filter(None, ("rotated or scaled" if turned else "", movement)))
 
 
-AT_REST = Placement((), (), ())
+UNTRANSFORMED = Placement((), (), ())
 
 
 def displacement(volume: Any, field: Any) -> Displacement | None:
@@ -108,7 +108,7 @@ def _read_placement(volume: Any, field: Any) -> Placement:
     up, up_resets = _transformed(field, up_count)
     down, down_resets = _transformed(volume, down_count)
     if not up and not down:
-        return AT_REST
+        return UNTRANSFORMED
     if up_resets and not down_resets:  # what is above both moves the Volume alone
         down, _ = _transformed(volume, volume.GetPath().pathElementCount)
     elif down_resets and not up_resets:

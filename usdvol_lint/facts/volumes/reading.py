@@ -81,8 +81,8 @@ class BindingReader:
                 bindings.append(self._binding(prop, name[len(schema.FIELD_NAMESPACE) :], may_lack))
             elif isinstance(prop, Usd.Relationship):
                 others.append(prop)
-        strays = tuple(_strays(others, bindings, self._kinds)) if others else ()
-        return FieldBindings(tuple(bindings), strays)
+        undeclared = tuple(_undeclared(others, bindings, self._kinds)) if others else ()
+        return FieldBindings(tuple(bindings), undeclared)
 
     def _binding(self, prop: Any, name: str, may_lack: MayLack) -> Binding:
         if not isinstance(prop, Usd.Relationship):
@@ -109,7 +109,7 @@ def _below(
     return found
 
 
-def _strays(
+def _undeclared(
     relationships: Iterable[Any], bindings: Iterable[Binding], kinds: Kinds
 ) -> Iterator[Any]:
     bound = {target.path for binding in bindings for target in binding.targets}

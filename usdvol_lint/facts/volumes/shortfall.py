@@ -19,7 +19,7 @@ from usdvol_lint.facts.prims.boxes import (
 )
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.facts.volumes.hulls import GridBoxes, carried
+from usdvol_lint.facts.volumes.hulls import GridBoxes, bounds_in_volume
 from usdvol_lint.facts.volumes.placement import IDENTITY, Placement
 from usdvol_lint.facts.volumes.targets import Target
 from usdvol_lint.model import format_time, quoted
@@ -177,7 +177,7 @@ def find_shortfall(
             checked.add(moment.time)
             slack = relative_slack * magnitude(whole)
             if not encloses(limit, whole, slack):
-                inner = carried(moment.grid, moment.matrix, 0.0)
+                inner = bounds_in_volume(moment.grid, moment.matrix, 0.0)
                 if inner and (sides := sides_outside(limit, inner, slack)):
                     centres.add(placed, moment, sides)
                 else:

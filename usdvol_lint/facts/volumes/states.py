@@ -38,7 +38,7 @@ class BindingMark(Enum):
     SEVERAL_TARGETS = auto()
     ATTRIBUTE = auto()
     """Something in it is an attribute."""
-    STRAY = auto()
+    UNDECLARED = auto()
     """A relationship outside of it targets a field."""
     NESTED = auto()
     """A name in it is a namespace of its own."""

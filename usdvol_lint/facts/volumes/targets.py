@@ -22,7 +22,7 @@ _LIVE = Usd.PrimDefaultPredicate
 class Target(NamedTuple):
     """One forwarded target, which `prim` is None for where there is none.
 
-    `to_blame` is the target itself or, where that is why it is not live, the prim above it.
+    `blamed` is the target itself or, where that is why it is not live, the prim above it.
     `schemas` are those that the prim answers to.
     """
 
@@ -30,7 +30,7 @@ class Target(NamedTuple):
     stage: Any
     state: TargetState
     prim: Any | None
-    to_blame: Any
+    blamed: Any
     schemas: frozenset[str] = frozenset()
 
     @property
@@ -44,9 +44,9 @@ class Target(NamedTuple):
         return str(self.prim.GetTypeName()) if self.prim else ""
 
     @property
-    def culprit(self) -> str:
+    def blamed_path(self) -> str:
         """The path of the prim to blame."""
-        return self.shown if self.to_blame is self.prim else shown(self.to_blame).path
+        return self.shown if self.blamed is self.prim else shown(self.blamed).path
 
 
 def read_target(stage: Any, path: Any, kinds: Kinds, may_lack: MayLack) -> Target:
