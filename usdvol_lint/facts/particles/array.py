@@ -1,4 +1,4 @@
-"""One array of a particle field: its samples, and the elements in it that have something wrong."""
+"""One array of a particle field: its samples, their ranges, and the elements out of range."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.usd.values import Value
 
 _NO_NORM = 1e-12
-"""A square: a quaternion that is shorter can not be made a unit one."""
+"""The least squared length of a quaternion that can still be normalised."""
 
 _NOUNS = {"radiance:sphericalHarmonicsCoefficients": "coefficients"}
 _MEASURES = {"orientations": norm_range, "coefficients": finiteness}
@@ -35,7 +35,7 @@ _COUNTED = frozenset({"scales", "opacities"})
 
 
 class ArraySample(NamedTuple):
-    """One value of an array; `time` is None for the default, `size` 0 where there is nothing."""
+    """One value of an array: its time, None for the default, and its size, 0 where it is None."""
 
     time: Time
     size: int
@@ -44,11 +44,10 @@ class ArraySample(NamedTuple):
 class ParticleArray:
     """An array attribute with the samples that are looked at, the default first.
 
-    `float_name` is the name of the float array of its pair, `noun` what its elements are called;
-    it `is_populated` if there is an element at some time.
-    `total` is how many time samples it has; values are read again for each question that takes
-    all of them, so that no more than one is in memory; `with_counts` has the numbers counted by
-    size where a distribution means something.
+    `float_name` is the name of the float array of its pair, `noun` what its elements are called.
+    It `is_populated` if any sample has an element; `total` is how many time samples USD has.
+    Values are read anew for each question about all of them, so that one at a time is in memory.
+    `with_counts` makes a histogram of scales and of opacities while their ranges are found.
     """
 
     def __init__(
@@ -69,37 +68,40 @@ class ParticleArray:
         self.total = total
         self.sizes = StepSamples(samples)
         self._with_counts = with_counts
-        self._counts = NO_COUNTS
         self._advance = advance
 
     @property
     def begins_populated(self) -> bool:
-        """Whether there is one at USD's earliest time."""
+        """Whether there is an element at USD's earliest time."""
         return bool(self.sizes.at(-inf))
 
-    @cached_property
+    @property
     def ranges(self) -> tuple[tuple[ArraySample, Range], ...]:
         """The range of each column in each sample; of orientations that of their squared norms.
 
-        Of coefficients, most of the data, there is none: they may have any value that is finite.
+        Coefficients, most of the data, have none: any finite number is allowed there.
         """
-        measure = _MEASURES.get(self.noun, column_range)
-        if self._with_counts and self.noun in _COUNTED:
-            measure = counted_column_range
-        ranges = []
-        for sample, rows in self.read():
-            found = measure(rows)
-            if found.counts is not None:  # half a megabyte, too much to keep for each sample
-                self._counts = self._counts + found.counts
-                found = replace(found, counts=None)
-            ranges.append((sample, found))
-        return tuple(ranges)
+        return self._measured[0]
 
     @property
     def counts(self) -> Rows:
-        """How often each number occurs in all samples together, if that was asked for."""
-        assert self.ranges
-        return self._counts
+        """How often each number occurs in all samples together; zeros unless `with_counts`."""
+        return self._measured[1]
+
+    @cached_property
+    def _measured(self) -> tuple[tuple[tuple[ArraySample, Range], ...], Rows]:
+        """The ranges and the counts, found in one pass over the samples."""
+        measure = _MEASURES.get(self.noun, column_range)
+        if self._with_counts and self.noun in _COUNTED:
+            measure = counted_column_range
+        ranges, counts = [], NO_COUNTS
+        for sample, rows in self.read():
+            found = measure(rows)
+            if found.counts is not None:  # half a megabyte, too much to keep for each sample
+                counts = counts + found.counts
+                found = replace(found, counts=None)
+            ranges.append((sample, found))
+        return tuple(ranges), counts
 
     @property
     def low(self) -> Row | None:
@@ -120,49 +122,49 @@ class ParticleArray:
         return any(found.has_infinity for _, found in self.ranges)
 
     def non_finite(self) -> Elements | None:
-        """The elements with NaN or infinity in them."""
+        """The elements that contain NaN or infinity."""
         return self._elements((sample, found.non_finite) for sample, found in self.ranges)
 
     def outside(self, low: float, high: float) -> Elements | None:
         """The elements with a finite number outside of the limits."""
-        return self._suspects(
+        return self._search(
             lambda least, greatest: min(least) < low or max(greatest) > high,
             lambda chunk, _: matches.outside(chunk, low, high),
         )
 
     def without_direction(self) -> Elements | None:
-        """The quaternions of no length, or next to none."""
-        return self._suspects(
+        """The quaternions too short to be normalised."""
+        return self._search(
             lambda least, _: least[0] < _NO_NORM,
             lambda chunk, _: matches.squared_norms(chunk) < _NO_NORM,
         )
 
     def not_unit(self, tolerance: float) -> Elements | None:
-        """The other quaternions whose length is not 1."""
+        """The quaternions whose length is not 1, without those that can't be normalised."""
         low, high = (1 - tolerance) ** 2, (1 + tolerance) ** 2
 
         def mask(chunk: Rows, start: int) -> Rows:
             norms = matches.squared_norms(chunk)
-            picked: Rows = ((norms < low) & (norms >= _NO_NORM)) | (norms > high)
-            return picked & matches.is_finite(chunk)
+            selected: Rows = ((norms < low) & (norms >= _NO_NORM)) | (norms > high)
+            return selected & matches.is_finite(chunk)
 
-        return self._suspects(lambda least, most: least[0] < low or most[0] > high, mask)
+        return self._search(lambda least, greatest: least[0] < low or greatest[0] > high, mask)
 
     def zeros(self, axes: int = 1) -> Elements | None:
-        """The elements in which so many numbers, or more, are zero."""
-        return self._suspects(
+        """The elements in which at least so many numbers are zero."""
+        return self._search(
             lambda least, _: sum(number <= 0 for number in least) >= axes,
             lambda chunk, _: (chunk == 0).sum(axis=1) >= axes,
         )
 
     def repetitions(self) -> Elements | None:
-        """The elements that are the same as the one after them."""
+        """The elements that equal the one after them, bit by bit."""
         return self._elements(
             (sample, matches.repetitions(rows)) for sample, rows in self.read() if sample.size > 1
         )
 
-    def picked(self, masks: Mapping[Time, Mask]) -> Elements | None:
-        """The elements that a mask picks, which may be another for each sample."""
+    def selected(self, masks: Mapping[Time, Mask]) -> Elements | None:
+        """The elements that masks select; samples without a mask are not read."""
         return self._elements(
             (sample, matches.find_matches(rows, masks[sample.time]))
             for sample, rows in self.read(lambda sample: sample.time in masks)
@@ -171,7 +173,7 @@ class ParticleArray:
     def read(
         self, wanted: Callable[[ArraySample], bool] = lambda sample: True
     ) -> Iterator[tuple[ArraySample, Rows]]:
-        """The samples that hold something, one after the other."""
+        """Reads the samples that have elements, one after the other."""
         get = Usd.AttributeQuery(self.attribute).Get
         for sample in self.samples:
             if sample.size and wanted(sample):
@@ -179,14 +181,14 @@ class ParticleArray:
                 yield sample, rows_of(value)
                 self._advance(1)
 
-    def _suspects(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Elements | None:
-        """The elements that a mask picks; reads only what has a suspicious range."""
+    def _search(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Elements | None:
+        """The elements that a mask selects; reads only the samples whose range is suspicious."""
         times = {
             sample.time
             for sample, found in self.ranges
             if found.low and found.high and is_suspect(found.low, found.high)
         }
-        return self.picked(dict.fromkeys(times, mask)) if times else None
+        return self.selected(dict.fromkeys(times, mask)) if times else None
 
     def _elements(self, matched: Iterable[tuple[ArraySample, Matches | None]]) -> Elements | None:
         found = [(sample, rows) for sample, rows in matched if rows]

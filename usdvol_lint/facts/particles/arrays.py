@@ -1,4 +1,4 @@
-"""The arrays of a particle field: which of each pair counts, at which times, and how they fit."""
+"""The arrays of a particle field: which of each pair renderers use, and whether sizes fit."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ POSITIONS, COEFFICIENTS = "positions", "radiance:sphericalHarmonicsCoefficients"
 
 @dataclass(frozen=True, slots=True)
 class Misfits(Values):
-    """When an array has not as many elements as the particles take: by time both numbers."""
+    """The samples in which an array has too few or too many elements for the particles.
+
+    Each value is the size of the array and the number of particles.
+    """
 
     noun: str
 
@@ -34,7 +37,7 @@ class Misfits(Values):
 
 @dataclass(frozen=True, slots=True)
 class Degree:
-    """The degree of the spherical harmonics; `value` is None where it is of another type."""
+    """The degree of the spherical harmonics; `value` is None if the attribute is mistyped."""
 
     attribute: Any
     value: int | None
@@ -42,15 +45,16 @@ class Degree:
 
     @property
     def coefficients(self) -> int | None:
-        """How many each particle has; None where the degree makes no sense."""
+        """How many coefficients each particle takes; None for a negative or mistyped degree."""
         return None if self.value is None or self.value < 0 else (self.value + 1) ** 2
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """The float and the half array of one kind: the one that counts, and the one that it hides.
+    """The float and the half array of one attribute, such as `scales` and `scalesh`.
 
-    `arrays` are those that are authored; `is_known` is False where one is of another type.
+    `arrays` are the authored ones of the schema's type; `is_known` is False if one is mistyped.
+    Renderers read `used`; `hidden` is an array with elements that they do not read.
     """
 
     arrays: tuple[ParticleArray, ...]
@@ -60,9 +64,10 @@ class Pair:
 
 
 class ParticleArrays:
-    """The arrays of one particle field that its APIs declare, and the times they are compared at.
+    """The arrays of one particle field that its APIs declare, without mistyped ones.
 
-    What is no array of the schema's type is left out.
+    `times` are those at which sizes are compared, after the default; `schemas` are those that the
+    prim answers to.
     """
 
     def __init__(
@@ -86,9 +91,9 @@ class ParticleArrays:
         return self.pairs[COEFFICIENTS].used
 
     def used(self, *nouns: str) -> Iterator[ParticleArray]:
-        """The arrays, of these kinds or all, that renderers get something from at some time.
+        """The arrays with these nouns, or all, of which renderers read elements at some time.
 
-        None where there are no particles: that is a finding by itself.
+        There are none without particles, which is a finding of its own.
         """
         if self.lack_positions:
             return
@@ -97,12 +102,12 @@ class ParticleArrays:
                 yield array
 
     def authored(self, noun: str) -> Iterator[ParticleArray]:
-        """The float and the half array of one kind, whichever is there."""
+        """The float and the half array with this noun, as far as they are authored."""
         for pair in self.pairs.values():
             yield from (array for array in pair.arrays if array.noun == noun)
 
     def size_difference(self, one: ParticleArray, other: ParticleArray) -> str:
-        """The first sizes that differ at one time, in words, or nothing."""
+        """The sizes of two arrays at the first time at which they differ, in words; else empty."""
         for time in (None, *self._times):
             sizes = one.sizes.at(time), other.sizes.at(time)
             if None not in sizes and sizes[0] != sizes[1]:
@@ -111,12 +116,12 @@ class ParticleArrays:
 
     @property
     def lack_positions(self) -> bool:
-        """Whether there is certainly no particle at any time."""
+        """Whether there certainly is no particle at any time."""
         return self._lack(POSITIONS, schema.POSITIONS_API)
 
     @property
     def lack_coefficients(self) -> bool:
-        """Whether there is certainly no coefficient at any time, though their API is applied."""
+        """Whether there certainly is no coefficient at any time, though their API is applied."""
         return self._lack(COEFFICIENTS, schema.HARMONICS_API)
 
     def _lack(self, name: str, api: str) -> bool:
@@ -131,16 +136,16 @@ class ParticleArrays:
         return max((sample.size for sample in samples), default=0)
 
     def too_short(self, array: ParticleArray, each: int = 1) -> Misfits | None:
-        """When an array has fewer elements than so many for each particle."""
+        """The samples with fewer elements than `each` per particle."""
         return self._misfits(array, each, lambda size, wanted: size < wanted)
 
     def too_long(self, array: ParticleArray, each: int = 1) -> Misfits | None:
-        """When an array has more elements than so many for each particle, if there are any."""
+        """The samples with more elements than `each` per particle, if there are particles."""
         return self._misfits(array, each, lambda size, wanted: size > wanted > 0)
 
     @property
     def fitting_degree(self) -> int | None:
-        """The degree that the number of coefficients speaks for at all times."""
+        """The degree that fits the number of coefficients at all times; None if none does."""
         array = self.coefficients
         sizes = self._sizes(array) if array else ()
         shares = {divmod(size, particles) for _, size, particles in sizes if particles}
@@ -163,7 +168,7 @@ class ParticleArrays:
         return Misfits(array.attribute, found, len(self._times), array.noun)
 
     def _sizes(self, array: ParticleArray) -> Iterator[tuple[Time, int, int]]:
-        """By time how many elements the array has, and how many particles there are."""
+        """Time, number of elements and number of particles, where both arrays have a value."""
         for time in (None, *self._times):
             size = array.sizes.at(time)
             particles = self.positions.sizes.at(time) if self.positions else None

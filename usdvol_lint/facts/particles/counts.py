@@ -1,4 +1,4 @@
-"""How often each number occurs in an array, counted by the first 16 of its bits."""
+"""Histograms: how often each number occurs in an array, by the upper 16 of its bits."""
 
 from __future__ import annotations
 
@@ -8,18 +8,19 @@ from usdvol_lint.facts.particles.bits import bits, flip_negative
 from usdvol_lint.facts.particles.chunks import Rows
 
 NO_COUNTS: Rows = np.zeros(1 << 16, np.int64)
+"""The histogram of nothing: 65,536 integers, indexed by the upper 16 bits as an unsigned number."""
 
 
 def count_numbers(chunk: Rows) -> Rows:
-    """The counts of the numbers of a chunk, NaN and infinity among them."""
-    first_bits = bits(chunk).view(f"u{chunk.dtype.itemsize}") >> 8 * (chunk.dtype.itemsize - 2)
-    return np.bincount(first_bits.reshape(-1), minlength=len(NO_COUNTS))
+    """The histogram of a chunk of halfs or floats; NaN and infinity are counted too."""
+    upper = bits(chunk).view(f"u{chunk.dtype.itemsize}") >> 8 * (chunk.dtype.itemsize - 2)
+    return np.bincount(upper.reshape(-1), minlength=len(NO_COUNTS))
 
 
 def bins(is_half: bool) -> tuple[Rows, Rows, Rows]:
-    """The places of finite numbers in `counts` by their size, where each ends, and its middle.
+    """The bins of finite numbers, ascending: their indices, upper ends and middles.
 
-    Half numbers are counted one by one; of a float a bin holds 65,536, a 128th of them apart.
+    A bin is a single half, or 65,536 neighbouring floats, which differ by at most a 128th.
     """
     patterns = np.arange(1 << 16, dtype=np.uint16)
     keys = flip_negative(patterns.view(np.int16))

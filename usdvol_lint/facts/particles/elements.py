@@ -1,4 +1,4 @@
-"""Elements of an array that have something in common, in each sample, and in words."""
+"""The elements of an array that a rule asked for, by sample, and how messages name them."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from usdvol_lint.facts.usd.values import Values
 
 @dataclass(frozen=True, slots=True)
 class Elements(Values):
-    """Elements of an array that have something in common: those in each sample.
+    """The elements of an array that match a condition: `Matches` for each sample that has some.
 
-    `sizes` are the samples', `noun` their elements'.
+    `sizes` are the sizes of these samples; `noun` is the plural that elements are called by.
     """
 
     sizes: tuple[int, ...]
@@ -20,7 +20,7 @@ class Elements(Values):
 
     @property
     def share(self) -> float:
-        """How much of the samples it is in."""
+        """The share of the elements of these samples that match."""
         return self._count / sum(self.sizes)
 
     @property
@@ -32,17 +32,20 @@ class Elements(Values):
     def first(self) -> str:
         """`first 1.5 at [17] (4 of 240 samples)`."""
         found = next(iter(self))
-        return f"first {written(found.value)} at [{found.first}]{self.count}"
+        return f"first {as_text(found.value)} at [{found.first}]{self.count}"
 
     @property
     def _count(self) -> int:
         return sum(found.count for found in self)
 
 
-def written(row: Row) -> str:
-    """An element as a text layer has it."""
+def as_text(row: Row) -> str:
+    """An element as a text layer writes it."""
     if len(row) == 4:
-        row = (row[3], *row[:3])  # in memory the real part of a quaternion comes last
+        row = (
+            row[3],
+            *row[:3],
+        )  # USD stores the real part of a quaternion last, and writes it first
     numbers = ", ".join(f"{number:.6g}" for number in row)
     return numbers if len(row) == 1 else f"({numbers})"
 

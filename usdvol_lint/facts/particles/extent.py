@@ -1,4 +1,4 @@
-"""Positions of particles held against the extent at the same time."""
+"""Whether the extent of a particle field encloses its positions at the same time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from usdvol_lint.facts.particles import matches
 from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
-from usdvol_lint.facts.particles.elements import Elements, written
+from usdvol_lint.facts.particles.elements import Elements, as_text
 from usdvol_lint.facts.particles.matches import Mask
 from usdvol_lint.facts.prims.boxes import encloses
 from usdvol_lint.facts.prims.extents import box_of
@@ -18,31 +18,31 @@ from usdvol_lint.facts.usd.values import sample_times
 from usdvol_lint.volumefile import Bounds
 
 _HALF_STEP = 2.0**-24
-"""Between halfs next to zero, where their error is not relative any more."""
+"""The distance of halfs next to zero, where their rounding error is absolute."""
 
 
 @dataclass(frozen=True, slots=True)
 class OutsideExtent:
-    """Positions outside the extent; `when` are the times at which it does not hold them all.
+    """Positions outside the extent, which is `attribute`.
 
-    `extent` is the first of these, `positions` what all positions span.
+    `elements` are the positions, `all_times` the times at which some are outside; `extent` is its
+    value at the first of these, `positions` the box around the positions of all samples.
     """
 
     elements: Elements
     attribute: Any
-    """The extent."""
-    when: tuple[Time, ...]
+    all_times: tuple[Time, ...]
     extent: Bounds
     positions: Bounds
     asset: ClassVar[None] = None
 
     @property
     def times(self) -> tuple[float, ...]:
-        return tuple(time for time in self.when if time is not None)
+        return tuple(time for time in self.all_times if time is not None)
 
     @property
     def at_default(self) -> bool:
-        return None in self.when
+        return None in self.all_times
 
     @property
     def shown_extent(self) -> str:
@@ -56,11 +56,12 @@ class OutsideExtent:
 def positions_outside_extent(
     positions: ParticleArray, extent: Any, slack: float, clamp: float
 ) -> OutsideExtent | None:
-    """The positions outside the extent by more than a share of its coordinates.
+    """The positions outside the extent by more than `slack` times its largest coordinate.
 
-    A coordinate of `clamp`, or its negative, is where an exporter cut the extent off.
+    That is taken along each axis.  A side at `clamp`, or at its negative, was cut off by an
+    exporter, and sets no limit.
     """
-    when: list[Time] = []
+    all_times: list[Time] = []
     boxes: dict[Time, Bounds] = {}
     masks: dict[Time, Mask] = {}
     for sample, found in positions.ranges:
@@ -70,19 +71,19 @@ def positions_outside_extent(
                 continue
             limits = _limits(box, slack, clamp, positions.is_half)
             if not encloses(limits, _box(found.low, found.high), 0.0):
-                when.append(time)
+                all_times.append(time)
                 boxes.setdefault(sample.time, box)
                 masks.setdefault(sample.time, _outside(limits))
-    elements = positions.picked(masks) if masks else None
+    elements = positions.selected(masks) if masks else None
     if not elements or not positions.low or not positions.high:
         return None
     first = elements.samples[0].time
     span = _box(positions.low, positions.high)
-    return OutsideExtent(elements, extent, tuple(when), boxes[first], span)
+    return OutsideExtent(elements, extent, tuple(all_times), boxes[first], span)
 
 
 def _times_of_extent(positions: ParticleArray, sample: ArraySample, extent: Any) -> Iterable[Time]:
-    """When the extent has to hold a sample: positions that stand still meet all of its samples."""
+    """When the extent has to enclose a sample: always, for positions that are not animated."""
     return (positions.total < 2 and sample_times(extent)) or [sample.time]
 
 
@@ -107,4 +108,4 @@ def _outside(limits: Bounds) -> Mask:
 
 
 def _shown(box: Bounds) -> str:
-    return f"{written(box[0])} to {written(box[1])}"
+    return f"{as_text(box[0])} to {as_text(box[1])}"

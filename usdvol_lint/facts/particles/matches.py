@@ -1,4 +1,4 @@
-"""Rows of an array that have something in common: how many, and which is the first."""
+"""The rows of an array that a mask selects: how many there are, and the first of them."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from usdvol_lint.facts.particles.bits import bits
 from usdvol_lint.facts.particles.chunks import Row, Rows, fold
 
 Mask: TypeAlias = Callable[[Rows, int], Rows]
-"""Which rows of a chunk are meant, as one boolean each; also told where the chunk begins."""
+"""Selects rows: from a chunk and the index of its first row to one boolean per row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Matches:
-    """Rows of one kind in an array: how many, and the first one with its place."""
+    """How many rows match; the index of the first, and its value."""
 
     count: int
     first: int
@@ -25,7 +25,7 @@ class Matches:
 
 
 def find_matches(rows: Rows, mask: Mask) -> Matches | None:
-    """The rows that a mask picks, in one pass."""
+    """The rows that a mask selects, in one pass; None if there are none."""
 
     def measure(chunk: Rows, start: int) -> Matches | None:
         return matches_in(chunk, start, mask(chunk, start))
@@ -34,7 +34,7 @@ def find_matches(rows: Rows, mask: Mask) -> Matches | None:
 
 
 def repetitions(rows: Rows) -> Matches | None:
-    """The rows that are the same as the next one, bit by bit, in one pass."""
+    """The rows that equal the next one bit by bit, in one pass."""
     values, following = bits(rows[:-1]), bits(rows[1:])
 
     def mask(chunk: Rows, start: int) -> Rows:
@@ -45,42 +45,44 @@ def repetitions(rows: Rows) -> Matches | None:
 
 
 def outside(chunk: Rows, low: float | Row, high: float | Row) -> Rows:
-    """Which rows of a chunk have a finite number outside of the limits, of all or each column."""
-    picked: Rows = ((chunk < low) | (chunk > high)) & np.isfinite(chunk)
-    rows: Rows = np.logical_or.reduce(picked, axis=1)
+    """Which rows have a finite number outside the limits, which are for all columns or for each."""
+    beyond: Rows = ((chunk < low) | (chunk > high)) & np.isfinite(chunk)
+    rows: Rows = np.logical_or.reduce(beyond, axis=1)
     return rows
 
 
 def is_finite(chunk: Rows) -> Rows:
-    """Which rows of a chunk have neither NaN nor infinity in them."""
+    """Which rows contain neither NaN nor infinity."""
     rows: Rows = np.logical_and.reduce(np.isfinite(chunk), axis=1)
     return rows
 
 
 def squared_norms(chunk: Rows) -> Rows:
-    """The squared lengths of rows of four numbers; adding columns is quicker than adding rows."""
+    """The squared lengths of rows of four numbers: adding columns is faster than `sum(axis=1)`."""
     wider = chunk.astype(np.float32) if chunk.dtype == np.float16 else chunk
     squares = np.square(wider).reshape(-1, 2)
     sums: Rows = (squares[:, 0] + squares[:, 1]).reshape(-1, 2)
     return sums[:, 0] + sums[:, 1]
 
 
-def matches_in(chunk: Rows, start: int, picked: Rows) -> Matches | None:
-    count = int(np.count_nonzero(picked))
+def matches_in(chunk: Rows, start: int, selected: Rows) -> Matches | None:
+    """The selected rows of a chunk whose first row has the index `start`."""
+    count = int(np.count_nonzero(selected))
     if not count:
         return None
-    first = int(picked.argmax())
+    first = int(selected.argmax())
     return Matches(count, start + first, tuple(chunk[first].tolist()))
 
 
 def join_matches(one: Matches | None, other: Matches | None) -> Matches | None:
+    """The matches of two parts of an array, `one` before `other`."""
     if one is None or other is None:
         return one or other
     return Matches(one.count + other.count, one.first, one.value)
 
 
 def _equal(chunk: Rows, other: Rows) -> Rows:
-    """Which rows are equal; other columns than the first are asked only where it says so."""
+    """Which rows are equal; further columns are compared only while some row still is."""
     equal: Rows = chunk[:, 0] == other[:, 0]
     for column in range(1, chunk.shape[1]):
         if not equal.any():

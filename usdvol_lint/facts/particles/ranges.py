@@ -1,4 +1,4 @@
-"""The ranges of the numbers in an array, and where it holds NaN or infinity, in one pass."""
+"""The ranges of the numbers in an array, and the rows with NaN or infinity, in one pass."""
 
 from __future__ import annotations
 
@@ -20,16 +20,17 @@ from usdvol_lint.facts.particles.matches import (
 )
 
 _FOLD = 128
+"""How many rows are viewed as one."""
 _HALF_INFINITY = 0x7C00
 _HALF_MINUS_INFINITY = 0xFC00
 
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """The least and greatest finite number in each column, None where there is none.
+    """The least and greatest number in each column, of the rows that are finite.
 
-    `non_finite` are the rows with NaN or infinity in them, `has_infinity` and `has_nan` say which.
-    `counts` are of all numbers, by the first 16 of their bits.
+    `low` and `high` are None if no row is, or if they were not asked for; `non_finite` are the rows
+    with NaN or infinity; `counts` is a histogram of all numbers, if one was asked for.
     """
 
     low: Row | None
@@ -46,22 +47,22 @@ def column_range(rows: Rows) -> Range:
 
 
 def counted_column_range(rows: Rows) -> Range:
-    """The same with counts."""
+    """The range of each column and a histogram, in one pass."""
     return fold(rows, _measure_and_count, _join_ranges)
 
 
 def norm_range(rows: Rows) -> Range:
-    """The range of the squared lengths of the rows, which have four numbers each, in one pass."""
+    """The range of the squared lengths of rows of four numbers, in one pass."""
     return fold(rows, _measure_norms, _join_ranges)
 
 
 def finiteness(rows: Rows) -> Range:
-    """Only whether all is finite, in one pass; the columns' ranges are left out."""
+    """The rows with NaN or infinity, in one pass; the ranges of columns are left out."""
     return fold(rows, _measure_finiteness, _join_ranges, READ_ONCE)
 
 
 def joined(pick: Callable[[float, float], float], rows: Iterable[Row | None]) -> Row | None:
-    """The least or greatest number in each column; None where no row has any."""
+    """`pick` of each column, such as `min`; None where all rows are None."""
     return reduce(lambda one, other: _join_rows(pick, one, other), rows, None)
 
 
@@ -82,13 +83,13 @@ def _measure_norms(chunk: Rows, start: int) -> Range:
     low, high = float(norms.min()), float(norms.max())
     if np.isfinite(low) and np.isfinite(high):
         return Range((low,), (high,))
-    if np.isfinite(chunk).all():  # only the squares were too large
+    if np.isfinite(chunk).all():  # the squares overflowed
         return _measure_norms(chunk.astype(np.float64), start)
     return _without_non_finite(chunk, start, _measure_norms)
 
 
 def _measure_finiteness(chunk: Rows, start: int) -> Range:
-    """NaN and infinity poison a sum; a sum may also be too large, so they are looked for then."""
+    """A sum is NaN or infinite if a number is; it may also overflow, so that is then checked."""
     if chunk.dtype == np.float16:
         values = bits(chunk)  # NaN and infinity are above all others of their sign
         clean = (
@@ -102,7 +103,7 @@ def _measure_finiteness(chunk: Rows, start: int) -> Range:
 
 
 def _without_non_finite(chunk: Rows, start: int, measure: Callable[[Rows, int], Range]) -> Range:
-    """What to say of a chunk with NaN or infinity in it: where these are, and of the rest."""
+    """The range of a chunk's finite rows, with the rows that contain NaN or infinity."""
     finite = is_finite(chunk)
     found = matches_in(chunk, start, ~finite)
     rest = chunk[finite]
@@ -112,9 +113,9 @@ def _without_non_finite(chunk: Rows, start: int, measure: Callable[[Rows, int], 
 
 
 def _column_extremes(keys: Rows) -> tuple[Rows, Rows]:
-    """The extremes of each column of a chunk.
+    """The least and the greatest key in each column.
 
-    Narrow columns are folded into wide rows, because NumPy reduces those many times as fast.
+    Many short rows are viewed as few long ones, which NumPy reduces many times as fast.
     """
     wide = len(keys) // _FOLD * _FOLD
     if not wide:

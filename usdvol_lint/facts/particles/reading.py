@@ -1,4 +1,4 @@
-"""Reads how many elements the arrays of a particle field have, and which of each pair counts."""
+"""Reads the sizes of the arrays of a particle field, and decides which of each pair is used."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.array import ParticleArray
 
 Times: TypeAlias = str | int
-"""Which samples of a field are looked at: `all`, `first`, `ends`, or so many, evenly spread."""
+"""Which time samples are read: `all`, `first`, `ends`, or a number of them, evenly spread."""
 
 _DEGREE = "radiance:sphericalHarmonicsDegree"
 _FALLBACK_DEGREE = 3
@@ -26,7 +26,7 @@ _PAIRS: dict[str, tuple[Any, Any]] = {
     "opacities": (Vt.FloatArray, Vt.HalfArray),
     COEFFICIENTS: (Vt.Vec3fArray, Vt.Vec3hArray),
 }
-"""The float arrays, and the values that renderers take from them and from their half twins."""
+"""The names of the float arrays; their types, and those of the half arrays that go with them."""
 _TYPES = {
     f"{name}{suffix}": wanted
     for name, pair in _PAIRS.items()
@@ -43,10 +43,10 @@ def read_particle_arrays(
     with_counts: bool,
     advance: Callable[[int], None],
 ) -> ParticleArrays:
-    """Reads how many elements there are at which times, and nothing of what they are.
+    """Reads the sizes of the arrays of a particle field at the chosen times, not their elements.
 
-    `schemas` are those that the prim answers to; `authored` are the attributes that one of them
-    declares, `mistyped` those with another type; `with_counts` is for `ParticleArray`.
+    `schemas` are those that the prim answers to; `authored` names the attributes that these
+    declare, `mistyped` those with another type; `with_counts` and `advance` go to `ParticleArray`.
     """
     names = [name for name in _TYPES if name in authored]
     sampled = {name: sample_times(prim.GetAttribute(name)) for name in names}
@@ -61,7 +61,7 @@ def read_particle_arrays(
 
 
 def chosen_times(times: Sequence[float], policy: Times) -> Sequence[float]:
-    """The times that are looked at, of all that there are."""
+    """The times that a policy chooses, in order."""
     named = {"all": len(times), "first": 1, "ends": 2}
     count = policy if isinstance(policy, int) else named[policy]
     if count >= len(times):
@@ -79,7 +79,7 @@ def _read_array(
     with_counts: bool,
     advance: Callable[[int], None],
 ) -> ParticleArray | None:
-    """The array with the samples that hold at the compared times; None if it is mistyped."""
+    """The array with the samples in force at the compared times; None if it is mistyped."""
     # NumPy's import costs start-up time, and a particle field without arrays needs none.
     from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
 
@@ -98,7 +98,7 @@ def _read_array(
 
 
 def _pair(name: str, arrays: Mapping[str, ParticleArray | None]) -> Pair:
-    """As USD's imaging chooses: float, if it holds something at the earliest time, or else half."""
+    """Chooses as USD's imaging does: float if it has elements at the earliest time, else half."""
     authored = [arrays[each] for each in (name, f"{name}h") if each in arrays]
     known = tuple(array for array in authored if array)
     used = hidden = None
