@@ -42,10 +42,7 @@ class Elements(Values):
 def as_text(row: Row) -> str:
     """An element as a text layer writes it."""
     if len(row) == 4:
-        row = (
-            row[3],
-            *row[:3],
-        )  # USD stores the real part of a quaternion last, and writes it first
+        row = (row[3], *row[:3])  # USD stores the real part of a quaternion last
     numbers = ", ".join(f"{number:.6g}" for number in row)
     return numbers if len(row) == 1 else f"({numbers})"
 

@@ -1,4 +1,4 @@
-"""What a Volume's `field:` namespace really binds, and what only looks as if it did."""
+"""The bindings of a Volume: the properties in its `field:` namespace, and what they target."""
 
 from __future__ import annotations
 
@@ -20,10 +20,9 @@ if TYPE_CHECKING:
 class Binding(NamedTuple):
     """One property of the `field:` namespace.
 
-    `name` is what follows `field:`; USD keys the field by `key`, the last part of it.
-    `emptiness` is None where there are targets; `lost` are specs whose targets did not survive
-    composition, strongest first; `forwards_to` is the relationship that one without targets
-    forwards to.
+    `name` is what follows `field:`; `targets` are those after forwarding.
+    A relationship without targets has an `emptiness`; `lost` are its specs whose targets did not
+    survive composition, strongest first; `forwards_to` is the path that it targets itself, if any.
     """
 
     property: Any
@@ -36,25 +35,26 @@ class Binding(NamedTuple):
 
     @builtins.property
     def key(self) -> str:
+        """The last part of the name, by which USD and renderers know the field."""
         return self.name.rpartition(":")[2]
 
     @builtins.property
     def target(self) -> Target | None:
-        """The target if there is exactly one: USD drops the relationship if there are several."""
+        """The target if there is exactly one: USD ignores a relationship with several."""
         return self.targets[0] if len(self.targets) == 1 else None
 
     @builtins.property
     def is_bound(self) -> bool:
-        """Whether USD and renderers get a field from it."""
+        """Whether USD and renderers read a field through it."""
         return self.target is not None and self.target.state is TargetState.FIELD
 
 
 class FieldBindings(NamedTuple):
-    """The bindings of one Volume, by name.
+    """The bindings of one Volume, sorted by name.
 
-    `undeclared` are relationships outside the namespace that a reader would take for fields: a bare
-    `rel field`, or any other, unless a schema declares it, that targets a field prim which no
-    relationship in the namespace does.
+    `undeclared` are relationships outside the namespace that were probably intended as bindings:
+    a bare `rel field`, or one that no schema declares and that targets a field prim which no
+    binding targets.
     """
 
     bindings: tuple[Binding, ...]
@@ -71,19 +71,19 @@ class FieldBindings(NamedTuple):
                 yield binding, binding.target
 
     def with_files(self) -> Iterator[tuple[Binding, Target]]:
-        """The bindings of fields that name files, with those fields."""
+        """The bindings of fields that may name files, with those fields."""
         for binding, target in self.with_target(TargetState.FIELD):
             if schema.FIELD_ASSET in target.schemas:
                 yield binding, target
 
     def outside(self, volume: Any) -> Iterator[tuple[Binding, Target]]:
-        """The bindings of fields that do not lie below the Volume, with those fields."""
+        """The bindings of fields that are not below the Volume, with those fields."""
         for binding, target in self.with_target(TargetState.FIELD):
             if not target.path.HasPrefix(volume.GetPath()):
                 yield binding, target
 
     def marks(self, volume: Any) -> frozenset[Enum]:
-        """What there is to say of the bindings of a Volume, if there is anything."""
+        """The states of all targets, and what else preconditions test (`BindingMark`)."""
         found: set[Enum] = set()
         for _, name, is_relationship, targets, emptiness, *_ in self.bindings:
             if emptiness:
@@ -106,11 +106,11 @@ class FieldBindings(NamedTuple):
 
     @property
     def is_sound(self) -> bool:
-        """Whether there are fields and each is bound."""
+        """Whether there are bindings and each binds a field."""
         return bool(self.bindings) and all(binding.is_bound for binding in self.bindings)
 
     def target_paths(self) -> set[Any]:
-        """The paths of the prims that any of these relationships targets, as the walk met them."""
+        """The paths of all prims that these relationships target, as the walk meets them."""
         prims = [target.prim for binding in self.bindings for target in binding.targets]
         for relationship in self.undeclared:
             stage = relationship.GetStage()
@@ -119,14 +119,14 @@ class FieldBindings(NamedTuple):
         return {in_prototype(prim).GetPath() for prim in prims if prim}
 
 
-class Bound(NamedTuple):
-    """What there is to know of the bindings of a Volume that have no faults.
+class BoundFields(NamedTuple):
+    """The bindings of a Volume in brief.
 
-    `marks` say what is remarkable about them, `fields` are the places of the live fields that they
-    target.  `looked_at` are the bindings themselves where they had to be looked at: elsewhere each
-    is one of these fields, right below the Volume.
+    `marks` are those of `FieldBindings.marks`; `slots` are those of the live fields that are
+    targeted.  `bindings` is None where each relationship targets one live field right below the
+    Volume: then the slots say it all.
     """
 
     marks: frozenset[Enum]
-    fields: tuple[Slot, ...]
-    looked_at: FieldBindings | None = None
+    slots: tuple[Slot, ...]
+    bindings: FieldBindings | None = None

@@ -1,4 +1,4 @@
-"""Why a relationship has no target, read from the list operations of its specs."""
+"""Why a relationship has no target: read from its specs, which composition merged."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ from usdvol_lint.facts.volumes.states import Emptiness
 
 
 def why_empty(relationship: Any) -> tuple[Emptiness, tuple[Any, ...]]:
-    """Reads the list ops of the specs, strongest first, for what composition left out."""
+    """Why a relationship has no forwarded target, and the specs whose targets were lost.
+
+    Reads the list operations of the specs, strongest first.
+    """
     seen = set()
     while targets := relationship.GetTargets():
-        # It forwards to another relationship, and that one is empty: its emptiness counts.
+        # It forwards to another relationship, whose emptiness is the reason.
         seen.add(relationship.GetPath())
         relationship = relationship.GetStage().GetRelationshipAtPath(targets[0])
         if not relationship:
@@ -27,13 +30,13 @@ def why_empty(relationship: Any) -> tuple[Emptiness, tuple[Any, ...]]:
     for spec in (spec for spec in specs if isinstance(spec, Sdf.RelationshipSpec)):
         targets = spec.targetPathList
         deleted.update(path.name for path in targets.deletedItems)
-        held = [path for path in targets.GetAddedOrExplicitItems() if path.name not in deleted]
-        if held:
+        added = [path for path in targets.GetAddedOrExplicitItems() if path.name not in deleted]
+        if added:
             lost.append(spec)
         elif targets.GetAddedOrExplicitItems():
             emptiness = Emptiness.DELETED
         if targets.isExplicit:
-            if not held and not lost and emptiness is Emptiness.UNAUTHORED:
+            if not added and not lost and emptiness is Emptiness.UNAUTHORED:
                 emptiness = Emptiness.BLOCKED
             break
     return (Emptiness.LOST, tuple(lost)) if lost else (emptiness, ())

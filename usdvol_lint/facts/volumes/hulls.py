@@ -1,4 +1,4 @@
-"""Boxes around all the grids of a field: enough to tell quickly that an extent encloses them."""
+"""One box around all grids of a field: a quick test whether an extent encloses them."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ _HALF_VOXEL = 0.5
 
 
 class Hull(NamedTuple):
-    """The union of boxes; `least_magnitude` is a lower bound of each box's largest coordinate."""
+    """The union of boxes; `least_magnitude` is a lower bound of each box's magnitude."""
 
     box: Bounds
     least_magnitude: float
 
 
-_NOTHING = Hull(((0.0,) * 3, (0.0,) * 3), 0.0)
-"""Stands for the hull where there are no grids."""
+_NO_GRIDS = Hull(((0.0,) * 3, (0.0,) * 3), 0.0)
+"""The hull of no grids, recognised by identity."""
 
 
 class GridBoxes:
-    """The boxes around grids, each found once."""
+    """Caches the boxes around grids."""
 
     def __init__(self) -> None:
         self._whole: dict[tuple[int, Matrix | None], tuple[Grid, Bounds | None]] = {}
 
     def whole(self, grid: Grid, matrix: Matrix) -> Bounds | None:
-        """The box around the whole voxels of a grid, carried into the space of a Volume."""
-        # A grid is known by its identity, which nothing else has as long as it is kept here.
+        """The box around the whole voxels of a grid, in the space of a Volume."""
+        # A grid has no hash; its id is unique as long as the cache keeps the grid itself.
         key = (id(grid), None if matrix is IDENTITY else matrix)
         if key not in self._whole:
             self._whole[key] = grid, bounds_in_volume(grid, matrix, _HALF_VOXEL)
@@ -43,17 +43,17 @@ class GridBoxes:
 
 
 class Hulls:
-    """Holds extents against the hulls of grids."""
+    """Compares extents with the hulls of grids."""
 
     def __init__(self, boxes: GridBoxes) -> None:
         self._boxes = boxes
         self._untransformed: dict[Timeline, Hull | None] = {}
 
     def overhang(self, limits: Limits, placed: Iterable[tuple[Timeline, Placement]]) -> float:
-        """How far any grid may reach out of an extent, in relation to its largest coordinate.
+        """An upper bound on how far a grid reaches out of an extent, relative to its coordinates.
 
-        `placed` are the contents of the fields' files, and where the fields stand.
-        Infinite where each time has to be looked at to tell.
+        `placed` are the files of each field over time, with the field's placement.
+        Infinite where there is no such bound and each time has to be compared.
         """
         limit = None if limits.times else limits.at(None)
         most = 0.0
@@ -62,9 +62,9 @@ class Hulls:
                 if timeline.select_grids:
                     return inf
                 continue
-            known = timeline in self._untransformed
-            hull = self._untransformed[timeline] if known else self._find_untransformed(timeline)
-            if hull is not _NOTHING:
+            cached = timeline in self._untransformed
+            hull = self._untransformed[timeline] if cached else self._add_untransformed(timeline)
+            if hull is not _NO_GRIDS:
                 if placement is not UNTRANSFORMED:
                     hull = None if placement.times else self._hull(timeline, placement.matrix(None))
                 if hull is None:
@@ -72,29 +72,29 @@ class Hulls:
                 most = max(most, _overhang(limit, hull))
         return most
 
-    def _find_untransformed(self, timeline: Timeline) -> Hull | None:
-        found = self._hull(timeline, IDENTITY) if timeline.select_grids else _NOTHING
+    def _add_untransformed(self, timeline: Timeline) -> Hull | None:
+        found = self._hull(timeline, IDENTITY) if timeline.select_grids else _NO_GRIDS
         self._untransformed[timeline] = found
         return found
 
     def _hull(self, timeline: Timeline, matrix: Matrix | None) -> Hull | None:
-        """The hull of all grids at all times; None where that can't be told.
+        """The hull of all grids at all times; None where a box can't be computed.
 
-        Frames mostly share a transform: then it is found in index space, for all of them at once.
+        The boxes of frames that share a transform are united in index space, then transformed once.
         """
         if not matrix:
             return None
-        frames: dict[int, tuple[Grid, list[IndexBounds]]] = {}
+        by_transform: dict[int, tuple[Grid, list[IndexBounds]]] = {}
         for _, grid in timeline.grids():
             if grid and grid.index_bounds and grid.transform:
-                frames.setdefault(id(grid.transform), (grid, []))[1].append(grid.index_bounds)
-        hulls = [self._hull_of(*same, matrix) for same in frames.values()]
+                by_transform.setdefault(id(grid.transform), (grid, []))[1].append(grid.index_bounds)
+        hulls = [self._hull_of(*same, matrix) for same in by_transform.values()]
         if None in hulls:
             return None
-        return _joined([hull for hull in hulls if hull]) if hulls else _NOTHING
+        return _joined([hull for hull in hulls if hull]) if hulls else _NO_GRIDS
 
     def _hull_of(self, grid: Grid, boxes: list[IndexBounds], matrix: Matrix) -> Hull | None:
-        """The hull of boxes in the index space of a grid."""
+        """The hull of boxes in index space, transformed as this grid is."""
         if len(boxes) == 1:
             whole = self._boxes.whole(grid, matrix)
             return Hull(whole, magnitude(whole)) if whole else None
@@ -108,12 +108,12 @@ class Hulls:
 
 
 def bounds_in_volume(grid: Grid, matrix: Matrix, padding: float) -> Bounds | None:
-    """The box around a grid's voxel centres, widened by `padding` voxels, behind a matrix."""
+    """The box around a grid's voxel centres, widened by `padding` voxels, behind its placement."""
     return grid.world_bounds(padding, None if matrix is IDENTITY else matrix)
 
 
 def _overhang(limit: Bounds, hull: Hull) -> float:
-    """How far a hull sticks out at most, in relation to its magnitude."""
+    """How far a hull sticks out at most, relative to its least magnitude."""
     (a, b, c), (d, e, f) = limit
     (x, y, z), (u, v, w) = hull.box
     if a <= x and b <= y and c <= z and u <= d and v <= e and w <= f:

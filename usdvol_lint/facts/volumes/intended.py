@@ -1,4 +1,4 @@
-"""Which field a relationship that binds none was probably meant to target."""
+"""Which field a relationship that binds none was probably intended to target."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from usdvol_lint.facts.volumes.states import TargetState
 from usdvol_lint.nearest import closest_match
 
 
-class FieldNames:
-    """Finds the field prim that a path was probably meant for."""
+class FieldIndex:
+    """The paths of all fields, by name and by parent, to search for one near a wrong path."""
 
     def __init__(self, fields: Iterable[Any], volumes: Iterable[Any]) -> None:
         self._volumes = frozenset(volume.GetPath() for volume in volumes)
@@ -23,25 +23,25 @@ class FieldNames:
             self._by_name[path.name].append(path)
             self._by_parent[path.GetParentPath()][path.name] = path
 
-    def meant_by(self, binding: Binding) -> Any | None:
-        """The path of the field that a binding of none was probably meant to target."""
-        path = _meant_path(binding)
-        return self.nearest(path, binding.property.GetPrim().GetPath()) if path else None
+    def intended_by(self, binding: Binding) -> Any | None:
+        """The path of the field that a binding without one was probably intended to target."""
+        path = _intended_path(binding)
+        return self.closest(path, binding.property.GetPrim().GetPath()) if path else None
 
-    def nearest(self, path: Any, volume: Any) -> Any | None:
-        """A sibling of nearly the same name, or the closest field of exactly that name.
+    def closest(self, path: Any, volume: Any) -> Any | None:
+        """A sibling of the path with nearly its name, or the closest field with exactly its name.
 
-        None where two are equally close: a guess would send people the wrong way; and no field of
-        that name below another Volume than that at the path `volume`.
+        None where two are equally close, as a wrong guess misleads, and where the closest is below
+        a Volume other than the one at the path `volume`.
         """
         siblings = self._by_parent.get(path.GetParentPath(), {})
         sibling = closest_match(path.name, siblings, cutoff=0.7, fold=str)
         if sibling:
             return siblings[sibling]
         namesakes = self._by_name.get(path.name, [])
-        place = bisect(namesakes, path)  # in sorted order, the closest are next to it
+        index = bisect(namesakes, path)  # in sorted order, the closest are next to it
         shared = defaultdict(list)
-        for other in namesakes[max(place - 2, 0) : place + 2]:
+        for other in namesakes[max(index - 2, 0) : index + 2]:
             shared[path.GetCommonPrefix(other).pathElementCount].append(other)
         closest = shared[max(shared)] if shared else []
         if len(closest) != 1:
@@ -50,8 +50,8 @@ class FieldNames:
         return closest[0] if above <= {volume} else None
 
 
-def _meant_path(binding: Binding) -> Any | None:
-    """Where one would look for the field of a binding that has none; None if it names a prim."""
+def _intended_path(binding: Binding) -> Any | None:
+    """The path at which the field of a binding would be expected; None where there is no clue."""
     if not binding.targets:
         return binding.property.GetPrim().GetPath().AppendChild(binding.key)
     if binding.target and binding.target.state in (TargetState.MISSING, TargetState.PROPERTY):

@@ -1,4 +1,4 @@
-"""Reads what Volumes bind: in columns, and one Volume at a time where something is unusual."""
+"""Reads what Volumes bind: many at once where all is plain, else one Volume at a time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from usdvol_lint.facts.usd.calls import (
 )
 from usdvol_lint.facts.usd.instances import shown_path
 from usdvol_lint.facts.usd.kinds import Kinds
-from usdvol_lint.facts.volumes.bindings import Binding, Bound, FieldBindings
+from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
 from usdvol_lint.facts.volumes.emptiness import why_empty
 from usdvol_lint.facts.volumes.states import BindingMark, TargetState
 from usdvol_lint.facts.volumes.targets import MayLack, read_target
@@ -34,7 +34,8 @@ _BARE_NAMESPACE = schema.FIELD_NAMESPACE.rstrip(":")
 class BindingReader:
     """Reads what Volumes bind.
 
-    `may_lack` is asked whether opinions about a prim may lie in a layer that does not open.
+    `live` maps the paths of live fields to their slots; `may_lack` tells whether a layer that does
+    not open may hold opinions about a prim.
     """
 
     def __init__(self, kinds: Kinds) -> None:
@@ -42,10 +43,11 @@ class BindingReader:
 
     def read_many(
         self, batch: PrimBatch, authored: Authored, live: Mapping[Any, Slot], may_lack: MayLack
-    ) -> list[Bound]:
-        """What many Volumes bind that are alike; `live` are the places of live fields, by path.
+    ) -> list[BoundFields]:
+        """Reads many Volumes on which the same properties are authored.
 
-        Bindings are looked at one by one only where they are not plain.
+        Bindings are read one by one only for a Volume with a target that is not a live field right
+        below it, or with a relationship that no schema declares.
         """
         marks: set[Enum] = {TargetState.FIELD}
         if len(authored.bound) > 1:
@@ -53,27 +55,28 @@ class BindingReader:
         if any(name.count(":") > 1 for name in authored.bound):
             marks.add(BindingMark.NESTED)
         plain = frozenset(marks)
-        columns = [_below(batch.relationships(name), batch.paths, live) for name in authored.bound]
-        fields = list(zip(*columns, strict=True)) if columns else [(None,)] * len(batch.prims)
+        paths = batch.paths
+        columns = [_children(batch.relationships(name), paths, live) for name in authored.bound]
+        rows = list(zip(*columns, strict=True)) if columns else [(None,)] * len(batch.prims)
         if len(columns) > 1:  # two relationships may target one field
-            fields = [tuple(dict.fromkeys(own)) for own in fields]
+            rows = [tuple(dict.fromkeys(slots)) for slots in rows]
         for name in authored.undeclared:
             for row, relationship in enumerate(batch.relationships(name)):
                 if relationship:
-                    fields[row] = (None,)
+                    rows[row] = (None,)
         return [
-            self._look(volume, live, may_lack) if None in own else Bound(plain, own)
-            for volume, own in zip(batch.prims, fields, strict=True)
+            self._in_full(volume, live, may_lack) if None in slots else BoundFields(plain, slots)
+            for volume, slots in zip(batch.prims, rows, strict=True)
         ]
 
-    def _look(self, volume: Any, live: Mapping[Any, Slot], may_lack: MayLack) -> Bound:
+    def _in_full(self, volume: Any, live: Mapping[Any, Slot], may_lack: MayLack) -> BoundFields:
         bindings = self.read(volume, may_lack)
-        paths = bindings.target_paths()
-        places = tuple(live[path] for path in sorted(paths) if path in live)
-        return Bound(bindings.marks(volume), places, bindings)
+        paths = sorted(bindings.target_paths())
+        slots = tuple(live[path] for path in paths if path in live)
+        return BoundFields(bindings.marks(volume), slots, bindings)
 
     def read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
-        """What the authored properties of a Volume bind."""
+        """Reads all bindings of one Volume."""
         bindings, others = [], []
         for prop in get_properties(volume):
             name = get_name(prop)
@@ -97,21 +100,25 @@ class BindingReader:
         return Binding(prop, name, True, (), emptiness, lost, forwards_to)
 
 
-def _below(
+def _children(
     relationships: Iterable[Any], volumes: Iterable[Any], live: Mapping[Any, Slot]
 ) -> list[Slot | None]:
-    """The places of single targets that are live fields right below their Volumes."""
-    found: list[Slot | None] = []
+    """The slot of each relationship's target if it is a single live field right below the Volume.
+
+    `volumes` are the paths of the Volumes.
+    """
+    slots: list[Slot | None] = []
     for relationship, volume in zip(relationships, volumes, strict=True):
         paths: Sequence[Any] = get_targets(relationship) if relationship else ()
-        is_below = len(paths) == 1 and parent_path(paths[0]) == volume
-        found.append(live.get(paths[0]) if is_below else None)
-    return found
+        is_child = len(paths) == 1 and parent_path(paths[0]) == volume
+        slots.append(live.get(paths[0]) if is_child else None)
+    return slots
 
 
 def _undeclared(
     relationships: Iterable[Any], bindings: Iterable[Binding], kinds: Kinds
 ) -> Iterator[Any]:
+    """The relationships outside the namespace that were probably intended as bindings."""
     bound = {target.path for binding in bindings for target in binding.targets}
     for relationship in relationships:
         if relationship.GetName() == _BARE_NAMESPACE or (
@@ -126,6 +133,6 @@ def _undeclared(
 
 
 def _is_declared(relationship: Any) -> bool:
-    """Whether a schema declares it, as CollectionAPI does `collection:…:includes`."""
+    """Whether a schema of the prim declares it, as CollectionAPI does `collection:…:includes`."""
     definition = relationship.GetPrim().GetPrimDefinition()
     return relationship.GetName() in definition.GetPropertyNames()

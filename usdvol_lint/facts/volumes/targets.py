@@ -1,4 +1,4 @@
-"""What one target of a field relationship turns out to be, and which prim is to blame."""
+"""The targets of field relationships: their state, and the prim that is the reason for it."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ _LIVE = Usd.PrimDefaultPredicate
 
 
 class Target(NamedTuple):
-    """One forwarded target, which `prim` is None for where there is none.
+    """A relationship's target after forwarding; `prim` is None if nothing is at its path.
 
-    `blamed` is the target itself or, where that is why it is not live, the prim above it.
+    `blamed` is the prim that explains the state: the target itself, or an ancestor that is
+    inactive, undefined or abstract.
     `schemas` are those that the prim answers to.
     """
 
@@ -35,7 +36,7 @@ class Target(NamedTuple):
 
     @property
     def shown(self) -> str:
-        """Its path as the stage shows it."""
+        """Its path, outside of prototypes."""
         return shown_path(self.stage, self.path)
 
     @property
@@ -45,53 +46,53 @@ class Target(NamedTuple):
 
     @property
     def blamed_path(self) -> str:
-        """The path of the prim to blame."""
+        """The path of the prim that explains the state."""
         return self.shown if self.blamed is self.prim else shown(self.blamed).path
 
 
 def read_target(stage: Any, path: Any, kinds: Kinds, may_lack: MayLack) -> Target:
-    """Looks up the prim at the path of a target, and decides the target's state."""
+    """Finds the prim at the path of a target, and the target's state."""
     prim = prim_at(stage, prim_path(path))
     if not prim:
-        nearest = _nearest_prim(stage, path)
-        state = _told(_missing_state(nearest), nearest, may_lack)
-        return Target(path, stage, state, None, nearest)
+        ancestor = _lowest_ancestor(stage, path)
+        state = _unless_uncomposed(_missing_state(ancestor), ancestor, may_lack)
+        return Target(path, stage, state, None, ancestor)
     if path.IsPropertyPath():
         return Target(path, stage, TargetState.PROPERTY, prim, prim)
     schemas = kinds.names(kinds.key(prim))
-    state, culprit = _prim_state(prim, schemas)
+    state, blamed = _prim_state(prim, schemas)
     if state is TargetState.OVER or not (state is TargetState.FIELD or prim.GetTypeName()):
-        state = _told(state, prim, may_lack)
-    return Target(path, stage, state, prim, culprit, schemas)
+        state = _unless_uncomposed(state, prim, may_lack)
+    return Target(path, stage, state, prim, blamed, schemas)
 
 
-def _told(state: TargetState, nearest: Any, may_lack: MayLack) -> TargetState:
-    """The state of what lacks something, unless a layer that does not open may have it."""
-    vague = state in (TargetState.MISSING, TargetState.OVER, TargetState.NOT_A_FIELD)
-    return TargetState.UNCOMPOSED if vague and may_lack(nearest) else state
+def _unless_uncomposed(state: TargetState, prim: Any, may_lack: MayLack) -> TargetState:
+    """UNCOMPOSED for a state that opinions in a layer that does not open may change."""
+    may_change = state in (TargetState.MISSING, TargetState.OVER, TargetState.NOT_A_FIELD)
+    return TargetState.UNCOMPOSED if may_change and may_lack(prim) else state
 
 
-def _nearest_prim(stage: Any, path: Any) -> Any:
-    """The lowest prim on the way to where there is none."""
+def _lowest_ancestor(stage: Any, path: Any) -> Any:
+    """The lowest prim that exists above a path without a prim."""
     for ancestor in path.GetPrimPath().GetAncestorsRange():
         if prim := stage.GetPrimAtPath(ancestor):
             return prim
     return stage.GetPseudoRoot()
 
 
-def _missing_state(nearest: Any) -> TargetState:
-    """The state of a target that does not exist."""
-    if not nearest.IsActive():
+def _missing_state(ancestor: Any) -> TargetState:
+    """The state of a target that does not exist, by the lowest ancestor that does."""
+    if not ancestor.IsActive():
         return TargetState.INACTIVE
-    if not nearest.IsLoaded():
+    if not ancestor.IsLoaded():
         return TargetState.UNLOADED
     return TargetState.MISSING
 
 
 def _prim_state(prim: Any, schemas: frozenset[str]) -> tuple[TargetState, Any]:
-    """The state of a prim, and the prim to blame for it."""
+    """The state of a prim, and the prim that explains it."""
     if _LIVE(prim):
-        return _kind_state(prim, schemas), prim
+        return _schema_state(prim, schemas), prim
     if not prim.IsActive():
         return TargetState.INACTIVE, prim
     if not prim.IsLoaded():
@@ -100,17 +101,18 @@ def _prim_state(prim: Any, schemas: frozenset[str]) -> tuple[TargetState, Any]:
         return TargetState.OVER, _topmost(prim, lambda above: not above.IsDefined())
     if prim.IsAbstract():
         return TargetState.ABSTRACT, _topmost(prim, lambda above: above.IsAbstract())
-    return _kind_state(prim, schemas), prim
+    return _schema_state(prim, schemas), prim
 
 
-def _topmost(prim: Any, has_trait: Callable[[Any], bool]) -> Any:
-    """The topmost of the prims from `prim` upward that have what it inherits from above."""
-    while not (parent := prim.GetParent()).IsPseudoRoot() and has_trait(parent):
+def _topmost(prim: Any, is_alike: Callable[[Any], bool]) -> Any:
+    """The topmost prim of the unbroken chain of ancestors that are alike, or `prim` itself."""
+    while not (parent := prim.GetParent()).IsPseudoRoot() and is_alike(parent):
         prim = parent
     return prim
 
 
-def _kind_state(prim: Any, schemas: frozenset[str]) -> TargetState:
+def _schema_state(prim: Any, schemas: frozenset[str]) -> TargetState:
+    """The state of a live prim, by what it is."""
     if schema.FIELD in schemas:
         return TargetState.FIELD
     if schema.UNKNOWN_TYPE in schemas:
