@@ -59,7 +59,7 @@ class Particles(Wing):
             prim,
             self._kinds.names(self._kinds.key(prim)) if is_ours else (),
             self._prims.authored(prim).declared if is_ours else (),
-            {each.attribute.GetName() for each in mistyped if not each.only_role},
+            {spec.attribute.GetName() for spec in mistyped if not spec.only_role},
             self._depth.times,
             self._depth.statistics,
             self._advance,
@@ -95,4 +95,4 @@ class Particles(Wing):
 
         fields = self._prims.of(schema.PARTICLE_FIELD)
         stats = (stats_of(self._prims.shown_path(prim), self.arrays(prim)) for prim in fields)
-        return tuple(sorted(stats, key=lambda each: each.prim))
+        return tuple(sorted(stats, key=lambda of_prim: of_prim.prim))

@@ -42,7 +42,7 @@ class ArraySample(NamedTuple):
 
 
 class ParticleArray:
-    """An array attribute with the samples that are looked at, the default first.
+    """An array attribute with the samples that are to be checked, the default first.
 
     `float_name` is the name of the float array of its pair, `noun` what its elements are called.
     It `is_populated` if any sample has an element; `total` is how many time samples USD has.
@@ -96,34 +96,34 @@ class ParticleArray:
             measure = counted_column_range
         ranges, counts = [], NO_COUNTS
         for sample, rows in self.read():
-            found = measure(rows)
-            if found.counts is not None:  # half a megabyte, too much to keep for each sample
-                counts = counts + found.counts
-                found = replace(found, counts=None)
-            ranges.append((sample, found))
+            measured = measure(rows)
+            if measured.counts is not None:  # half a megabyte, too much to keep for each sample
+                counts = counts + measured.counts
+                measured = replace(measured, counts=None)
+            ranges.append((sample, measured))
         return tuple(ranges), counts
 
     @property
     def low(self) -> Row | None:
         """The least finite number in each column."""
-        return joined(min, (found.low for _, found in self.ranges))
+        return joined(min, (measured.low for _, measured in self.ranges))
 
     @property
     def high(self) -> Row | None:
         """The greatest finite number in each column."""
-        return joined(max, (found.high for _, found in self.ranges))
+        return joined(max, (measured.high for _, measured in self.ranges))
 
     @property
     def has_nan(self) -> bool:
-        return any(found.has_nan for _, found in self.ranges)
+        return any(measured.has_nan for _, measured in self.ranges)
 
     @property
     def has_infinity(self) -> bool:
-        return any(found.has_infinity for _, found in self.ranges)
+        return any(measured.has_infinity for _, measured in self.ranges)
 
     def non_finite(self) -> Elements | None:
         """The elements that contain NaN or infinity."""
-        return self._elements((sample, found.non_finite) for sample, found in self.ranges)
+        return self._elements((sample, measured.non_finite) for sample, measured in self.ranges)
 
     def outside(self, low: float, high: float) -> Elements | None:
         """The elements with a finite number outside of the limits."""
@@ -185,15 +185,15 @@ class ParticleArray:
         """The elements that a mask selects; reads only the samples whose range is suspicious."""
         times = {
             sample.time
-            for sample, found in self.ranges
-            if found.low and found.high and is_suspect(found.low, found.high)
+            for sample, measured in self.ranges
+            if measured.low and measured.high and is_suspect(measured.low, measured.high)
         }
         return self.selected(dict.fromkeys(times, mask)) if times else None
 
     def _elements(self, matched: Iterable[tuple[ArraySample, Matches | None]]) -> Elements | None:
-        found = [(sample, rows) for sample, rows in matched if rows]
-        if not found:
+        present = [(sample, rows) for sample, rows in matched if rows]
+        if not present:
             return None
-        values = tuple(Value(sample.time, rows) for sample, rows in found)
-        sizes = tuple(sample.size for sample, _ in found)
+        values = tuple(Value(sample.time, rows) for sample, rows in present)
+        sizes = tuple(sample.size for sample, _ in present)
         return Elements(self.attribute, values, self.total, sizes, self.noun)

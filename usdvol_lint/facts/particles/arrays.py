@@ -135,13 +135,13 @@ class ParticleArrays:
         samples = self.positions.samples if self.positions else ()
         return max((sample.size for sample in samples), default=0)
 
-    def too_short(self, array: ParticleArray, each: int = 1) -> Misfits | None:
-        """The samples with fewer elements than `each` per particle."""
-        return self._misfits(array, each, lambda size, wanted: size < wanted)
+    def too_short(self, array: ParticleArray, per_particle: int = 1) -> Misfits | None:
+        """The samples with fewer than `per_particle` elements for each particle."""
+        return self._misfits(array, per_particle, lambda size, wanted: size < wanted)
 
-    def too_long(self, array: ParticleArray, each: int = 1) -> Misfits | None:
-        """The samples with more elements than `each` per particle, if there are particles."""
-        return self._misfits(array, each, lambda size, wanted: size > wanted > 0)
+    def too_long(self, array: ParticleArray, per_particle: int = 1) -> Misfits | None:
+        """The samples with more than `per_particle` elements for each particle, if any."""
+        return self._misfits(array, per_particle, lambda size, wanted: size > wanted > 0)
 
     @property
     def fitting_degree(self) -> int | None:
@@ -156,16 +156,16 @@ class ParticleArrays:
         return root - 1 if share and not rest and root * root == share else None
 
     def _misfits(
-        self, array: ParticleArray, each: int, is_misfit: Callable[[int, int], bool]
+        self, array: ParticleArray, per_particle: int, is_misfit: Callable[[int, int], bool]
     ) -> Misfits | None:
-        found = tuple(
+        samples = tuple(
             Value(time, (size, particles))
             for time, size, particles in self._sizes(array)
-            if is_misfit(size, particles * each)
+            if is_misfit(size, particles * per_particle)
         )
-        if not found:
+        if not samples:
             return None
-        return Misfits(array.attribute, found, len(self._times), array.noun)
+        return Misfits(array.attribute, samples, len(self._times), array.noun)
 
     def _sizes(self, array: ParticleArray) -> Iterator[tuple[Time, int, int]]:
         """Time, number of elements and number of particles, where both arrays have a value."""

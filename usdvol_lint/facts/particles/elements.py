@@ -31,12 +31,12 @@ class Elements(Values):
     @property
     def first(self) -> str:
         """`first 1.5 at [17] (4 of 240 samples)`."""
-        found = next(iter(self))
-        return f"first {as_text(found.value)} at [{found.first}]{self.count}"
+        matches = next(iter(self))
+        return f"first {as_text(matches.value)} at [{matches.first}]{self.count}"
 
     @property
     def _count(self) -> int:
-        return sum(found.count for found in self)
+        return sum(matches.count for matches in self)
 
 
 def as_text(row: Row) -> str:

@@ -64,13 +64,13 @@ def positions_outside_extent(
     all_times: list[Time] = []
     boxes: dict[Time, Bounds] = {}
     masks: dict[Time, Mask] = {}
-    for sample, found in positions.ranges:
+    for sample, measured in positions.ranges:
         for time in _times_of_extent(positions, sample, extent):
             box = box_of(extent.Get() if time is None else extent.Get(time))
-            if not box or not found.low or not found.high:
+            if not box or not measured.low or not measured.high:
                 continue
             limits = _limits(box, slack, clamp, positions.is_half)
-            if not encloses(limits, _box(found.low, found.high), 0.0):
+            if not encloses(limits, _box(measured.low, measured.high), 0.0):
                 all_times.append(time)
                 boxes.setdefault(sample.time, box)
                 masks.setdefault(sample.time, _outside(limits))

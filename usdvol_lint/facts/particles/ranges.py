@@ -105,11 +105,11 @@ def _measure_finiteness(chunk: Rows, start: int) -> Range:
 def _without_non_finite(chunk: Rows, start: int, measure: Callable[[Rows, int], Range]) -> Range:
     """The range of a chunk's finite rows, with the rows that contain NaN or infinity."""
     finite = is_finite(chunk)
-    found = matches_in(chunk, start, ~finite)
+    matches = matches_in(chunk, start, ~finite)
     rest = chunk[finite]
     inner = measure(rest, start) if len(rest) else Range(None, None)
     infinity, nan = bool(np.isinf(chunk).any()), bool(np.isnan(chunk).any())
-    return Range(inner.low, inner.high, found, infinity, nan)
+    return Range(inner.low, inner.high, matches, infinity, nan)
 
 
 def _column_extremes(keys: Rows) -> tuple[Rows, Rows]:

@@ -99,7 +99,7 @@ def _read_array(
 
 def _pair(name: str, arrays: Mapping[str, ParticleArray | None]) -> Pair:
     """Chooses as USD's imaging does: float if it has elements at the earliest time, else half."""
-    authored = [arrays[each] for each in (name, f"{name}h") if each in arrays]
+    authored = [arrays[spelt] for spelt in (name, f"{name}h") if spelt in arrays]
     known = tuple(array for array in authored if array)
     used = hidden = None
     if known:

@@ -46,11 +46,11 @@ def _quantiles(array: ParticleArray | None) -> dict[str, float] | None:
     low, high = min(array.low), max(array.high)
     counts, _, middles = _binned(array)
     below = np.cumsum(counts)
-    found = {
+    quantiles = {
         name: float(np.clip(middles[np.searchsorted(below, share * below[-1])], low, high))
         for name, share in _QUANTILES.items()
     }
-    named = {"min": low, **found, "max": high}
+    named = {"min": low, **quantiles, "max": high}
     return dict(zip(named, _short(tuple(named.values())), strict=True))
 
 

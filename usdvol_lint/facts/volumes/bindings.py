@@ -84,25 +84,25 @@ class FieldBindings(NamedTuple):
 
     def marks(self, volume: Any) -> frozenset[Enum]:
         """The states of all targets, and what else preconditions test (`BindingMark`)."""
-        found: set[Enum] = set()
+        marks: set[Enum] = set()
         for _, name, is_relationship, targets, emptiness, *_ in self.bindings:
             if emptiness:
-                found.add(emptiness)
+                marks.add(emptiness)
             elif not is_relationship:
-                found.add(BindingMark.ATTRIBUTE)
+                marks.add(BindingMark.ATTRIBUTE)
             elif len(targets) > 1:
-                found.add(BindingMark.SEVERAL_TARGETS)
+                marks.add(BindingMark.SEVERAL_TARGETS)
             else:
-                found.add(targets[0].state)
+                marks.add(targets[0].state)
                 if not has_prefix(targets[0].path, get_path(volume)):
-                    found.add(BindingMark.OUTSIDE)
+                    marks.add(BindingMark.OUTSIDE)
             if ":" in name:
-                found.add(BindingMark.NESTED)
+                marks.add(BindingMark.NESTED)
         if len(self.bindings) != 1:
-            found.add(BindingMark.SEVERAL if self.bindings else BindingMark.NONE)
+            marks.add(BindingMark.SEVERAL if self.bindings else BindingMark.NONE)
         if self.undeclared:
-            found.add(BindingMark.UNDECLARED)
-        return frozenset(found)
+            marks.add(BindingMark.UNDECLARED)
+        return frozenset(marks)
 
     @property
     def is_sound(self) -> bool:

@@ -73,9 +73,9 @@ class Hulls:
         return most
 
     def _add_untransformed(self, timeline: Timeline) -> Hull | None:
-        found = self._hull(timeline, IDENTITY) if timeline.select_grids else _NO_GRIDS
-        self._untransformed[timeline] = found
-        return found
+        hull = self._hull(timeline, IDENTITY) if timeline.select_grids else _NO_GRIDS
+        self._untransformed[timeline] = hull
+        return hull
 
     def _hull(self, timeline: Timeline, matrix: Matrix | None) -> Hull | None:
         """The hull of all grids at all times; None where a box can't be computed.

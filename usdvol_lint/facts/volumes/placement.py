@@ -83,8 +83,8 @@ UNTRANSFORMED = Placement((), (), ())
 def displacement(volume: Any, field: Any) -> Displacement | None:
     """How a field is moved relative to a Volume that binds it, in the first instance that is."""
     for path, placement in read_placements(volume, field):
-        if found := placement.displacement():
-            return found._replace(words=f"{found.words} in <{path}>") if path else found
+        if moved := placement.displacement():
+            return moved._replace(words=f"{moved.words} in <{path}>") if path else moved
     return None
 
 
