@@ -93,8 +93,9 @@ class Volumes(Wing):
 
     @cached_property
     def unused_fields(self) -> list[Any]:
-        """The fields that no Volume targets, under no variant selection so far.
+        """The fields that no Volume targets, under this variant selection or one before it.
 
+        What uses a field under this selection is added to `used`, for the selections to come.
         There are none where part of the stage can't be read.  Fields are left out that a faulty
         Volume accounts for: those below it, and those that its relationships probably intended.
         """

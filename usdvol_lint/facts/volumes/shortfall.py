@@ -20,10 +20,11 @@ from usdvol_lint.facts.prims.boxes import (
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.volumes.hulls import GridBoxes, bounds_in_volume
-from usdvol_lint.facts.volumes.placement import IDENTITY, Placement
+from usdvol_lint.facts.volumes.placement import Placement
 from usdvol_lint.facts.volumes.targets import Target
 from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Grid, Matrix
+from usdvol_lint.volumefile.transform import IDENTITY
 
 
 class Moment(NamedTuple):
