@@ -7,7 +7,7 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 def array_too_long(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     for array in arrays.used("orientations", "scales", "opacities"):
-        long = arrays.long(array)
+        long = arrays.too_long(array)
         if long:
             yield Problem(
                 long.words,

@@ -7,7 +7,7 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 def array_too_short(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     for array in arrays.used("orientations", "scales", "opacities"):
-        short = arrays.short(array)
+        short = arrays.too_short(array)
         if short:
             yield Problem(
                 short.words,

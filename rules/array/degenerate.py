@@ -6,7 +6,7 @@ from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
 @rule("ARR014", on="ParticleField", severity=WARNING, since="0.1")
 def degenerate(particles: Prim, facts: Facts, *, many: float = 0.1) -> Problems:
     arrays = facts.particles.arrays(particles)
-    if arrays.most == 1:
+    if arrays.most_particles == 1:
         return  # a placeholder
     looked_for = (
         *(("of no size along two axes", array.zeros(2)) for array in arrays.used("scales")),

@@ -10,7 +10,7 @@ def half_hidden(particles: Prim, facts: Facts) -> Problems:
         if not pair.used or not pair.hidden:
             continue
         used, hidden = pair.used.name, pair.hidden.name
-        differs = arrays.differ(pair.used, pair.hidden)
+        differs = arrays.size_difference(pair.used, pair.hidden)
         if pair.hidden.is_half:
             message = f"{used!r} counts, so {hidden!r} is never read"
             message += f"; they differ in size: {differs}" if differs else ""

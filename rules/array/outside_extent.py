@@ -13,10 +13,10 @@ def outside_extent(
     clamp: float = 50_000.0,
 ) -> Problems:
     for array in facts.particles.arrays(particles).used("positions"):
-        strays = facts.particles.positions_outside_extent(particles, half_slack if array.is_half else slack, clamp)
-        if strays:
+        outside = facts.particles.positions_outside_extent(particles, half_slack if array.is_half else slack, clamp)
+        if outside:
             yield Problem(
-                f"{strays.found.amount} outside of the extent, {strays.shown_extent}, {strays.found.first}",
-                at=strays,
-                suggestion=f"the positions span {strays.shown_positions}: author at least that",
+                f"{outside.elements.amount} outside of the extent, {outside.shown_extent}, {outside.elements.first}",
+                at=outside,
+                suggestion=f"the positions span {outside.shown_positions}: author at least that",
             )

@@ -6,7 +6,7 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 @rule("ARR017", on="ParticleField", severity=WARNING, since="0.1")
 def radiance_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
-    if not arrays.lack_coefficients or not arrays.most:
+    if not arrays.lack_coefficients or not arrays.most_particles:
         return
     if facts.particles.material_is_bound(particles) or facts.layers.may_lack_values(particles):
         return

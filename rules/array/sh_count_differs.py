@@ -12,8 +12,8 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
         return  # ARR005 says it
     for array in arrays.used("coefficients"):
         for misfits, severity in (
-            (arrays.short(array, each), None),
-            (arrays.long(array, each), WARNING),
+            (arrays.too_short(array, each), None),
+            (arrays.too_long(array, each), WARNING),
         ):
             if misfits:
                 yield Problem(

@@ -6,7 +6,7 @@ from usdvol_lint.rule import INFO, WARNING, BindingMark, Facts, Prim, Problem, P
 @rule("VOL010", on="Volume", when=bindings(BindingMark.NONE), severity=WARNING, since="0.1")
 def no_fields(volume: Prim, facts: Facts) -> Problems:
     fields = facts.volumes.bindings(volume)
-    if fields.bindings or fields.strays or facts.layers.may_lack(volume):
+    if fields.bindings or fields.undeclared or facts.layers.may_lack(volume):
         return
     unbound = facts.volumes.unbound_fields(volume)
     if not unbound:

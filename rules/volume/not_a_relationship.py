@@ -6,7 +6,7 @@ from usdvol_lint.rule import ERROR, WARNING, BindingMark, Facts, Prim, Problem, 
 @rule(
     "VOL006",
     on="Volume",
-    when=bindings(BindingMark.ATTRIBUTE, BindingMark.STRAY),
+    when=bindings(BindingMark.ATTRIBUTE, BindingMark.UNDECLARED),
     severity=ERROR,
     since="0.1",
 )
@@ -19,12 +19,12 @@ def not_a_relationship(volume: Prim, facts: Facts) -> Problems:
                 at=binding.property,
                 suggestion=f"write 'rel field:{binding.name} = <path of the field prim>'",
             )
-    for stray in fields.strays:
-        name = stray.GetName()
-        wanted = "<name>" if name == "field" else stray.GetBaseName()
+    for relationship in fields.undeclared:
+        name = relationship.GetName()
+        wanted = "<name>" if name == "field" else relationship.GetBaseName()
         yield Problem(
             f"the relationship {name!r} is outside the 'field:' namespace, so it binds no field",
-            at=stray,
+            at=relationship,
             severity=WARNING,
             suggestion=f"name it 'field:{wanted}'",
         )

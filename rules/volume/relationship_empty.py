@@ -12,7 +12,7 @@ from usdvol_lint.rule import INFO, WARNING, Emptiness, Facts, Prim, Problem, Pro
 )
 def relationship_empty(volume: Prim, facts: Facts) -> Problems:
     for binding in facts.volumes.bindings(volume).relationships:
-        meant = facts.volumes.meant_field(binding) if binding.emptiness else None
+        meant = facts.volumes.intended_field(binding) if binding.emptiness else None
         if binding.emptiness is Emptiness.UNAUTHORED:
             behind = f" behind <{binding.forwards_to}>" if binding.forwards_to else ""
             yield Problem(

@@ -6,7 +6,7 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState,
 @rule("VOL005", on="Volume", when=bindings(TargetState.PROPERTY), severity=ERROR, since="0.1")
 def target_is_a_property(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.volumes.bindings(volume).with_target(TargetState.PROPERTY):
-        meant = facts.volumes.meant_field(binding)
+        meant = facts.volumes.intended_field(binding)
         if meant and target.shown.startswith(f"{meant}."):
             suggestion = f"target the prim <{meant}>"
         else:

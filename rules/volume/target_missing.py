@@ -13,7 +13,7 @@ from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, 
 def target_missing(volume: Prim, facts: Facts) -> Problems:
     bindings = facts.volumes.bindings(volume)
     for binding, target in bindings.with_target(TargetState.MISSING):
-        meant = facts.volumes.meant_field(binding)
+        meant = facts.volumes.intended_field(binding)
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>, and there is no such prim",
             at=binding.property,

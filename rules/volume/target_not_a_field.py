@@ -15,7 +15,7 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
     bindings = facts.volumes.bindings(volume)
     for binding, target in bindings.with_target(TargetState.NOT_A_FIELD):
         type_name = target.type_name
-        meant = facts.volumes.meant_field(binding)
+        meant = facts.volumes.intended_field(binding)
         advice = None if type_name else "give it a type, such as 'OpenVDBAsset'"
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>, which "

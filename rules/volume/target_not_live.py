@@ -13,9 +13,9 @@ _WHY = {
 def target_not_live(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.volumes.bindings(volume).with_target(*_WHY):
         what, advice = _WHY[target.state]
-        below = "" if target.culprit == target.shown else f" below <{target.culprit}>"
+        below = "" if target.blamed_path == target.shown else f" below <{target.blamed_path}>"
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>{below}, which is {what}",
             at=binding.property,
-            suggestion=advice.format(target.culprit),
+            suggestion=advice.format(target.blamed_path),
         )

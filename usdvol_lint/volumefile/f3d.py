@@ -17,6 +17,7 @@ from usdvol_lint.volumefile.model import (
     quoted,
 )
 from usdvol_lint.volumefile.transform import (
+    IDENTITY,
     Matrix,
     Transform,
     finite,
@@ -30,7 +31,6 @@ DEEPEST: Final = 4
 """Root, partition, layer, metadata: nothing below matters."""
 MOST: Final = 100_000
 
-_IDENTITY = scale_translate((1, 1, 1))
 _VALUE_TYPES: dict[tuple[MetadataValue, MetadataValue], str] = {
     (components, bits): name
     for components, names in ((1, ("half", "float", "double")), (3, ("vec3h", "vec3s", "vec3d")))
@@ -96,7 +96,7 @@ def _mapping(partition: Group) -> tuple[tuple[str, Matrix] | None, FileWarning |
     mapping = partition.group("mapping")
     kind = mapping.value("mapping_type") if mapping else None
     if mapping is None or kind == "NullFieldMapping":
-        return ("NullFieldMapping", _IDENTITY), None
+        return ("NullFieldMapping", IDENTITY), None
     numbers = mapping.value("matrix_0")
     if kind != "MatrixFieldMapping" or not isinstance(numbers, tuple) or len(numbers) != 16:
         message = f"partition {quoted(partition.name)}: no {quoted(str(kind))} is read"

@@ -21,8 +21,9 @@ from pxr import Sdf, Usd, Vt
 
 from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.facts.particles import memory
-from usdvol_lint.facts.particles.arrays import Misfits, chosen
+from usdvol_lint.facts.particles import chunks, matches, ranges
+from usdvol_lint.facts.particles.arrays import Misfits
+from usdvol_lint.facts.particles.reading import chosen_times
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.values import Value
 from usdvol_lint.model import Finding, StageReport
@@ -229,9 +230,9 @@ def test_reductions_agree_with_the_obvious(
     threads: bool,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(memory, "_CHUNK", chunk * width)
-    monkeypatch.setattr(memory.fold, "__defaults__", (chunk * width,))
-    monkeypatch.setattr(memory, "_WORTH_THREADS", 0 if threads else 1 << 40)
+    monkeypatch.setattr(chunks, "_CHUNK", chunk * width)
+    monkeypatch.setattr(chunks.fold, "__defaults__", (chunk * width,))
+    monkeypatch.setattr(chunks, "_WORTH_THREADS", 0 if threads else 1 << 40)
     random = np.random.default_rng(seed)
     rows = (random.standard_normal((count, width)) * 100).astype(dtype)
     for value in sprinkled:
@@ -241,31 +242,31 @@ def test_reductions_agree_with_the_obvious(
     bad = None
     if not finite.all():
         first = int((~finite).argmax())
-        bad = memory.Spot(int((~finite).sum()), first, tuple(rows[first].tolist()))
+        bad = matches.Matches(int((~finite).sum()), first, tuple(rows[first].tolist()))
     extremes = None, None
     if finite.any():
         extremes = tuple(rows[finite].min(axis=0)), tuple(rows[finite].max(axis=0))
     flags = bool(np.isinf(rows).any()), bool(np.isnan(rows).any())
 
-    for measured in (memory.column_range(rows), memory.counted_column_range(rows)):
+    for measured in (ranges.column_range(rows), ranges.counted_column_range(rows)):
         assert (measured.low, measured.high) == extremes
-        assert_same_spot(measured.non_finite, bad)
+        assert_same_matches(measured.non_finite, bad)
         assert (measured.has_infinity, measured.has_nan) == flags
-    assert_same_spot(memory.finiteness(rows).non_finite, bad)
+    assert_same_matches(ranges.finiteness(rows).non_finite, bad)
     if width == 4:
         norms = (rows[finite].astype(np.float64) ** 2).sum(axis=1)
-        measured = memory.norm_range(rows)
-        assert_same_spot(measured.non_finite, bad)
+        measured = ranges.norm_range(rows)
+        assert_same_matches(measured.non_finite, bad)
         if len(norms):
             assert measured.low == pytest.approx((norms.min(),), rel=1e-5)
             assert measured.high == pytest.approx((norms.max(),), rel=1e-5)
     bits = rows.view(f"i{rows.itemsize}")
     twice = (bits[1:] == bits[:-1]).all(axis=1)
-    repeated = memory.repetitions(rows) if count > 1 else None
+    repeated = matches.repetitions(rows) if count > 1 else None
     assert (repeated.count if repeated else 0) == int(twice.sum())
 
 
-def assert_same_spot(one: memory.Spot | None, other: memory.Spot | None) -> None:
+def assert_same_matches(one: matches.Matches | None, other: matches.Matches | None) -> None:
     """NaN is not equal to itself."""
     assert repr(one) == repr(other)
 
@@ -273,18 +274,18 @@ def assert_same_spot(one: memory.Spot | None, other: memory.Spot | None) -> None
 @pytest.mark.parametrize("dtype", [np.float16, np.float32])
 @pytest.mark.parametrize("place", [0, 1, -1])
 def test_large_arrays_go_through_threads(dtype: Any, place: int) -> None:
-    rows = np.ones((memory._WORTH_THREADS // 3 + 12345, 3), dtype)
-    assert memory.column_range(rows) == memory.Range((1, 1, 1), (1, 1, 1))
+    rows = np.ones((chunks._WORTH_THREADS // 3 + 12345, 3), dtype)
+    assert ranges.column_range(rows) == ranges.Range((1, 1, 1), (1, 1, 1))
     rows[place] = (2, -np.inf, 0.5)
-    spot = memory.Spot(1, place % len(rows), (2, -np.inf, 0.5))
-    assert memory.column_range(rows) == memory.Range((1, 1, 1), (1, 1, 1), spot, has_infinity=True)
-    assert memory.finiteness(rows) == memory.Range(None, None, spot, has_infinity=True)
+    found = matches.Matches(1, place % len(rows), (2, -np.inf, 0.5))
+    assert ranges.column_range(rows) == ranges.Range((1, 1, 1), (1, 1, 1), found, has_infinity=True)
+    assert ranges.finiteness(rows) == ranges.Range(None, None, found, has_infinity=True)
 
 
 def test_a_sum_that_overflows_is_no_infinity() -> None:
     rows = np.full((100_000, 3), 3e38, np.float32)
-    assert memory.finiteness(rows).non_finite is None
-    assert memory.norm_range(np.full((10, 4), 3e38, np.float32)).high == pytest.approx((3.6e77,))
+    assert ranges.finiteness(rows).non_finite is None
+    assert ranges.norm_range(np.full((10, 4), 3e38, np.float32)).high == pytest.approx((3.6e77,))
 
 
 # --- times ----------------------------------------------------------------------------------------
@@ -304,8 +305,8 @@ def test_a_sum_that_overflows_is_no_infinity() -> None:
     ],
 )
 def test_chosen_times(policy: str | int, expected: list[int]) -> None:
-    assert chosen(range(10), policy) == expected or list(chosen(range(10), policy)) == expected
-    assert list(chosen([], policy)) == []
+    assert list(chosen_times(range(10), policy)) == expected
+    assert list(chosen_times([], policy)) == []
 
 
 @pytest.mark.parametrize(

@@ -21,12 +21,12 @@ from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
-from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement, read_placements
+from usdvol_lint.facts.volumes.placement import UNTRANSFORMED, Placement, read_placements
 from usdvol_lint.model import Finding
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.volumefile import Grid, read_volume_file
-from usdvol_lint.volumefile.transform import Frustum, Transform, rows, scale_translate
+from usdvol_lint.volumefile.transform import IDENTITY, Frustum, Transform, rows, scale_translate
 
 Point = tuple[float, float, float]
 Lint = Callable[..., list[Finding]]
@@ -232,7 +232,7 @@ def test_an_extent_that_frames_stick_out_of_is_never_passed_over(
     limits = Limits(None, [(None, Vt.Vec3fArray([tuple(sides[:3]), tuple(sides[3:])]))])
     limit = limits.at(None)
     assert limit
-    overhang = Hulls(GridBoxes()).overhang(limits, [(timeline, AT_REST)])
+    overhang = Hulls(GridBoxes()).overhang(limits, [(timeline, UNTRANSFORMED)])
     for grid in grids:
         box = grid.world_bounds(0.5)
         assert box

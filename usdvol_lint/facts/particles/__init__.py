@@ -1,4 +1,4 @@
-"""The particles of particle fields: their APIs, their arrays, their colour spaces."""
+"""Facts about particle fields: their APIs, arrays, extents and colour spaces."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.apis import ParticleApis
     from usdvol_lint.facts.particles.arrays import ParticleArrays
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
-    from usdvol_lint.facts.particles.extent import Strays
+    from usdvol_lint.facts.particles.extent import OutsideExtent
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 class Particles(Wing):
-    """What particle fields apply and hold.
+    """The facts about particle fields.
 
-    `depth` says which time samples are looked at, and whether statistics are counted meanwhile;
-    `advance` is told of progress in long sequences.
+    `depth` says which time samples are read, and whether histograms are made of them;
+    `advance` is called with the number of samples that were read.
     """
 
     def __init__(
@@ -43,15 +43,15 @@ class Particles(Wing):
 
     @fact
     def apis(self, prim: Any) -> ParticleApis:
-        """The applied APIs of a prim, those that nobody registers among them."""
+        """The applied APIs of a prim, those that are not registered too."""
         from usdvol_lint.facts.particles.apis import read_particle_apis
 
         return read_particle_apis(prim, self._kinds)
 
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:
-        """The arrays of a particle field: empty where SCH011 says that it is no UsdVol."""
-        from usdvol_lint.facts.particles.arrays import read_particle_arrays
+        """The arrays of a particle field: none on a prim in an older encoding (SCH011)."""
+        from usdvol_lint.facts.particles.reading import read_particle_arrays
 
         is_ours = not self._prims.encoding(prim)
         mistyped = self._prims.mistyped(prim)
@@ -59,14 +59,16 @@ class Particles(Wing):
             prim,
             self._kinds.names(self._kinds.key(prim)) if is_ours else (),
             self._prims.authored(prim).declared if is_ours else (),
-            {each.attribute.GetName() for each in mistyped if not each.only_role},
+            {spec.attribute.GetName() for spec in mistyped if not spec.only_role},
             self._depth.times,
             self._depth.statistics,
             self._advance,
         )
 
-    def positions_outside_extent(self, prim: Any, slack: float, clamp: float) -> Strays | None:
-        """The positions that lie outside the extent at the same time."""
+    def positions_outside_extent(
+        self, prim: Any, slack: float, clamp: float
+    ) -> OutsideExtent | None:
+        """The positions outside the authored extent, if there are any."""
         from usdvol_lint.facts.particles.extent import positions_outside_extent
 
         extent = prim.GetAttribute("extent")
@@ -76,21 +78,21 @@ class Particles(Wing):
         return positions_outside_extent(positions, extent, slack, clamp)
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
-        """The colour space that a prim names, or the nearest prim above it that names one."""
+        """The colour space that a prim or its nearest ancestor with one names."""
         from usdvol_lint.facts.particles.colour_spaces import colour_space
 
         return colour_space(prim)
 
     def material_is_bound(self, prim: Any) -> bool:
-        """Whether a material is bound to the prim, which replaces its own radiance."""
+        """Whether a material is bound to the prim, which then replaces its own radiance."""
         from usdvol_lint.facts.particles.apis import material_is_bound
 
         return material_is_bound(prim)
 
     def statistics(self) -> tuple[ParticleFieldStats, ...]:
-        """What each particle field holds, in the order of their paths."""
+        """The statistics of all particle fields, sorted by path."""
         from usdvol_lint.facts.particles.statistics import stats_of
 
         fields = self._prims.of(schema.PARTICLE_FIELD)
         stats = (stats_of(self._prims.shown_path(prim), self.arrays(prim)) for prim in fields)
-        return tuple(sorted(stats, key=lambda each: each.prim))
+        return tuple(sorted(stats, key=lambda of_prim: of_prim.prim))

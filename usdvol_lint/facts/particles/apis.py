@@ -1,4 +1,4 @@
-"""The applied APIs of a particle field: what they provide, and which of them nobody knows."""
+"""The API schemas applied to a particle field: what they provide, and which are not registered."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
 @dataclass(frozen=True, slots=True)
 class ParticleApis:
-    """The APIs of one prim.
+    """The API schemas of one prim.
 
-    `applied` are the registered ones with all that they bring along, in order.
-    `third_party` are names in `apiSchemas` that no plugin declares and that look like none of
-    ours: USD ignores them, another installation may know them.
-    `misspelt` are those that no plugin declares either, by the API that was probably meant.
+    `applied` are the registered ones and those that they include, in order.
+    `third_party` are names in `apiSchemas` that are not registered and resemble none of UsdVol's:
+    this USD ignores them, another installation may know them.
+    `misspelt` maps other names that are not registered to the API that was probably intended.
     `built_in_type` says that the prim type is UsdVol's own, so that its APIs are all known.
     """
 
@@ -28,42 +28,42 @@ class ParticleApis:
     built_in_type: bool
 
     def has(self, api: str) -> bool:
-        """Whether the API is applied, or would be if no name were misspelt."""
+        """Whether the API is applied, or would be with every name spelt right."""
         return api in self.applied or api in schema.expand_apis(tuple(self.misspelt.values()))
 
     def providers(self, base: str) -> tuple[str, ...]:
-        """The applied APIs that bring that base API along, and that no other provider brings."""
+        """The applied APIs that include a base API and that no other such API includes."""
         providers = [api for api in self.applied if api != base and base in _includes(api)]
-        brought = {api for provider in providers for api in _includes(provider) if api != provider}
-        return tuple(api for api in providers if api not in brought)
+        included = {api for provider in providers for api in _includes(provider) if api != provider}
+        return tuple(api for api in providers if api not in included)
 
     def remedy(self, base: str, otherwise: str) -> str:
-        """How to get a missing base API: by spelling an API right, or else as the rule says."""
-        for name, meant in self.misspelt.items():
-            if base in schema.expand_apis((meant,)):
-                return f"write {meant!r} for {name!r}"
+        """The advice for a missing base API: to correct a misspelt name, or else `otherwise`."""
+        for name, intended in self.misspelt.items():
+            if base in schema.expand_apis((intended,)):
+                return f"write {intended!r} for {name!r}"
         return otherwise
 
     @property
     def doubt(self) -> str:
-        """What to add to the words that something is missing: who else may provide it."""
+        """What to add to a message about something missing: who else may provide it."""
         names = ", ".join(map(repr, self.third_party))
         return f"; {names}, unknown to this USD, may provide this" if names else ""
 
 
 def read_particle_apis(prim: Any, kinds: PrimKinds) -> ParticleApis:
-    """Reads the applied schemas, composed and raw."""
+    """Reads the applied schemas, those that are not registered too."""
     applied = tuple(dict.fromkeys(kinds.applied(prim)))
     unregistered = [
         name
         for name in raw_apis(prim)
         if name not in applied and not is_registered(name.partition(":")[0])
     ]
-    meant = {name: schema.misspelt_api(name) for name in unregistered}
+    intended = {name: schema.misspelt_api(name) for name in unregistered}
     return ParticleApis(
         applied=applied,
-        third_party=tuple(name for name in unregistered if not meant[name]),
-        misspelt={name: api for name, api in meant.items() if api},
+        third_party=tuple(name for name in unregistered if not intended[name]),
+        misspelt={name: api for name, api in intended.items() if api},
         built_in_type=prim.GetTypeName() in schema.CONCRETE_TYPES,
     )
 

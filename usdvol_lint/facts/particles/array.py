@@ -1,81 +1,59 @@
-"""One array of a particle field: its samples, and the elements in it that have something wrong."""
+"""One array of a particle field: its samples, their ranges, and the elements out of range."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
+from math import inf
 from typing import Any, NamedTuple
 
 from pxr import Usd
 
-from usdvol_lint.facts.particles import memory
-from usdvol_lint.facts.particles.memory import Mask, Range, Row, Rows, Spot
+from usdvol_lint.facts.particles import matches
+from usdvol_lint.facts.particles.chunks import Row, Rows, rows_of
+from usdvol_lint.facts.particles.counts import NO_COUNTS
+from usdvol_lint.facts.particles.elements import Elements
+from usdvol_lint.facts.particles.matches import Mask, Matches
+from usdvol_lint.facts.particles.ranges import (
+    Range,
+    column_range,
+    counted_column_range,
+    finiteness,
+    joined,
+    norm_range,
+)
 from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.facts.usd.values import Value, Values
+from usdvol_lint.facts.usd.values import Value
 
-_INFINITY = float("inf")
 _NO_NORM = 1e-12
-"""A square: a quaternion that is shorter can not be made a unit one."""
-
+"""The least squared length of a quaternion that can still be normalised."""
 
 _NOUNS = {"radiance:sphericalHarmonicsCoefficients": "coefficients"}
-_MEASURES = {"orientations": memory.norm_range, "coefficients": memory.finiteness}
+_MEASURES = {"orientations": norm_range, "coefficients": finiteness}
 _COUNTED = frozenset({"scales", "opacities"})
 
 
-class Sample(NamedTuple):
-    """One value of an array; `time` is None for the default, `size` 0 where there is nothing."""
+class ArraySample(NamedTuple):
+    """One value of an array: its time, None for the default, and its size, 0 where it is None."""
 
     time: Time
     size: int
 
 
-@dataclass(frozen=True, slots=True)
-class Found(Values):
-    """Elements of an array that have something in common: those in each sample.
-
-    `sizes` are the samples', `noun` their elements'.
-    """
-
-    sizes: tuple[int, ...]
-    noun: str
-
-    @property
-    def share(self) -> float:
-        """How much of the samples it is in."""
-        return self._count / sum(self.sizes)
-
-    @property
-    def amount(self) -> str:
-        """`3 of 1,000,000 opacities (0.0003 %)`."""
-        return f"{self._count:,} of {sum(self.sizes):,} {self.noun} ({_percent(self.share)})"
-
-    @property
-    def first(self) -> str:
-        """`first 1.5 at [17] (4 of 240 samples)`."""
-        spot = next(iter(self))
-        return f"first {written(spot.value)} at [{spot.first}]{self.count}"
-
-    @property
-    def _count(self) -> int:
-        return sum(spot.count for spot in self)
-
-
 class ParticleArray:
-    """An array attribute with the samples that are looked at, the default first.
+    """An array attribute with the samples that are to be checked, the default first.
 
-    `float_name` is the name of the float array of its pair, `noun` what its elements are called;
-    it `is_populated` if there is an element at some time.
-    `total` is how many time samples it has; values are read again for each question that takes
-    all of them, so that no more than one is in memory; `with_counts` has the numbers counted by
-    size where a distribution means something.
+    `float_name` is the name of the float array of its pair, `noun` what its elements are called.
+    It `is_populated` if any sample has an element; `total` is how many time samples USD has.
+    Values are read anew for each question about all of them, so that one at a time is in memory.
+    `with_counts` makes a histogram of scales and of opacities while their ranges are found.
     """
 
     def __init__(
         self,
         attribute: Any,
-        samples: tuple[Sample, ...],
+        samples: tuple[ArraySample, ...],
         total: int,
         with_counts: bool = False,
         advance: Callable[[int], None] = lambda count: None,
@@ -90,142 +68,132 @@ class ParticleArray:
         self.total = total
         self.sizes = StepSamples(samples)
         self._with_counts = with_counts
-        self._counts = memory.NO_COUNTS
         self._advance = advance
 
     @property
     def begins_populated(self) -> bool:
-        """Whether there is one at USD's earliest time."""
-        return bool(self.sizes.at(-_INFINITY))
+        """Whether there is an element at USD's earliest time."""
+        return bool(self.sizes.at(-inf))
 
-    @cached_property
-    def ranges(self) -> tuple[tuple[Sample, Range], ...]:
+    @property
+    def ranges(self) -> tuple[tuple[ArraySample, Range], ...]:
         """The range of each column in each sample; of orientations that of their squared norms.
 
-        Of coefficients, most of the data, there is none: they may have any value that is finite.
+        Coefficients, most of the data, have none: any finite number is allowed there.
         """
-        measure = _MEASURES.get(self.noun, memory.column_range)
-        if self._with_counts and self.noun in _COUNTED:
-            measure = memory.counted_column_range
-        ranges = []
-        for sample, rows in self.read():
-            found = measure(rows)
-            if found.counts is not None:  # half a megabyte, too much to keep for each sample
-                self._counts = self._counts + found.counts
-                found = replace(found, counts=None)
-            ranges.append((sample, found))
-        return tuple(ranges)
+        return self._measured[0]
 
     @property
     def counts(self) -> Rows:
-        """How often each number occurs in all samples together, if that was asked for."""
-        assert self.ranges
-        return self._counts
+        """How often each number occurs in all samples together; zeros unless `with_counts`."""
+        return self._measured[1]
+
+    @cached_property
+    def _measured(self) -> tuple[tuple[tuple[ArraySample, Range], ...], Rows]:
+        """The ranges and the counts, found in one pass over the samples."""
+        measure = _MEASURES.get(self.noun, column_range)
+        if self._with_counts and self.noun in _COUNTED:
+            measure = counted_column_range
+        ranges, counts = [], NO_COUNTS
+        for sample, rows in self.read():
+            measured = measure(rows)
+            if measured.counts is not None:  # half a megabyte, too much to keep for each sample
+                counts = counts + measured.counts
+                measured = replace(measured, counts=None)
+            ranges.append((sample, measured))
+        return tuple(ranges), counts
 
     @property
     def low(self) -> Row | None:
         """The least finite number in each column."""
-        return memory.joined(min, (found.low for _, found in self.ranges))
+        return joined(min, (measured.low for _, measured in self.ranges))
 
     @property
     def high(self) -> Row | None:
         """The greatest finite number in each column."""
-        return memory.joined(max, (found.high for _, found in self.ranges))
+        return joined(max, (measured.high for _, measured in self.ranges))
 
     @property
     def has_nan(self) -> bool:
-        return any(found.has_nan for _, found in self.ranges)
+        return any(measured.has_nan for _, measured in self.ranges)
 
     @property
     def has_infinity(self) -> bool:
-        return any(found.has_infinity for _, found in self.ranges)
+        return any(measured.has_infinity for _, measured in self.ranges)
 
-    def non_finite(self) -> Found | None:
-        """The elements with NaN or infinity in them."""
-        return self._found((sample, found.non_finite) for sample, found in self.ranges)
+    def non_finite(self) -> Elements | None:
+        """The elements that contain NaN or infinity."""
+        return self._elements((sample, measured.non_finite) for sample, measured in self.ranges)
 
-    def outside(self, low: float, high: float) -> Found | None:
+    def outside(self, low: float, high: float) -> Elements | None:
         """The elements with a finite number outside of the limits."""
-        return self._suspects(
+        return self._search(
             lambda least, greatest: min(least) < low or max(greatest) > high,
-            lambda chunk, _: memory.outside(chunk, low, high),
+            lambda chunk, _: matches.outside(chunk, low, high),
         )
 
-    def without_direction(self) -> Found | None:
-        """The quaternions of no length, or next to none."""
-        return self._suspects(
+    def without_direction(self) -> Elements | None:
+        """The quaternions too short to be normalised."""
+        return self._search(
             lambda least, _: least[0] < _NO_NORM,
-            lambda chunk, _: memory.squared_norms(chunk) < _NO_NORM,
+            lambda chunk, _: matches.squared_norms(chunk) < _NO_NORM,
         )
 
-    def not_unit(self, tolerance: float) -> Found | None:
-        """The other quaternions whose length is not 1."""
+    def not_unit(self, tolerance: float) -> Elements | None:
+        """The quaternions whose length is not 1, without those that can't be normalised."""
         low, high = (1 - tolerance) ** 2, (1 + tolerance) ** 2
 
         def mask(chunk: Rows, start: int) -> Rows:
-            norms = memory.squared_norms(chunk)
-            picked: Rows = ((norms < low) & (norms >= _NO_NORM)) | (norms > high)
-            return picked & memory.is_finite(chunk)
+            norms = matches.squared_norms(chunk)
+            selected: Rows = ((norms < low) & (norms >= _NO_NORM)) | (norms > high)
+            return selected & matches.is_finite(chunk)
 
-        return self._suspects(lambda least, most: least[0] < low or most[0] > high, mask)
+        return self._search(lambda least, greatest: least[0] < low or greatest[0] > high, mask)
 
-    def zeros(self, axes: int = 1) -> Found | None:
-        """The elements in which so many numbers, or more, are zero."""
-        return self._suspects(
+    def zeros(self, axes: int = 1) -> Elements | None:
+        """The elements in which at least so many numbers are zero."""
+        return self._search(
             lambda least, _: sum(number <= 0 for number in least) >= axes,
             lambda chunk, _: (chunk == 0).sum(axis=1) >= axes,
         )
 
-    def repetitions(self) -> Found | None:
-        """The elements that are the same as the one after them."""
-        return self._found(
-            (sample, memory.repetitions(rows)) for sample, rows in self.read() if sample.size > 1
+    def repetitions(self) -> Elements | None:
+        """The elements that equal the one after them, bit by bit."""
+        return self._elements(
+            (sample, matches.repetitions(rows)) for sample, rows in self.read() if sample.size > 1
         )
 
-    def picked(self, masks: Mapping[Time, Mask]) -> Found | None:
-        """The elements that a mask picks, which may be another for each sample."""
-        return self._found(
-            (sample, memory.spot(rows, masks[sample.time]))
+    def selected(self, masks: Mapping[Time, Mask]) -> Elements | None:
+        """The elements that masks select; samples without a mask are not read."""
+        return self._elements(
+            (sample, matches.find_matches(rows, masks[sample.time]))
             for sample, rows in self.read(lambda sample: sample.time in masks)
         )
 
     def read(
-        self, wanted: Callable[[Sample], bool] = lambda sample: True
-    ) -> Iterator[tuple[Sample, Rows]]:
-        """The samples that hold something, one after the other."""
+        self, wanted: Callable[[ArraySample], bool] = lambda sample: True
+    ) -> Iterator[tuple[ArraySample, Rows]]:
+        """Reads the samples that have elements, one after the other."""
         get = Usd.AttributeQuery(self.attribute).Get
         for sample in self.samples:
             if sample.size and wanted(sample):
                 value = self.attribute.Get() if sample.time is None else get(sample.time)
-                yield sample, memory.rows_of(value)
+                yield sample, rows_of(value)
                 self._advance(1)
 
-    def _suspects(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Found | None:
-        """The elements that a mask picks; reads only what has a suspicious range."""
+    def _search(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Elements | None:
+        """The elements that a mask selects; reads only the samples whose range is suspicious."""
         times = {
             sample.time
-            for sample, found in self.ranges
-            if found.low and found.high and is_suspect(found.low, found.high)
+            for sample, measured in self.ranges
+            if measured.low and measured.high and is_suspect(measured.low, measured.high)
         }
-        return self.picked(dict.fromkeys(times, mask)) if times else None
+        return self.selected(dict.fromkeys(times, mask)) if times else None
 
-    def _found(self, spots: Iterable[tuple[Sample, Spot | None]]) -> Found | None:
-        found = [(sample, spot) for sample, spot in spots if spot]
-        if not found:
+    def _elements(self, matched: Iterable[tuple[ArraySample, Matches | None]]) -> Elements | None:
+        present = [(sample, rows) for sample, rows in matched if rows]
+        if not present:
             return None
-        values = tuple(Value(sample.time, spot) for sample, spot in found)
-        sizes = tuple(sample.size for sample, _ in found)
-        return Found(self.attribute, values, self.total, sizes, self.noun)
-
-
-def written(row: Row) -> str:
-    """An element as a text layer has it."""
-    if len(row) == 4:
-        row = (row[3], *row[:3])  # in memory the real part of a quaternion comes last
-    numbers = ", ".join(f"{number:.6g}" for number in row)
-    return numbers if len(row) == 1 else f"({numbers})"
-
-
-def _percent(share: float) -> str:
-    percent = 100 * share
-    return f"{percent:.3g} %" if percent >= 0.001 else "less than 0.001 %"
+        values = tuple(Value(sample.time, rows) for sample, rows in present)
+        sizes = tuple(sample.size for sample, _ in present)
+        return Elements(self.attribute, values, self.total, sizes, self.noun)

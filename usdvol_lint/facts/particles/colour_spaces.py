@@ -1,4 +1,4 @@
-"""Colour spaces by name: those that USD knows, and those that a stage defines."""
+"""The colour space of a prim: by a name that USD knows, or one that the stage defines."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _DEFINITIONS = "colorSpaceDefinition"
 
 @dataclass(frozen=True, slots=True)
 class ColourSpace:
-    """The name of a colour space where it is authored; `similar` is one that USD knows."""
+    """An authored colour space name; `similar` is the closest name that USD knows, if any is."""
 
     attribute: Any
     name: str
@@ -25,13 +25,13 @@ class ColourSpace:
 
 
 def colour_space(prim: Any) -> ColourSpace | None:
-    """The opinion of the prim or the nearest one above it, as USD looks for it."""
-    for place in _upward(prim):
-        attribute = place.GetAttribute(_NAME)
+    """The name on the prim or on the nearest ancestor that has one, as USD inherits it."""
+    for holder in _upward(prim):
+        attribute = holder.GetAttribute(_NAME)
         name = attribute.Get() if attribute and attribute.HasAuthoredValue() else None
         if isinstance(name, str) and name:
             is_known = _is_built_in(name) or any(
-                name in _defined(above) for above in _upward(place)
+                name in _defined(above) for above in _upward(holder)
             )
             similar = None if is_known else closest_name(name, COLOUR_SPACES, cutoff=0.6)
             return ColourSpace(attribute, name, is_known, similar)
@@ -45,7 +45,7 @@ def _upward(prim: Any) -> Iterator[Any]:
 
 
 def _is_built_in(name: str) -> bool:
-    """By USD's own answer too, which may know names that are newer than ours."""
+    """Whether this USD or the schema tables of the package know the name."""
     is_valid = getattr(Gf.ColorSpace, "IsValid", COLOUR_SPACES.__contains__)
     return name in COLOUR_SPACES or is_valid(name)
 

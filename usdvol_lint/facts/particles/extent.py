@@ -1,47 +1,48 @@
-"""Positions of particles held against the extent at the same time."""
+"""Whether the extent of a particle field encloses its positions at the same time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeAlias
+from math import inf
+from typing import Any, ClassVar
 
-from usdvol_lint.facts.particles import memory
-from usdvol_lint.facts.particles.array import Found, ParticleArray, Sample, written
-from usdvol_lint.facts.particles.memory import Mask, Row
+from usdvol_lint.facts.particles import matches
+from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
+from usdvol_lint.facts.particles.elements import Elements, as_text
+from usdvol_lint.facts.particles.matches import Mask
+from usdvol_lint.facts.prims.boxes import encloses
 from usdvol_lint.facts.prims.extents import box_of
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import sample_times
+from usdvol_lint.volumefile import Bounds
 
-Box: TypeAlias = tuple[Row, Row]
-
-_INFINITY = float("inf")
 _HALF_STEP = 2.0**-24
-"""Between halfs next to zero, where their error is not relative any more."""
+"""The distance of halfs next to zero, where their rounding error is absolute."""
 
 
 @dataclass(frozen=True, slots=True)
-class Strays:
-    """Positions outside the extent; `when` are the times at which it does not hold them all.
+class OutsideExtent:
+    """Positions outside the extent, which is `attribute`.
 
-    `extent` is the first of these, `positions` what all positions span.
+    `elements` are the positions, `all_times` the times at which some are outside; `extent` is its
+    value at the first of these, `positions` the box around the positions of all samples.
     """
 
-    found: Found
+    elements: Elements
     attribute: Any
-    """The extent."""
-    when: tuple[Time, ...]
-    extent: Box
-    positions: Box
+    all_times: tuple[Time, ...]
+    extent: Bounds
+    positions: Bounds
     asset: ClassVar[None] = None
 
     @property
     def times(self) -> tuple[float, ...]:
-        return tuple(time for time in self.when if time is not None)
+        return tuple(time for time in self.all_times if time is not None)
 
     @property
     def at_default(self) -> bool:
-        return None in self.when
+        return None in self.all_times
 
     @property
     def shown_extent(self) -> str:
@@ -54,59 +55,57 @@ class Strays:
 
 def positions_outside_extent(
     positions: ParticleArray, extent: Any, slack: float, clamp: float
-) -> Strays | None:
-    """The positions outside the extent by more than a share of its coordinates.
+) -> OutsideExtent | None:
+    """The positions outside the extent by more than `slack` times its largest coordinate.
 
-    A coordinate of `clamp`, or its negative, is where an exporter cut the extent off.
+    That is taken along each axis.  A side at `clamp`, or at its negative, was cut off by an
+    exporter, and sets no limit.
     """
-    when: list[Time] = []
-    boxes: dict[Time, Box] = {}
+    all_times: list[Time] = []
+    boxes: dict[Time, Bounds] = {}
     masks: dict[Time, Mask] = {}
-    for sample, found in positions.ranges:
+    for sample, measured in positions.ranges:
         for time in _times_of_extent(positions, sample, extent):
             box = box_of(extent.Get() if time is None else extent.Get(time))
-            if not box or not found.low or not found.high:
+            if not box or not measured.low or not measured.high:
                 continue
             limits = _limits(box, slack, clamp, positions.is_half)
-            if not _encloses(limits, (found.low, found.high)):
-                when.append(time)
+            if not encloses(limits, _box(measured.low, measured.high), 0.0):
+                all_times.append(time)
                 boxes.setdefault(sample.time, box)
                 masks.setdefault(sample.time, _outside(limits))
-    strays = positions.picked(masks) if masks else None
-    if not strays or not positions.low or not positions.high:
+    elements = positions.selected(masks) if masks else None
+    if not elements or not positions.low or not positions.high:
         return None
-    first = strays.samples[0].time
-    return Strays(strays, extent, tuple(when), boxes[first], (positions.low, positions.high))
+    first = elements.samples[0].time
+    span = _box(positions.low, positions.high)
+    return OutsideExtent(elements, extent, tuple(all_times), boxes[first], span)
 
 
-def _times_of_extent(positions: ParticleArray, sample: Sample, extent: Any) -> Iterable[Time]:
-    """When the extent has to hold a sample: positions that stand still meet all of its samples."""
+def _times_of_extent(positions: ParticleArray, sample: ArraySample, extent: Any) -> Iterable[Time]:
+    """When the extent has to enclose a sample: always, for positions that are not animated."""
     return (positions.total < 2 and sample_times(extent)) or [sample.time]
 
 
-def _limits(box: Box, slack: float, clamp: float, is_half: bool) -> Box:
+def _limits(box: Bounds, slack: float, clamp: float, is_half: bool) -> Bounds:
+    """An extent widened by its slack along each axis, and without limit where it was cut off."""
     step = _HALF_STEP if is_half else 0.0
-    margins = [max(map(abs, sides)) * slack + step for sides in zip(*box, strict=True)]
     low, high = box
-    return (
-        tuple(
-            -_INFINITY if least == -clamp else least - margin
-            for least, margin in zip(low, margins, strict=True)
-        ),
-        tuple(
-            _INFINITY if most == clamp else most + margin
-            for most, margin in zip(high, margins, strict=True)
-        ),
+    margins = [max(map(abs, sides)) * slack + step for sides in zip(low, high, strict=True)]
+    return _box(
+        [-inf if end == -clamp else end - by for end, by in zip(low, margins, strict=True)],
+        [inf if end == clamp else end + by for end, by in zip(high, margins, strict=True)],
     )
 
 
-def _encloses(outer: Box, inner: Box) -> bool:
-    return all(map(float.__le__, outer[0], inner[0])) and all(map(float.__ge__, outer[1], inner[1]))
+def _box(low: Sequence[float], high: Sequence[float]) -> Bounds:
+    (a, b, c), (x, y, z) = low, high
+    return (a, b, c), (x, y, z)
 
 
-def _outside(limits: Box) -> Mask:
-    return lambda chunk, _: memory.outside(chunk, *limits)
+def _outside(limits: Bounds) -> Mask:
+    return lambda chunk, _: matches.outside(chunk, *limits)
 
 
-def _shown(box: Box) -> str:
-    return f"{written(box[0])} to {written(box[1])}"
+def _shown(box: Bounds) -> str:
+    return f"{as_text(box[0])} to {as_text(box[1])}"

@@ -1,4 +1,4 @@
-"""What Volumes bind, where that stands, and whether their extents enclose it."""
+"""Facts about Volumes: which fields they bind, how these are placed, and what the extents miss."""
 
 from __future__ import annotations
 
@@ -18,22 +18,18 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Slot, Table, Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
-    from usdvol_lint.facts.volumes.bindings import (
-        Binding,
-        BindingReader,
-        Bound,
-        FieldBindings,
-        FieldNames,
-    )
+    from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
     from usdvol_lint.facts.volumes.enclosure import Enclosure
+    from usdvol_lint.facts.volumes.intended import FieldIndex
     from usdvol_lint.facts.volumes.mixture import MixedFiles
     from usdvol_lint.facts.volumes.placement import Displacement
+    from usdvol_lint.facts.volumes.reading import BindingReader
     from usdvol_lint.facts.volumes.shortfall import Shortfall
     from usdvol_lint.facts.volumes.usage import UsedFields
 
 
 class Volumes(Wing):
-    """The fields of Volumes; `used` are those that other variant selections use."""
+    """The facts about Volumes; `used` are the fields that any variant selection so far uses."""
 
     def __init__(
         self,
@@ -56,30 +52,31 @@ class Volumes(Wing):
         self._used = used
 
     @column
-    def bound(self, table: Table) -> Sequence[Bound]:
-        """What the `field:` namespaces of Volumes bind, in brief."""
+    def bound_fields(self, table: Table) -> Sequence[BoundFields]:
+        """The bindings of Volumes in brief."""
         return self._binding_reader.read_many(
             table.batch, table.authored, self.tables.field_slots, self._layers.may_lack
         )
 
     @summary
     def binding_marks(self, table: Table) -> Sequence[frozenset[Enum]]:
-        """What is remarkable about what the `field:` namespace of a Volume binds."""
-        return [bound.marks for bound in self.bound.all(table)]
+        """The states of a Volume's targets, and what else preconditions test of its bindings."""
+        return [fields.marks for fields in self.bound_fields.all(table)]
 
     def bindings(self, volume: Any) -> FieldBindings:
-        """What the `field:` namespace of a Volume really binds."""
-        return self.bound(volume).looked_at or self._plain_bindings(volume)
+        """The bindings of a Volume."""
+        return self.bound_fields(volume).bindings or self._plain_bindings(volume)
 
     @fact
     def _plain_bindings(self, volume: Any) -> FieldBindings:
+        """The bindings of a Volume of which `bound_fields` has only the slots."""
         return self._binding_reader.read(volume, self._layers.may_lack)
 
-    def meant_field(self, binding: Binding) -> str | None:
-        """The field that a relationship which binds none was probably meant to target."""
+    def intended_field(self, binding: Binding) -> str | None:
+        """The path of the field that a binding without one was probably intended to target."""
         from usdvol_lint.facts.usd.instances import shown_path
 
-        path = self._field_names.meant_by(binding)
+        path = self._field_index.intended_by(binding)
         return shown_path(self._stage, path) if path else None
 
     def unbound_fields(self, volume: Any) -> list[Any]:
@@ -89,54 +86,55 @@ class Volumes(Wing):
         return unbound_fields(volume, self._kinds, self.tables.field_slots, self._users)
 
     def is_shared(self, volume: Any, field: Any) -> bool:
-        """Whether other Volumes target a field of this one too, or instances of this one do."""
+        """Whether other Volumes, or other instances of this one, target the same field."""
         from usdvol_lint.facts.volumes.usage import is_shared
 
         return is_shared(volume, field, self.tables.field_slots, self._users)
 
     @cached_property
     def unused_fields(self) -> list[Any]:
-        """The fields that no Volume targets, on a stage of which all could be seen.
+        """The fields that no Volume targets, under this variant selection or one before it.
 
-        Those are left out that something wrong with a Volume accounts for: they lie below it, or
-        a broken relationship was probably meant to target them.
+        What uses a field under this selection is added to `used`, for the selections to come.
+        There are none where part of the stage can't be read.  Fields are left out that a faulty
+        Volume accounts for: those below it, and those that its relationships probably intended.
         """
         from usdvol_lint.facts.volumes.usage import accounted_for
 
-        places, used = self.tables.field_slots, self._users
-        self._used.add(path for path, place in places.items() if place in used)
+        slots, used = self.tables.field_slots, self._users
+        self._used.add(path for path, slot in slots.items() if slot in used)
         volumes = self._prims.of(schema.VOLUME)
-        if not volumes or not self._used.missing_of(places) or not self._layers.are_whole:
+        if not volumes or not self._used.missing_of(slots) or not self._layers.are_whole:
             return []
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
-            return []  # nobody knows what these target
+            return []  # what these target is unknown
         for volume in volumes:
             self._used.add(
-                accounted_for(volume, self.bindings(volume), self._kinds, self._field_names)
+                accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
             )
-        return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(places))]
+        return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:
-        """Asks, once more variant selections were looked at, whether none of them uses a field."""
+        """A predicate for later: whether no variant selection until then uses the field."""
         return self._used.never_get(field.GetPath())
 
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
-        """How a field is moved in relation to a Volume that binds it, if it is."""
+        """How transforms move a field relative to a Volume that binds it, if they do."""
         from usdvol_lint.facts.volumes.placement import displacement
 
         return displacement(volume, field)
 
     @summary
     def overhangs(self, table: Table) -> Sequence[float]:
-        """How far grids may reach out of extents, in relation to their largest coordinate."""
-        return self._enclosure.overhangs(table, self.bound.all(table))
+        """Upper bounds on how far grids reach out of extents, relative to their coordinates."""
+        return self._enclosure.overhangs(table, self.bound_fields.all(table))
 
     def shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
-        """What the grids of a Volume have outside its extent, if one is authored."""
+        """By how much an authored extent fails to enclose the grids of a Volume, if it does."""
         return self._enclosure.shortfall(volume, self.bindings(volume), relative_slack)
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:
-        """The different files that the fields of a Volume name at one time, if they do."""
+        """The different files that the fields of a Volume name at the same time, if they do."""
         if len(self.bindings(volume).bindings) < 2:
             return None
         from usdvol_lint.facts.usd.instances import in_prototype
@@ -150,19 +148,19 @@ class Volumes(Wing):
 
     @cached_property
     def _users(self) -> Counter[Slot]:
-        """How many Volumes target each live field that one does, by its place."""
-        volumes = self.bound.readable(schema.VOLUME)
-        return Counter(place for _, bound in volumes for place in bound.fields)
+        """How many Volumes target each live field, by its slot."""
+        volumes = self.bound_fields.readable(schema.VOLUME)
+        return Counter(slot for _, fields in volumes for slot in fields.slots)
 
     @cached_property
-    def _field_names(self) -> FieldNames:
-        from usdvol_lint.facts.volumes.bindings import FieldNames
+    def _field_index(self) -> FieldIndex:
+        from usdvol_lint.facts.volumes.intended import FieldIndex
 
-        return FieldNames(self._prims.of(schema.FIELD), self._prims.of(schema.VOLUME))
+        return FieldIndex(self._prims.of(schema.FIELD), self._prims.of(schema.VOLUME))
 
     @cached_property
     def _binding_reader(self) -> BindingReader:
-        from usdvol_lint.facts.volumes.bindings import BindingReader
+        from usdvol_lint.facts.volumes.reading import BindingReader
 
         return BindingReader(self._kinds)
 

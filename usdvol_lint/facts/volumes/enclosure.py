@@ -1,4 +1,4 @@
-"""Whether the authored extent of a Volume encloses the grids that its fields name."""
+"""Whether authored extents of Volumes enclose the grids that their fields name."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ from usdvol_lint.facts.grids.contents import Timeline
 from usdvol_lint.facts.prims import Prims
 from usdvol_lint.facts.prims.tables import Table, Tables
 from usdvol_lint.facts.usd.instances import in_prototype
-from usdvol_lint.facts.volumes.bindings import Bound, FieldBindings, Target
+from usdvol_lint.facts.volumes.bindings import BoundFields, FieldBindings
 from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
-from usdvol_lint.facts.volumes.placement import AT_REST, Placement, read_placements
+from usdvol_lint.facts.volumes.placement import UNTRANSFORMED, Placement, read_placements
 from usdvol_lint.facts.volumes.shortfall import PlacedField, Shortfall, find_shortfall
+from usdvol_lint.facts.volumes.targets import Target
 
 
 class Enclosure:
-    """Finds what the fields of Volumes have in their files, and holds extents against that."""
+    """Compares extents with the grids in the files of the fields."""
 
     def __init__(self, tables: Tables, prims: Prims, files: Files, grids: Grids) -> None:
         self._tables = tables
@@ -28,19 +29,19 @@ class Enclosure:
         self._boxes = GridBoxes()
         self._hulls = Hulls(self._boxes)
 
-    def overhangs(self, table: Table, bounds: Iterable[Bound]) -> list[float]:
-        """How far grids may reach out of each extent, in relation to their largest coordinate."""
+    def overhangs(self, table: Table, bound_fields: Iterable[BoundFields]) -> list[float]:
+        """For each Volume what `Hulls.overhang` says; 0 without an authored extent."""
         overhang, placed = self._hulls.overhang, self._placed
-        columns = zip(table.prims, self._prims.limits.all(table), bounds, strict=True)
+        columns = zip(table.prims, self._prims.limits.all(table), bound_fields, strict=True)
         return [
-            overhang(limits, placed(volume, bound)) if limits.are_authored else 0.0
-            for volume, limits, bound in columns
+            overhang(limits, placed(volume, fields)) if limits.are_authored else 0.0
+            for volume, limits, fields in columns
         ]
 
     def shortfall(
         self, volume: Any, bindings: FieldBindings, relative_slack: float
     ) -> Shortfall | None:
-        """What the grids of a Volume have outside its extent, if one is authored."""
+        """By how much an authored extent fails to enclose the grids of a Volume, if it does."""
         limits = self._prims.limits(volume)
         if not limits.are_authored:
             return None
@@ -51,28 +52,28 @@ class Enclosure:
         ]
         return find_shortfall(limits, fields, self._boxes, relative_slack)
 
-    def _placed(self, volume: Any, bound: Bound) -> list[tuple[Timeline, Placement]]:
-        """The contents of the files that a Volume gets, and where their fields stand."""
-        if bound.looked_at:
+    def _placed(self, volume: Any, fields: BoundFields) -> list[tuple[Timeline, Placement]]:
+        """The files of each bound field over time, with the field's placement."""
+        if fields.bindings:
             return [
                 (timeline, placement)
-                for target, _, timeline in self._with_grids(bound.looked_at)
+                for target, _, timeline in self._with_grids(fields.bindings)
                 for _, placement in read_placements(volume, target.prim)
             ]
         timelines = self._grids.timelines
-        found = []
-        for place in bound.fields:
-            table, row = self._tables.find_at(place)
+        placed = []
+        for slot in fields.slots:
+            table, row = self._tables.find_at(slot)
             timeline = timelines.at(table, row)
             if "xformOpOrder" in table.authored.declared:
                 placements = read_placements(volume, table.prims[row])
-                found += [(timeline, placement) for _, placement in placements]
+                placed += [(timeline, placement) for _, placement in placements]
             else:
-                found.append((timeline, AT_REST))
-        return found
+                placed.append((timeline, UNTRANSFORMED))
+        return placed
 
     def _with_grids(self, bindings: FieldBindings) -> Iterator[tuple[Target, Any, Timeline]]:
-        """The fields, as targets and as the walk met them, whose files have the grids they name."""
+        """The fields in some of whose files the named grid was found: target, prim and files."""
         for _, target in bindings.with_files():
             field = in_prototype(target.prim)
             timeline = self._grids.timelines(field)

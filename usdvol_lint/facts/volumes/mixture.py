@@ -1,4 +1,4 @@
-"""Which different files the fields of one Volume name at one time."""
+"""Which different files the fields of one Volume name at the same time."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _FILES_NAMED = 3
 
 @dataclass(frozen=True, slots=True)
 class MixedFiles:
-    """The files that are named at the first time at which there are several, by their fields.
+    """The times at which the fields of a Volume name several files.
 
-    `times` and `at_default` are all such times.
+    `fields` maps each file at the first such time to the names of the fields that name it.
     """
 
     fields: dict[str, tuple[str, ...]]
@@ -35,22 +35,22 @@ class MixedFiles:
 
 
 def find_mixed_files(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles | None:
-    """Compares what fields, each with its name, have for their file at every time.
+    """Compares the files of fields, given by name, at every time; None if they never differ.
 
-    A path that leads nowhere is another matter, and not counted.
+    Paths to no file are ignored: they are findings of other rules.
     """
-    timelines = [[(sample.time, _file(sample)) for sample in each.samples] for _, each in fields]
+    timelines = [[(sample.time, _file(sample)) for sample in paths.samples] for _, paths in fields]
     if all(timeline == timelines[0] for timeline in timelines):
         return None
-    held = [StepSamples((sample.time, sample) for sample in each.samples) for _, each in fields]
-    times: list[Time] = [None, *sorted({time for each in held for time in each.times})]
-    mixed = [time for time in times if len({_file(each.at(time)) for each in held} - {""}) > 1]
+    steps = [StepSamples((sample.time, sample) for sample in paths.samples) for _, paths in fields]
+    times: list[Time] = [None, *sorted({time for samples in steps for time in samples.times})]
+    mixed = [time for time in times if len({_file(own.at(time)) for own in steps} - {""}) > 1]
     if not mixed:
         return None
     named: dict[str, tuple[str, ...]] = {}
     shown: dict[str, str] = {}
-    for (name, _), each in zip(fields, held, strict=True):
-        sample = each.at(mixed[0])
+    for (name, _), samples in zip(fields, steps, strict=True):
+        sample = samples.at(mixed[0])
         if sample and (file := _file(sample)):
             path = shown.setdefault(file, sample.path)
             named[path] = (*named.get(path, ()), name)
@@ -62,5 +62,5 @@ def find_mixed_files(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles |
 
 
 def _file(sample: Sample | None) -> str:
-    """What tells one file from another; empty where it is unknown."""
+    """The identity of the file at a sample; empty where the path leads to no file."""
     return sample.resolved or sample.path if sample and sample.state in _KNOWN else ""

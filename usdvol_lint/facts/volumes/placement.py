@@ -1,4 +1,4 @@
-"""Where a field stands in the space of its Volume."""
+"""The placement of a field in the space of a Volume: the transforms between the two."""
 
 from __future__ import annotations
 
@@ -10,16 +10,15 @@ from pxr import Gf, Usd
 from usdvol_lint.facts.usd.calls import get_attribute, get_parent, get_value, is_in_prototype
 from usdvol_lint.facts.usd.instances import shown_paths
 from usdvol_lint.facts.usd.steps import Time
-from usdvol_lint.volumefile.transform import Matrix, finite, rows, scale_translate
+from usdvol_lint.volumefile.transform import IDENTITY, Matrix, finite, rows
 
-IDENTITY: Matrix = scale_translate((1, 1, 1))
 _ROUNDING = 1e-6
 
 
 class Displacement(NamedTuple):
-    """How a field is moved in relation to its Volume, in words, and when.
+    """How transforms move a field relative to its Volume, in words, and at which times.
 
-    `times` are empty where nothing is animated; else the words are those of the first.
+    `times` are empty where nothing is animated; the words are for the first of them.
     """
 
     words: str
@@ -27,11 +26,10 @@ class Displacement(NamedTuple):
 
 
 class Placement(NamedTuple):
-    """The way from a field's space up to what it shares with its Volume, and down to that.
+    """The transformed prims between a field and a Volume, without those that move both.
 
-    `up` and `down` are the prims on it that have a transform, each from the bottom; what moves both
-    together is left out.
-    `times` are those at which these transforms have samples.
+    `up` leads from the field, and `down` from the Volume, each upward to the lowest prim above
+    both; `times` are those at which these transforms have samples.
     """
 
     up: tuple[Any, ...]
@@ -39,9 +37,9 @@ class Placement(NamedTuple):
     times: tuple[float, ...]
 
     def matrix(self, time: Time) -> Matrix | None:
-        """From the field's space to the Volume's; None where the numbers allow none.
+        """From the field's space to the Volume's; None if not finite or not invertible.
 
-        It is `IDENTITY` itself where nothing on the way has a transform.
+        It is `IDENTITY` itself where no prim is transformed.
         """
         if not self.up and not self.down:
             return IDENTITY
@@ -54,14 +52,14 @@ class Placement(NamedTuple):
         return rows(numbers) if finite(numbers) else None
 
     def displacement(self) -> Displacement | None:
-        """What the matrix does if it is not identity, at one time at least."""
-        found = [(time, words) for time in self.times or (None,) if (words := self._words(time))]
-        if not found:
+        """In words what the matrix does, at the times at which it is not the identity."""
+        moved = [(time, words) for time in self.times or (None,) if (words := self._words(time))]
+        if not moved:
             return None
-        return Displacement(found[0][1], tuple(time for time, _ in found if time is not None))
+        return Displacement(moved[0][1], tuple(time for time, _ in moved if time is not None))
 
     def _words(self, time: Time) -> str:
-        """What the matrix does at a time; empty where it is identity but for rounding."""
+        """In words what the matrix does; empty where it is the identity up to rounding."""
         matrix = self.matrix(time)
         if matrix is None or matrix is IDENTITY:
             return ""
@@ -77,22 +75,23 @@ class Placement(NamedTuple):
         return " and ".join(filter(None, ("rotated or scaled" if turned else "", movement)))
 
 
-AT_REST = Placement((), (), ())
+UNTRANSFORMED = Placement((), (), ())
+"""The placement where nothing is transformed; code may test for its identity."""
 
 
 def displacement(volume: Any, field: Any) -> Displacement | None:
-    """How a field is moved in relation to a Volume that binds it, where it first is."""
+    """How a field is moved relative to a Volume that binds it, in the first instance that is."""
     for path, placement in read_placements(volume, field):
-        if found := placement.displacement():
-            return found._replace(words=f"{found.words} in <{path}>") if path else found
+        if moved := placement.displacement():
+            return moved._replace(words=f"{moved.words} in <{path}>") if path else moved
     return None
 
 
 def read_placements(volume: Any, field: Any) -> Iterator[tuple[str, Placement]]:
-    """Reads the transforms between a field and a Volume that binds it.
+    """Reads the placement of a field for a Volume that binds it, with the path of the instance.
 
-    There are several where instances show the Volume and not the field; each of these is told by
-    its path.
+    There is one placement, and its path is empty, unless several instances show the Volume and the
+    field is outside of them.
     """
     if not is_in_prototype(volume) or is_in_prototype(field):
         yield "", _read_placement(volume, field)
@@ -108,7 +107,7 @@ def _read_placement(volume: Any, field: Any) -> Placement:
     up, up_resets = _transformed(field, up_count)
     down, down_resets = _transformed(volume, down_count)
     if not up and not down:
-        return AT_REST
+        return UNTRANSFORMED
     if up_resets and not down_resets:  # what is above both moves the Volume alone
         down, _ = _transformed(volume, volume.GetPath().pathElementCount)
     elif down_resets and not up_resets:
@@ -118,8 +117,8 @@ def _read_placement(volume: Any, field: Any) -> Placement:
 
 
 def _counts(volume: Any, field: Any) -> tuple[int, int]:
-    """How many prims there are from the field, and from the Volume, up to what they share."""
-    if get_parent(field) == volume:  # so it is nearly always
+    """How many prims there are from each upward, without those above both."""
+    if get_parent(field) == volume:  # nearly always
         return 1, 0
     from_field, from_volume = field.GetPath(), volume.GetPath()
     shared = from_field.GetCommonPrefix(from_volume).pathElementCount
@@ -135,16 +134,19 @@ def _product(chain: Iterable[Any], time: Time) -> Any:
 
 
 def _transformed(prim: Any, count: int) -> tuple[tuple[Any, ...], bool]:
-    """The transformed ones of so many prims from one upward; whether the last of them resets."""
-    found = []
+    """The transformed ones of `count` prims from one upward, and whether the last of them resets.
+
+    A prim that resets the transform stack ends the search.
+    """
+    transformed = []
     for _ in range(count):
-        if get_value(get_attribute(prim, "xformOpOrder")):  # most have none, and this costs least
+        if get_value(get_attribute(prim, "xformOpOrder")):  # most prims have none
             from pxr import UsdGeom  # costs start-up time
 
             xformable = UsdGeom.Xformable(prim)
             if xformable:
-                found.append(xformable)
+                transformed.append(xformable)
                 if xformable.GetResetXformStack():
-                    return tuple(found), True
+                    return tuple(transformed), True
         prim = get_parent(prim)
-    return tuple(found), False
+    return tuple(transformed), False

@@ -1,4 +1,4 @@
-"""By how much an extent is too small: each grid at each time, held against it."""
+"""By how much an extent is too small: compared with each grid at each time."""
 
 from __future__ import annotations
 
@@ -9,10 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSamples
 from usdvol_lint.facts.grids.contents import Timeline
-from usdvol_lint.facts.prims.extents import Limits
-from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.facts.volumes.bindings import Target
-from usdvol_lint.facts.volumes.boxes import (
+from usdvol_lint.facts.prims.boxes import (
     AXES,
     Sides,
     encloses,
@@ -20,14 +17,18 @@ from usdvol_lint.facts.volumes.boxes import (
     magnitude,
     sides_outside,
 )
-from usdvol_lint.facts.volumes.hulls import GridBoxes, carried
-from usdvol_lint.facts.volumes.placement import IDENTITY, Placement
+from usdvol_lint.facts.prims.extents import Limits
+from usdvol_lint.facts.usd.steps import StepSamples, Time
+from usdvol_lint.facts.volumes.hulls import GridBoxes, bounds_in_volume
+from usdvol_lint.facts.volumes.placement import Placement
+from usdvol_lint.facts.volumes.targets import Target
 from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Grid, Matrix
+from usdvol_lint.volumefile.transform import IDENTITY
 
 
 class Moment(NamedTuple):
-    """A grid at a time, and the matrix from its world space to the Volume's space."""
+    """A grid at a time, and the matrix from its world space to the space of the Volume."""
 
     time: Time
     grid: Grid
@@ -35,9 +36,9 @@ class Moment(NamedTuple):
 
 
 class PlacedField:
-    """A field of a Volume: the grids that its files hold, and where it stands.
+    """A field of a Volume: the grids in its files over time, and its placement.
 
-    `shown_at` is the path of the instance if there are several that show the Volume alone.
+    `shown_at` is a path of the Volume if several instances show it without the field; else empty.
     """
 
     def __init__(
@@ -53,7 +54,7 @@ class PlacedField:
         self._timeline = timeline
         self._placement = placement
         self.shown_at = shown_at
-        self._moved_at = placement.times
+        self._transform_times = placement.times
 
     @property
     def shown(self) -> str:
@@ -61,23 +62,24 @@ class PlacedField:
         return self._target.shown
 
     def moments(self, more_times: Iterable[float]) -> Iterator[Moment]:
-        """Each time at which grid or placement change, and these others, where both are known.
+        """The moments at which grid or placement change, and those at `more_times`.
 
-        The default time counts only for a placement that is not animated.
+        A moment without grid or matrix is left out, and so is the default time of an animated
+        placement.
         """
-        times: list[Time] = [] if self._moved_at else [None]
-        times += sorted({*self._grids.times, *self._moved_at, *more_times})
+        times: list[Time] = [] if self._transform_times else [None]
+        times += sorted({*self._grids.times, *self._transform_times, *more_times})
         yield from filter(None, map(self.at, times))
 
     def at(self, time: Time) -> Moment | None:
-        """What holds at a time."""
+        """Grid and matrix at a time, if there are both."""
         grid = self._grids.at(time)
-        matrix = self._matrix(time if self._moved_at else None) if grid else None
+        matrix = self._matrix(time if self._transform_times else None) if grid else None
         return Moment(time, grid, matrix) if grid and matrix else None
 
     @cached_property
     def _grids(self) -> StepSamples[Grid | None]:
-        """The grid that the field names at each sample; None where no file was read."""
+        """The grid that the field names at each sample; None where it was not found."""
         grids: dict[Time, Grid | None] = {sample.time: None for sample in self._paths.samples}
         grids.update(self._timeline.grids())
         return StepSamples(
@@ -90,7 +92,7 @@ class PlacedField:
 
 
 class Overhang(NamedTuple):
-    """A grid that sticks out of the extent at one time, and how far on which sides."""
+    """How far a grid sticks out of the extent at one time, and on which sides."""
 
     field: str
     grid: str
@@ -115,7 +117,7 @@ class Overhang(NamedTuple):
 
     @property
     def shown(self) -> str:
-        """The grid in words."""
+        """The grid as messages name it."""
         moved = ", moved as its field is," if self.is_displaced else ""
         moved += f" in <{self.shown_at}>" if self.shown_at else ""
         return f"the grid {quoted(self.grid)} of <{self.field}>{moved}"
@@ -123,11 +125,12 @@ class Overhang(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Shortfall:
-    """An authored extent that is too small, and the worst of what sticks out of it.
+    """An authored extent that is too small, and the grid that sticks out of it furthest.
 
-    `fields` is how many have a grid that does; `checked`, at how many times that was looked at.
-    `fitting` is the statement of an extent that encloses the voxels whole: if the extent is
-    animated and too small at a single time, for that time, else for all times.
+    `fields` counts the fields with a grid that sticks out, `checked` the times that were compared;
+    `times` and `at_default` are those at which the extent is too small.
+    `fitting` is the statement of an extent that encloses the whole voxels: for that time alone if
+    the extent is animated and too small at a single time, else for all times.
     """
 
     attribute: Any
@@ -142,12 +145,12 @@ class Shortfall:
 
     @property
     def is_of_empty_extent(self) -> bool:
-        """Whether the extent is USD's empty range, out of which everything sticks."""
+        """Whether the extent is USD's empty range, which encloses nothing."""
         return self.worst.most > 1e38
 
     @property
     def count(self) -> str:
-        """Which of several times and fields are concerned; empty where there is one of each."""
+        """In words how many times and fields this concerns; empty for one of each."""
         words = []
         if len(self.times) > 1 and self.worst.time is not None:
             words.append(f"most at frame {format_time(self.worst.time)}")
@@ -163,9 +166,9 @@ class Shortfall:
 def find_shortfall(
     limits: Limits, fields: Sequence[PlacedField], boxes: GridBoxes, relative_slack: float
 ) -> Shortfall | None:
-    """Holds an extent against every grid at every time at which one of them changes.
+    """Compares an extent with every grid, at every time at which one of them changes.
 
-    A box may stick out by `relative_slack` of its largest coordinate.
+    A box may stick out by `relative_slack` times its largest coordinate.
     If a voxel centre is outside, half-voxel overhangs elsewhere are not reported.
     """
     centres, halves, checked = _Tally(), _Tally(), set()
@@ -177,7 +180,7 @@ def find_shortfall(
             checked.add(moment.time)
             slack = relative_slack * magnitude(whole)
             if not encloses(limit, whole, slack):
-                inner = carried(moment.grid, moment.matrix, 0.0)
+                inner = bounds_in_volume(moment.grid, moment.matrix, 0.0)
                 if inner and (sides := sides_outside(limit, inner, slack)):
                     centres.add(placed, moment, sides)
                 else:
@@ -199,7 +202,7 @@ def find_shortfall(
 
 @dataclass(slots=True)
 class _Tally:
-    """What sticks out, over all fields and times."""
+    """What sticks out of the extent, over all fields and times."""
 
     times: set[Time] = field(default_factory=set)
     fields: set[str] = field(default_factory=set)
@@ -221,13 +224,13 @@ class _Tally:
 
 
 def _fitting(limits: Limits, fields: Sequence[PlacedField], boxes: GridBoxes, tally: _Tally) -> str:
-    """The statement of an extent that encloses everything, or all that is there at one time."""
+    """The statement of an extent that encloses all grids, at one time or at all times."""
     if limits.times and len(tally.times) == 1:
         (time,) = tally.times
-        moments = [held for each in fields if (held := each.at(time))]
+        moments = [moment for placed in fields if (moment := placed.at(time))]
         statement = "float3[] extent = " if time is None else f"{format_time(time)}: "
     else:
-        moments = [moment for each in fields for moment in each.moments(limits.times)]
+        moments = [moment for placed in fields for moment in placed.moments(limits.times)]
         statement = "float3[] extent = "
-    found = (boxes.whole(grid, matrix) for _, grid, matrix in moments)
-    return statement + extent_around(filter(None, found))
+    wholes = (boxes.whole(grid, matrix) for _, grid, matrix in moments)
+    return statement + extent_around(filter(None, wholes))

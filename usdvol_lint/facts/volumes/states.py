@@ -1,4 +1,4 @@
-"""What the targets of field relationships turn out to be: names that need no pxr."""
+"""States of field relationships and their targets, as rules name them; needs no pxr."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from enum import Enum, auto
 
 
 class TargetState(Enum):
-    """What one target of a field relationship turns out to be; each has exactly one."""
+    """What a target of a field relationship is; each target has exactly one state."""
 
     FIELD = auto()
     MISSING = auto()
     UNLOADED = auto()
-    """It may lie in a payload that was not loaded."""
+    """It may be in a payload that was not loaded."""
     UNCOMPOSED = auto()
-    """What it is may be said in a layer that does not open, which is a finding by itself."""
+    """Its definition may be in a layer that does not open, which is a finding of its own."""
     PROPERTY = auto()
     NOT_A_FIELD = auto()
     UNKNOWN_TYPE = auto()
-    """A prim of a type that nobody registers."""
+    """A prim whose type is not registered."""
     ABSTRACT_TYPE = auto()
     """A prim whose type is a field base that may not be instantiated."""
     INACTIVE = auto()
@@ -29,21 +29,22 @@ class TargetState(Enum):
 
 
 class BindingMark(Enum):
-    """What else the `field:` namespace of a Volume has about it, beside its targets' states."""
+    """What preconditions test of a Volume's bindings, besides the states of its targets."""
 
     NONE = auto()
-    """There is nothing in it."""
+    """There is no binding."""
     SEVERAL = auto()
-    """There are several fields."""
+    """There are several bindings."""
     SEVERAL_TARGETS = auto()
+    """A relationship has several targets."""
     ATTRIBUTE = auto()
-    """Something in it is an attribute."""
-    STRAY = auto()
-    """A relationship outside of it targets a field."""
+    """A property in the namespace is an attribute."""
+    UNDECLARED = auto()
+    """A relationship outside the namespace seems to be intended as a binding."""
     NESTED = auto()
-    """A name in it is a namespace of its own."""
+    """A name contains a namespace of its own."""
     OUTSIDE = auto()
-    """A field lies elsewhere than below the Volume."""
+    """A target is not below the Volume."""
 
 
 class Emptiness(Enum):
@@ -53,8 +54,8 @@ class Emptiness(Enum):
     BLOCKED = auto()
     """Explicitly no target: `= None` or `= []`."""
     DELETED = auto()
-    """A list operation took the targets away."""
+    """A list operation deleted the targets."""
     CIRCULAR = auto()
     """It forwards to another relationship, and that one back to it."""
     LOST = auto()
-    """Specs hold targets, composition dropped them."""
+    """Specs have targets, and composition dropped them."""

@@ -1,18 +1,22 @@
-"""Which fields are used: by a Volume, or by what something wrong with a Volume was meant to be."""
+"""Which fields Volumes use, or would use if nothing were wrong with them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
+from pxr import Usd
+
+from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Slot
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
-from usdvol_lint.facts.volumes.bindings import FieldBindings, FieldNames, fields_below
+from usdvol_lint.facts.volumes.bindings import FieldBindings
+from usdvol_lint.facts.volumes.intended import FieldIndex
 
 
 class UsedFields:
-    """The fields that are accounted for under any variant selection that was looked at, by path."""
+    """The paths of the fields that are accounted for under any variant selection so far."""
 
     def __init__(self) -> None:
         self._paths: set[Any] = set()
@@ -21,41 +25,47 @@ class UsedFields:
         self._paths.update(paths)
 
     def missing_of(self, paths: Iterable[Any]) -> set[Any]:
-        """Those of some paths that are not accounted for yet."""
+        """Those paths that are not accounted for yet."""
         return set(paths) - self._paths
 
     def never_get(self, path: Any) -> Callable[[], bool]:
-        """Asks, once more selections were looked at, whether none of them accounts for a field."""
+        """A predicate for later: whether no selection until then accounts for the path."""
         paths = self._paths
         return lambda: path not in paths
 
 
 def accounted_for(
-    volume: Any, bindings: FieldBindings, kinds: PrimKinds, names: FieldNames
+    volume: Any, bindings: FieldBindings, kinds: PrimKinds, index: FieldIndex
 ) -> Iterator[Any]:
-    """The paths of unused fields for which something wrong with a Volume accounts.
+    """The paths of the fields that a faulty Volume probably intends to use.
 
-    They lie below it, or a broken relationship was probably meant to target them.
+    These are the fields below it, and those that its relationships were intended to target.
     """
     if not bindings.is_sound:
-        yield from (in_prototype(field).GetPath() for field in fields_below(volume, kinds))
-        yield from filter(None, map(names.meant_by, bindings.bindings))
+        yield from (in_prototype(field).GetPath() for field in _fields_below(volume, kinds))
+        yield from filter(None, map(index.intended_by, bindings.bindings))
 
 
 def unbound_fields(
-    volume: Any, kinds: PrimKinds, places: Mapping[Any, Slot], users: Mapping[Slot, int]
+    volume: Any, kinds: PrimKinds, slots: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> list[Any]:
-    """The field prims below a Volume that no Volume targets; `users` are counted by place."""
-    below = fields_below(volume, kinds)
-    return [each for each in below if places.get(in_prototype(each).GetPath()) not in users]
+    """The field prims below a Volume that no Volume targets; `users` counts Volumes by slot."""
+    below = _fields_below(volume, kinds)
+    return [field for field in below if slots.get(in_prototype(field).GetPath()) not in users]
 
 
 def is_shared(
-    volume: Any, field: Any, places: Mapping[Any, Slot], users: Mapping[Slot, int]
+    volume: Any, field: Any, slots: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> bool:
-    """Whether other Volumes target a field of this one too, or instances of this one do."""
-    place = places.get(in_prototype(field).GetPath())
-    if place and users[place] > 1:
+    """Whether other Volumes, or other instances of this one, target the same field."""
+    slot = slots.get(in_prototype(field).GetPath())
+    if slot and users[slot] > 1:
         return True
     instanced = volume.IsInPrototype() and not field.IsInPrototype()
     return bool(instanced and shown(volume).instances > 1)
+
+
+def _fields_below(volume: Any, kinds: PrimKinds) -> list[Any]:
+    """The field prims below a Volume, also inside instances."""
+    below = Usd.PrimRange(volume, Usd.TraverseInstanceProxies())
+    return [prim for prim in below if kinds.is_a(prim, schema.FIELD)]

@@ -1,12 +1,14 @@
-"""Boxes in the space of a Volume: how far one sticks out of another, and an extent as text."""
+"""Boxes along the axes: their union, how far one sticks out of another, an extent as text."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar, cast
 
-from usdvol_lint.volumefile import Bounds
+from usdvol_lint.volumefile import Bounds, IndexBounds
+
+_B = TypeVar("_B", Bounds, IndexBounds)
 
 _AXES = "xyz"
 _DIGITS = 6
@@ -37,6 +39,14 @@ def encloses(limit: Bounds, box: Bounds, slack: float) -> bool:
     )
 
 
+def union(boxes: Iterable[_B]) -> _B:
+    """The box around boxes, of which there is at least one."""
+    lows, highs = zip(*boxes, strict=True)
+    low = tuple(map(min, zip(*lows, strict=True)))
+    high = tuple(map(max, zip(*highs, strict=True)))
+    return cast("_B", (low, high))
+
+
 def sides_outside(limit: Bounds, box: Bounds, slack: float) -> Sides:
     """The sides on which a box sticks out of another by more than `slack`."""
     (low, high), (lowest, highest) = limit, box
@@ -49,14 +59,12 @@ def sides_outside(limit: Bounds, box: Bounds, slack: float) -> Sides:
 
 def extent_around(boxes: Iterable[Bounds]) -> str:
     """An extent around boxes, as in a layer, rounded outward to a few digits."""
-    lows, highs = zip(*boxes, strict=True)
-    low = [min(axis) for axis in zip(*lows, strict=True)]
-    high = [max(axis) for axis in zip(*highs, strict=True)]
-    largest = max(map(abs, (*low, *high))) or 1.0
+    box = union(boxes)
+    largest = magnitude(box) or 1.0
     decimals = min(_DIGITS - 1 - math.floor(math.log10(largest)), _MOST_DECIMALS)
     ends = (
-        [_rounded(number, decimals, math.floor) for number in low],
-        [_rounded(number, decimals, math.ceil) for number in high],
+        [_rounded(number, decimals, math.floor) for number in box[0]],
+        [_rounded(number, decimals, math.ceil) for number in box[1]],
     )
     return "[" + ", ".join(f"({', '.join(end)})" for end in ends) + "]"
 

@@ -1,0 +1,91 @@
+"""The rows of an array that a mask selects: how many there are, and the first of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from usdvol_lint.facts.particles.bits import bits
+from usdvol_lint.facts.particles.chunks import Row, Rows, fold
+
+Mask: TypeAlias = Callable[[Rows, int], Rows]
+"""Selects rows: from a chunk and the index of its first row to one boolean per row."""
+
+
+@dataclass(frozen=True, slots=True)
+class Matches:
+    """How many rows match; the index of the first, and its value."""
+
+    count: int
+    first: int
+    value: Row
+
+
+def find_matches(rows: Rows, mask: Mask) -> Matches | None:
+    """The rows that a mask selects, in one pass; None if there are none."""
+
+    def measure(chunk: Rows, start: int) -> Matches | None:
+        return matches_in(chunk, start, mask(chunk, start))
+
+    return fold(rows, measure, join_matches)
+
+
+def repetitions(rows: Rows) -> Matches | None:
+    """The rows that equal the next one bit by bit, in one pass."""
+    values, following = bits(rows[:-1]), bits(rows[1:])
+
+    def mask(chunk: Rows, start: int) -> Rows:
+        return _equal(chunk, following[start : start + len(chunk)])
+
+    found = find_matches(values, mask)
+    return found and Matches(found.count, found.first, tuple(rows[found.first].tolist()))
+
+
+def outside(chunk: Rows, low: float | Row, high: float | Row) -> Rows:
+    """Which rows have a finite number outside the limits, which are for all columns or for each."""
+    beyond: Rows = ((chunk < low) | (chunk > high)) & np.isfinite(chunk)
+    rows: Rows = np.logical_or.reduce(beyond, axis=1)
+    return rows
+
+
+def is_finite(chunk: Rows) -> Rows:
+    """Which rows contain neither NaN nor infinity."""
+    rows: Rows = np.logical_and.reduce(np.isfinite(chunk), axis=1)
+    return rows
+
+
+def squared_norms(chunk: Rows) -> Rows:
+    """The squared lengths of rows of four numbers: adding columns is faster than `sum(axis=1)`."""
+    wider = chunk.astype(np.float32) if chunk.dtype == np.float16 else chunk
+    squares = np.square(wider).reshape(-1, 2)
+    sums: Rows = (squares[:, 0] + squares[:, 1]).reshape(-1, 2)
+    return sums[:, 0] + sums[:, 1]
+
+
+def matches_in(chunk: Rows, start: int, selected: Rows) -> Matches | None:
+    """The selected rows of a chunk whose first row has the index `start`."""
+    count = int(np.count_nonzero(selected))
+    if not count:
+        return None
+    first = int(selected.argmax())
+    return Matches(count, start + first, tuple(chunk[first].tolist()))
+
+
+def join_matches(one: Matches | None, other: Matches | None) -> Matches | None:
+    """The matches of two parts of an array, `one` before `other`."""
+    if one is None or other is None:
+        return one or other
+    return Matches(one.count + other.count, one.first, one.value)
+
+
+def _equal(chunk: Rows, other: Rows) -> Rows:
+    """Which rows are equal; further columns are compared only while some row still is."""
+    equal: Rows = chunk[:, 0] == other[:, 0]
+    for column in range(1, chunk.shape[1]):
+        if not equal.any():
+            break
+        equal &= chunk[:, column] == other[:, column]
+    return equal

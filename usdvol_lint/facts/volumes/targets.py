@@ -1,0 +1,122 @@
+"""The targets of field relationships: their state, and the prim that is the reason for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+from pxr import Usd
+
+from usdvol_lint import schema
+from usdvol_lint.facts.usd.calls import prim_at, prim_path
+from usdvol_lint.facts.usd.instances import shown, shown_path
+from usdvol_lint.facts.usd.kinds import PrimKinds
+from usdvol_lint.facts.volumes.states import TargetState
+
+MayLack: TypeAlias = Callable[[Any], bool]
+"""Whether opinions about a prim may lie in a layer that does not open."""
+
+_LIVE = Usd.PrimDefaultPredicate
+
+
+class Target(NamedTuple):
+    """A relationship's target after forwarding; `prim` is None if nothing is at its path.
+
+    `blamed` is the prim that explains the state: the target itself, or an ancestor that is
+    inactive, undefined or abstract.
+    `schemas` are those that the prim answers to.
+    """
+
+    path: Any
+    stage: Any
+    state: TargetState
+    prim: Any | None
+    blamed: Any
+    schemas: frozenset[str] = frozenset()
+
+    @property
+    def shown(self) -> str:
+        """Its path, outside of prototypes."""
+        return shown_path(self.stage, self.path)
+
+    @property
+    def type_name(self) -> str:
+        """The type of the prim; empty where it has none."""
+        return str(self.prim.GetTypeName()) if self.prim else ""
+
+    @property
+    def blamed_path(self) -> str:
+        """The path of the prim that explains the state."""
+        return self.shown if self.blamed is self.prim else shown(self.blamed).path
+
+
+def read_target(stage: Any, path: Any, kinds: PrimKinds, may_lack: MayLack) -> Target:
+    """Finds the prim at the path of a target, and the target's state."""
+    prim = prim_at(stage, prim_path(path))
+    if not prim:
+        ancestor = _lowest_ancestor(stage, path)
+        state = _unless_uncomposed(_missing_state(ancestor), ancestor, may_lack)
+        return Target(path, stage, state, None, ancestor)
+    if path.IsPropertyPath():
+        return Target(path, stage, TargetState.PROPERTY, prim, prim)
+    schemas = kinds.names(kinds.key(prim))
+    state, blamed = _prim_state(prim, schemas)
+    if state is TargetState.OVER or not (state is TargetState.FIELD or prim.GetTypeName()):
+        state = _unless_uncomposed(state, prim, may_lack)
+    return Target(path, stage, state, prim, blamed, schemas)
+
+
+def _unless_uncomposed(state: TargetState, prim: Any, may_lack: MayLack) -> TargetState:
+    """UNCOMPOSED for a state that opinions in a layer that does not open may change."""
+    may_change = state in (TargetState.MISSING, TargetState.OVER, TargetState.NOT_A_FIELD)
+    return TargetState.UNCOMPOSED if may_change and may_lack(prim) else state
+
+
+def _lowest_ancestor(stage: Any, path: Any) -> Any:
+    """The lowest prim that exists above a path without a prim."""
+    for ancestor in path.GetPrimPath().GetAncestorsRange():
+        if prim := stage.GetPrimAtPath(ancestor):
+            return prim
+    return stage.GetPseudoRoot()
+
+
+def _missing_state(ancestor: Any) -> TargetState:
+    """The state of a target that does not exist, by the lowest ancestor that does."""
+    if not ancestor.IsActive():
+        return TargetState.INACTIVE
+    if not ancestor.IsLoaded():
+        return TargetState.UNLOADED
+    return TargetState.MISSING
+
+
+def _prim_state(prim: Any, schemas: frozenset[str]) -> tuple[TargetState, Any]:
+    """The state of a prim, and the prim that explains it."""
+    if _LIVE(prim):
+        return _schema_state(prim, schemas), prim
+    if not prim.IsActive():
+        return TargetState.INACTIVE, prim
+    if not prim.IsLoaded():
+        return TargetState.UNLOADED, prim
+    if not prim.IsDefined():
+        return TargetState.OVER, _topmost(prim, lambda above: not above.IsDefined())
+    if prim.IsAbstract():
+        return TargetState.ABSTRACT, _topmost(prim, lambda above: above.IsAbstract())
+    return _schema_state(prim, schemas), prim
+
+
+def _topmost(prim: Any, is_alike: Callable[[Any], bool]) -> Any:
+    """The topmost prim of the unbroken chain of ancestors that are alike, or `prim` itself."""
+    while not (parent := prim.GetParent()).IsPseudoRoot() and is_alike(parent):
+        prim = parent
+    return prim
+
+
+def _schema_state(prim: Any, schemas: frozenset[str]) -> TargetState:
+    """The state of a live prim, by what it is."""
+    if schema.FIELD in schemas:
+        return TargetState.FIELD
+    if schema.UNKNOWN_TYPE in schemas:
+        return TargetState.UNKNOWN_TYPE
+    if prim.GetTypeName() in schema.ABSTRACT_TYPES:
+        return TargetState.ABSTRACT_TYPE
+    return TargetState.NOT_A_FIELD
