@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING, Any
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.files.assets import Affected, AssetReader, AssetSamples, UnlistedClips
-    from usdvol_lint.facts.files.disk import Absence, Disk
+    from usdvol_lint.facts.files.animation import UnlistedClips
+    from usdvol_lint.facts.files.assets import Affected, AssetSamples
+    from usdvol_lint.facts.files.classify import AssetReader
+    from usdvol_lint.facts.files.corrections import Absence
+    from usdvol_lint.facts.files.disk import Disk
+    from usdvol_lint.facts.files.letter_case import Recased
     from usdvol_lint.facts.files.marks import PathMarks
-    from usdvol_lint.facts.files.places import Recased
     from usdvol_lint.facts.files.sequences import SampleSequence
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
@@ -53,45 +56,49 @@ class Files(Wing):
 
     def absence(self, path: str, authored: str) -> Absence:
         """What is known of an absolute path where nothing is; `authored` is how it was written."""
-        return self._disk.absence(path, authored)
+        from usdvol_lint.facts.files.corrections import find_absence
+
+        return find_absence(self._disk, path, authored)
 
     def frames(self, found: Affected) -> list[tuple[int, str]]:
         """The files that a path with a placeholder for the frame stands for, by frame number."""
-        return self._disk.frames(found.anchored(), found.first.path)
+        from usdvol_lint.facts.files.corrections import find_frames
+
+        return find_frames(self._disk, found.anchored(), found.first.path)
 
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from what the folders hold."""
-        from usdvol_lint.facts.files.places import recased
+        from usdvol_lint.facts.files.letter_case import recased
 
         return recased(self.paths(field), self._disk)
 
     def outside_package(self, field: Any) -> Affected | None:
         """The samples of a `filePath` in a package that name files outside it."""
-        from usdvol_lint.facts.files.places import outside_package
+        from usdvol_lint.facts.files.origins import outside_package
 
         return outside_package(self.paths(field)) if self._has_packages else None
 
     def below_layer(self, found: Affected) -> str | None:
         """The first path in relation to its layer, if the file lies below the layer's folder."""
-        from usdvol_lint.facts.files.places import below_layer
+        from usdvol_lint.facts.files.origins import below_layer
 
         return below_layer(found)
 
     def hidden_animation(self, field: Any) -> str | None:
         """What animates `filePath` in vain, in words, because a stronger default hides it."""
-        from usdvol_lint.facts.files.assets import hidden_animation
+        from usdvol_lint.facts.files.animation import hidden_animation
 
         return hidden_animation(self.paths(field).attribute, self._clips.reaching(field))
 
     def unlisted_clips(self, field: Any) -> UnlistedClips | None:
         """The clips that hold a `filePath` which their manifest does not declare."""
-        from usdvol_lint.facts.files.assets import unlisted_clips
+        from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
 
     @cached_property
     def _reader(self) -> AssetReader:
-        from usdvol_lint.facts.files.assets import AssetReader
+        from usdvol_lint.facts.files.classify import AssetReader
 
         return AssetReader(self._disk, self._advance)
 
@@ -104,6 +111,6 @@ class Files(Wing):
     @cached_property
     def _has_packages(self) -> bool:
         """Whether any layer lies in a package."""
-        from usdvol_lint.facts.files.places import package_of
+        from usdvol_lint.facts.files.origins import package_of
 
         return any(map(package_of, self._stage.GetUsedLayers()))

@@ -1,33 +1,21 @@
-"""Asset attributes: every authored sample, resolved as USD does it, and classified."""
+"""The values of an asset attribute, classified, and those of them that a finding is about."""
 
 from __future__ import annotations
 
-import os
 import re
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any, NamedTuple
 
-from pxr import Ar, Sdf, Usd
-
-from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.patterns import find_pattern
-from usdvol_lint.facts.files.states import PLACES, AssetState, FileFault
-from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
-from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.files.paths import anchored, extension_of
+from usdvol_lint.facts.files.states import PLACES, AssetState
 from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
-from usdvol_lint.facts.usd.values import Occurrences, read_values
+from usdvol_lint.facts.usd.values import Occurrences
 from usdvol_lint.model import frame_ranges, quoted
 
-_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
-_LIVE_SCHEMES = frozenset({"op", "opdef", "oplib"})
-_FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
 _LAYERS_NAMED = 3
-_READ_TOGETHER = 1024
-_FILE = frozenset({AssetState.FILE})
 _PATH_OF = attrgetter("path")
 
 
@@ -51,6 +39,11 @@ class Sample(NamedTuple):
         """Whether it is a readable file with content."""
         return self.state is AssetState.FILE
 
+    @property
+    def extension(self) -> str:
+        """The extension of the path in lower case with its dot, or empty."""
+        return extension_of(self.path)
+
 
 class AssetSamples(NamedTuple):
     """All samples of one asset attribute in ascending time, the default first.
@@ -68,16 +61,14 @@ class AssetSamples(NamedTuple):
             return None
         return self.affected(sample for sample in self.samples if sample.state in states)
 
-    def matching(
-        self, pattern: re.Pattern[str], states: Collection[AssetState] = PLACES
-    ) -> Affected | None:
-        """The samples in one of these states whose paths match from their start."""
+    def matching(self, pattern: re.Pattern[str]) -> Affected | None:
+        """The samples that name a file, there or not, whose paths match from their start."""
         if not any(map(pattern.match, map(_PATH_OF, self.samples))):  # no loop of ours: most do not
             return None
         return self.affected(
             sample
             for sample in self.samples
-            if sample.state in states and pattern.match(sample.path)
+            if sample.state in PLACES and pattern.match(sample.path)
         )
 
     def affected(self, samples: Iterable[Sample]) -> Affected | None:
@@ -88,7 +79,7 @@ class AssetSamples(NamedTuple):
 
     def anchored(self, sample: Sample) -> str:
         """The absolute path that a sample would have, did it exist."""
-        return _anchored(self.attribute, sample.time, sample.path)
+        return anchored(self.attribute, sample.time, sample.path)
 
     def by_detail(self, *states: AssetState) -> Iterator[Affected]:
         """The samples in one of these states, apart for each detail."""
@@ -154,194 +145,4 @@ class Affected(Occurrences):
 
     def anchored(self) -> str:
         """The absolute path that the first sample would have, did it exist."""
-        return _anchored(self.attribute, self.first.time, self.first.path)
-
-
-class AssetReader:
-    """Reads every value that USD gives for an attribute: default, time samples, value clips.
-
-    `advance` is told how many samples were read since its last call.
-    """
-
-    def __init__(self, disk: Disk, advance: Callable[[int], None]) -> None:
-        self._disk = disk
-        self._advance = advance
-        self._alone: dict[Any, tuple[Sample]] = {}
-        """Defaults that name files, which are the same wherever they are authored."""
-
-    def read(self, batch: PrimBatch, name: str) -> list[AssetSamples]:
-        """The values of an attribute of that name on each of many prims."""
-        known = self._alone
-        return [
-            AssetSamples(attribute, known[value], _FILE)
-            if not count and isinstance(value, Sdf.AssetPath) and value in known
-            else self._read(attribute, count, value)
-            for attribute, count, value in zip(
-                batch.attributes(name), batch.counts(name), batch.values(name), strict=True
-            )
-        ]
-
-    def _read(self, attribute: Any, count: int, value: Any) -> AssetSamples:
-        if count:
-            samples = tuple(self._classified(attribute))
-            return AssetSamples(attribute, samples, frozenset(each.state for each in samples))
-        if value is None and not attribute.GetResolveInfo().ValueIsBlocked():
-            return AssetSamples(attribute, (), frozenset())
-        alone = (_classify(attribute, None, value, self._disk),)
-        if alone[0].state is AssetState.FILE and _FORMAT_ARGUMENTS not in alone[0].path:
-            self._alone[value] = alone
-        return AssetSamples(attribute, alone, frozenset({alone[0].state}))
-
-    def _classified(self, attribute: Any) -> Iterator[Sample]:
-        for number, (time, value) in enumerate(read_values(attribute), start=1):
-            yield _classify(attribute, time, value, self._disk)
-            if number % _READ_TOGETHER == 0:
-                self._advance(_READ_TOGETHER)
-
-
-def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:
-    """The weaker time samples or clip set, in words, that a stronger default hides."""
-    specs = attribute.GetPropertyStack()
-    if len(specs) < 2 and not clips:
-        return None  # so it is nearly always, and all that follows takes time
-    held = opinion(attribute, None)
-    if held is None or attribute.Get() is None or attribute.GetNumTimeSamples():
-        return None
-    for spec in specs:
-        if count := spec.layer.GetNumTimeSamplesForPath(spec.path):
-            samples = "time sample" if count == 1 else f"{count} time samples"
-            return f"the {samples} in {quoted(spec.layer.GetDisplayName())}"
-    for clip_set in clips:
-        if clip_set.is_outranked_by(held.spec) and clip_set.layer_with_samples(attribute):
-            return f"the value clips {quoted(clip_set.name)} on <{shown(clip_set.prim).path}>"
-    return None
-
-
-@dataclass(frozen=True, slots=True)
-class UnlistedClips:
-    """Clips that hold samples of an attribute which their manifest does not declare.
-
-    `clip` and `manifest` are the names of layers; `spec` names the manifest at `manifest_path`.
-    """
-
-    clip: str
-    manifest: str
-    manifest_path: str
-    spec: Any
-
-
-def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips | None:
-    """The clips that would give the attribute its values if the manifest declared it."""
-    if not clips or attribute.GetNumTimeSamples():
-        return None
-    held = opinion(attribute, None)
-    for clip_set in clips:
-        if held and clip_set.is_outranked_by(held.spec):
-            return None
-        manifest = clip_set.manifest
-        declared = open_layer(manifest) if manifest else None
-        if not manifest or not declared:
-            continue
-        clip = clip_set.layer_with_samples(attribute)
-        if clip and not declared.GetAttributeAtPath(clip_set.path_in_layers(attribute)):
-            return UnlistedClips(
-                clip.GetDisplayName(),
-                declared.GetDisplayName(),
-                authored_path(manifest) or manifest.path,
-                clip_set.spec_with("manifestAssetPath"),
-            )
-    return None
-
-
-def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Sample:
-    if value is None:
-        return Sample(time, "", "", "", AssetState.BLOCKED)
-    if not isinstance(value, Sdf.AssetPath):
-        return Sample(time, str(value), "", "", AssetState.MISTYPED)
-    path, resolved = value.path, value.resolvedPath
-    if _FORMAT_ARGUMENTS in path:
-        resolved = _resolved_without_arguments(attribute, time, path)
-    fault = disk.fault(resolved) if resolved else None
-    if fault is FileFault.BROKEN_LINK:
-        resolved, fault = "", None  # USD takes a link for a file, wherever it leads
-    if resolved and not fault:
-        return Sample(time, authored_path(value) or path, path, resolved, AssetState.FILE)
-    authored = authored_path(value) or _authored_in_layer(attribute, time) or path
-    if fault:
-        return Sample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault)
-    state, detail = _why_unresolved(attribute, time, authored, path)
-    return Sample(time, authored, path, "", state, detail)
-
-
-def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
-    held = opinion(attribute, time)
-    if held is None:
-        return None
-    spec, offset = held
-    value = None
-    if time is not None:
-        there = offset.GetInverse() * time
-        _, *around = spec.layer.GetBracketingTimeSamplesForPath(spec.path, there)
-        nearest = min(around, key=lambda sample: abs(sample - there))
-        value = spec.layer.QueryTimeSample(spec.path, nearest)
-    value = value or spec.default
-    return str(value.path) if isinstance(value, Sdf.AssetPath) else None
-
-
-def _resolved_without_arguments(attribute: Any, time: float | None, path: str) -> str:
-    """The file that a path with file format arguments names: USD versions do not agree here."""
-    with Ar.ResolverContextBinder(attribute.GetStage().GetPathResolverContext()):
-        return str(Ar.GetResolver().Resolve(_anchored(attribute, time, path)))
-
-
-def _anchored(attribute: Any, time: float | None, path: str) -> str:
-    """The absolute path, in relation to the layer that holds the opinion, without arguments."""
-    bare = str(Sdf.Layer.SplitIdentifier(path)[0])
-    held = opinion(attribute, time)
-    if held is None:
-        return bare
-    layer = held.spec.layer
-    absolute = str(layer.ComputeAbsolutePath(bare))
-    # USD leaves a bare name that it finds nowhere to the resolver's search path.
-    searched = absolute == bare and not (os.path.isabs(bare) or is_uri(bare))
-    return str(layer.ComputeAbsolutePath(f"./{bare}")) if searched else absolute
-
-
-def _why_unresolved(
-    attribute: Any, time: float | None, authored: str, path: str
-) -> tuple[AssetState, str]:
-    if Sdf.VariableExpression.IsExpression(authored):
-        variables = _expression_variables(attribute, time)
-        result = Sdf.VariableExpression(authored).Evaluate(variables)
-        if result.errors:
-            return AssetState.BROKEN_EXPRESSION, result.errors[0]
-        if result.value not in (None, "") and not isinstance(result.value, str):
-            return AssetState.BROKEN_EXPRESSION, f"it gives {result.value!r}, not a string"
-        unset = sorted(name for name in result.usedVariables - variables.keys() if name in path)
-        if unset:
-            return AssetState.UNSET_VARIABLE, ", ".join(unset)
-        path = result.value or ""
-    if not path:
-        return AssetState.EMPTY, ""
-    if is_uri(path):
-        scheme = path.partition(":")[0]
-        live = scheme in _LIVE_SCHEMES
-        return AssetState.LIVE_SESSION if live else AssetState.UNVERIFIABLE, scheme
-    if pattern := find_pattern(path):
-        return AssetState.PATTERN, pattern
-    return AssetState.MISSING, ""
-
-
-def _expression_variables(attribute: Any, time: float | None) -> dict[str, Any]:
-    """The variables that USD knows where the opinion is."""
-    code = Usd.TimeCode.Default() if time is None else time
-    node = attribute.GetResolveInfo(code).GetNode()
-    return dict(node.layerStack.expressionVariables.GetVariables()) if node else {}
-
-
-def is_uri(path: str) -> bool:
-    """Whether a path has a scheme that no resolver here answers for."""
-    if ":" not in path:
-        return False
-    scheme = _SCHEME.match(Sdf.Layer.SplitIdentifier(path)[0])
-    return scheme is not None and scheme[1].lower() not in Ar.GetRegisteredURISchemes()
+        return anchored(self.attribute, self.first.time, self.first.path)

@@ -31,8 +31,10 @@ class AssetState(Enum):
     """A value that is no asset path."""
 
 
-PLACES = frozenset({AssetState.FILE, AssetState.MISSING, AssetState.NOT_A_FILE, AssetState.PATTERN})
-"""What a value can turn out to be that names a place on disk, whether or not a file is there."""
+ON_DISK = frozenset({AssetState.FILE, AssetState.NOT_A_FILE, AssetState.MISSING})
+"""The states of values that name a path on disk, whether or not a file is there."""
+PLACES = ON_DISK | {AssetState.PATTERN}
+"""The same, with those that name a pattern of paths."""
 
 
 class PathMark(Enum):

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, TypeVar
 from pxr import Ar
 
 from usdvol_lint.facts.files.assets import Affected, AssetSamples, Sample
-from usdvol_lint.facts.files.disk import is_packaged
+from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.grids.claims import Claim, FieldClaims
 from usdvol_lint.facts.prims.attributes import Authored

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf, Tf, Usd
 
-from usdvol_lint.facts.files.assets import is_uri
-from usdvol_lint.facts.files.disk import file_fault, is_packaged
+from usdvol_lint.facts.files.disk import file_fault
+from usdvol_lint.facts.files.paths import is_packaged, is_uri
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
 from usdvol_lint.facts.usd.instances import in_prototype

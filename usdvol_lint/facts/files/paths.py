@@ -1,0 +1,59 @@
+"""Asset paths as text, and the absolute paths that they stand for."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import Any
+
+from pxr import Ar, Sdf
+
+from usdvol_lint.facts.usd.opinions import opinion
+
+FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
+"""What separates a file from arguments for the plugin that reads it."""
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
+
+
+def split_path(path: str) -> tuple[str, str]:
+    """The folder of a path, without its last slash, and the file name, without arguments."""
+    folder, _, name = path.partition(FORMAT_ARGUMENTS)[0].rpartition("/")
+    return folder, name
+
+
+def extension_of(path: str) -> str:
+    """The extension in lower case with its dot, or empty; in a package that of the inner file."""
+    name = path.partition(FORMAT_ARGUMENTS)[0].rstrip("]").rpartition("/")[2]
+    return "".join(name.rpartition(".")[1:]).lower()
+
+
+def count_names(path: str) -> int:
+    """How many names a path has that folders list: those after `.` and `..`."""
+    names = os.path.normpath(path).replace(os.sep, "/").split("/")
+    return sum(name not in ("", ".", "..") for name in names)
+
+
+def is_packaged(path: str) -> bool:
+    """Whether a path names a file in a package, `package.usdz[inner]`."""
+    return path.endswith("]") and bool(Ar.IsPackageRelativePath(path))
+
+
+def is_uri(path: str) -> bool:
+    """Whether a path has a scheme that no resolver here answers for."""
+    if ":" not in path:
+        return False
+    scheme = _SCHEME.match(Sdf.Layer.SplitIdentifier(path)[0])
+    return scheme is not None and scheme[1].lower() not in Ar.GetRegisteredURISchemes()
+
+
+def anchored(attribute: Any, time: float | None, path: str) -> str:
+    """The absolute path, in relation to the layer that holds the opinion, without arguments."""
+    bare = str(Sdf.Layer.SplitIdentifier(path)[0])
+    held = opinion(attribute, time)
+    if held is None:
+        return bare
+    layer = held.spec.layer
+    absolute = str(layer.ComputeAbsolutePath(bare))
+    # USD leaves a bare name that it finds nowhere to the resolver's search path.
+    searched = absolute == bare and not (os.path.isabs(bare) or is_uri(bare))
+    return str(layer.ComputeAbsolutePath(f"./{bare}")) if searched else absolute
