@@ -11,7 +11,7 @@ from zipfile import ZipFile
 import pytest
 
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.sequences import Numbering, number
+from usdvol_lint.facts.files.numbering import Numbering, number
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]

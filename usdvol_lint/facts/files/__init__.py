@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.classify import AssetReader
     from usdvol_lint.facts.files.corrections import Absence
     from usdvol_lint.facts.files.disk import Disk
+    from usdvol_lint.facts.files.gaps import Missing
     from usdvol_lint.facts.files.letter_case import Recased
     from usdvol_lint.facts.files.marks import PathMarks
+    from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
@@ -53,6 +55,20 @@ class Files(Wing):
         from usdvol_lint.facts.files.sequences import read_sequence
 
         return read_sequence(self.paths(field))
+
+    def missing_samples(self, field: Any) -> Missing | None:
+        """The samples that the sequence of `filePath` lacks, if it is regular otherwise."""
+        from usdvol_lint.facts.files.gaps import find_missing
+
+        sequence = self.sequence(field)
+        return find_missing(sequence) if sequence else None
+
+    def out_of_order(self, field: Any) -> OutOfOrder | None:
+        """The few samples of `filePath` whose frame numbers break the order of all others."""
+        from usdvol_lint.facts.files.order import find_out_of_order
+
+        sequence = self.sequence(field)
+        return find_out_of_order(sequence) if sequence else None
 
     def absence(self, path: str, authored: str) -> Absence:
         """What is known of an absolute path where nothing is; `authored` is how it was written."""
