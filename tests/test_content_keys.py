@@ -15,7 +15,8 @@ from process import ROOT
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.grids import Grids
-from usdvol_lint.facts.grids.contents import Content, ContentReader, Kind
+from usdvol_lint.facts.grids.contents import Content, Kind
+from usdvol_lint.facts.grids.reader import ContentReader
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.testing import STAGE, cases, pages, write_example

@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files import Files
     from usdvol_lint.facts.grids.changes import GridChanges
     from usdvol_lint.facts.grids.claims import ClaimReader, FieldClaims
-    from usdvol_lint.facts.grids.contents import ContentReader, FieldContents, Kind, Timeline
+    from usdvol_lint.facts.grids.contents import Kind
+    from usdvol_lint.facts.grids.reader import ContentReader
+    from usdvol_lint.facts.grids.timelines import FieldContents, Timeline
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.volumefile.cache import VolumeFiles
 
@@ -58,7 +60,7 @@ class Grids(Wing):
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""
-        from usdvol_lint.facts.grids.contents import FieldContents
+        from usdvol_lint.facts.grids.timelines import FieldContents
 
         return FieldContents(self._files.paths(field).attribute, self.timelines(field))
 
@@ -91,6 +93,6 @@ class Grids(Wing):
 
     @cached_property
     def _content_reader(self) -> ContentReader:
-        from usdvol_lint.facts.grids.contents import ContentReader
+        from usdvol_lint.facts.grids.reader import ContentReader
 
         return ContentReader(self._volume_files, self._content, self._advance)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import TypeAlias, TypeVar
 
 from usdvol_lint.facts.files.assets import Affected
-from usdvol_lint.facts.grids.contents import Content, FieldContents
+from usdvol_lint.facts.grids.contents import Content
+from usdvol_lint.facts.grids.timelines import FieldContents
 from usdvol_lint.model import quoted
 
 _T = TypeVar("_T")

@@ -7,7 +7,7 @@ from math import inf
 from operator import le
 from typing import Any, NamedTuple
 
-from usdvol_lint.facts.grids.contents import Timeline
+from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.volumes.boxes import magnitude
 from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement

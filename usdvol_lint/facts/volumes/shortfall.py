@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from typing import Any, ClassVar, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSamples
-from usdvol_lint.facts.grids.contents import Timeline
+from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.volumes.bindings import Target

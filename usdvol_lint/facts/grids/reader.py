@@ -1,0 +1,134 @@
+"""Reads the files that the fields of a stage name, each once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from typing import Any
+
+from pxr import Ar
+
+from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.paths import is_packaged
+from usdvol_lint.facts.files.states import AssetState
+from usdvol_lint.facts.grids.claims import Claim, FieldClaims
+from usdvol_lint.facts.grids.contents import Content, Kind
+from usdvol_lint.facts.grids.timelines import Timeline
+from usdvol_lint.facts.prims.attributes import Authored
+from usdvol_lint.facts.usd.steps import StepSamples, Time
+from usdvol_lint.volumefile.cache import Fault, Reading, VolumeFiles
+from usdvol_lint.volumefile.model import Format
+
+_FORMATS: dict[str, Format] = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
+_READ_TOGETHER = 1024
+_NOTHING = Timeline((), 0)
+
+
+class ContentReader:
+    """Reads the files of a stage's fields, each once."""
+
+    def __init__(self, files: VolumeFiles, extent: str, advance: Callable[[int], None]) -> None:
+        """`extent` is how many of a field's files are read: all, first or off."""
+        self._files = files
+        self._extent = extent
+        self._advance = advance
+        self._formats: dict[frozenset[str], Format | None] = {}
+        self._readings: dict[str, Reading] = {}
+        self._packages: dict[str, Any] = {}
+        self._kinds: dict[Hashable, Kind] = {}
+        self._alone: dict[tuple[Sample, FieldClaims, Format], Timeline] = {}
+
+    def read(
+        self,
+        samples: Iterable[AssetSamples],
+        claims: Iterable[FieldClaims],
+        authored: Authored,
+    ) -> list[Timeline]:
+        """The contents of the files in the samples of `filePath` of many fields that are alike."""
+        wanted = self._wanted(authored.schemas)
+        if not wanted or self._extent == "off":
+            return [_NOTHING for _ in samples]
+        return [self._contents(*each, wanted) for each in zip(samples, claims, strict=True)]
+
+    def _contents(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Timeline:
+        if AssetState.FILE not in samples.states:
+            return _NOTHING
+        if len(samples.samples) > 1:
+            return self._read(samples, claims, wanted)
+        key = (samples.samples[0], claims, wanted)
+        found = self._alone.get(key)
+        if found is None:
+            found = self._alone[key] = self._read(samples, claims, wanted)
+        return found
+
+    def _read(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Timeline:
+        kinds: dict[Kind, list[Content]] = {}
+        total = read = 0
+        for sample, claim in _moments(samples, claims):
+            total += sample.time is not None
+            if sample.state is AssetState.FILE:
+                content = Content(sample, claim, self._reading(sample.resolved), wanted)
+                kinds.setdefault(self._kind(content), []).append(content)
+                read += 1
+                if self._extent == "first":
+                    total = int(sample.time is not None)
+                    break
+                if read % _READ_TOGETHER == 0:
+                    self._advance(_READ_TOGETHER)
+        return Timeline(tuple(kinds.items()), total)
+
+    def _wanted(self, schemas: frozenset[str]) -> Format | None:
+        """The format of files that fields of these schemas ask for."""
+        if schemas not in self._formats:
+            named = (format for name, format in _FORMATS.items() if name in schemas)
+            self._formats[schemas] = next(named, None)
+        return self._formats[schemas]
+
+    def _kind(self, content: Content) -> Kind:
+        _, claim, reading, wanted = content
+        key = (claim, reading.kind, wanted, content.unexpected_format)
+        kind = self._kinds.get(key)
+        if kind is None:
+            kind = self._kinds[key] = Kind(content)
+        return kind
+
+    def _reading(self, resolved: str) -> Reading:
+        reading = self._readings.get(resolved)
+        if reading is None:
+            if is_packaged(resolved):
+                reading = self._read_packaged(*Ar.SplitPackageRelativePathOuter(resolved))
+            elif os.path.isabs(resolved):
+                reading = self._files.read(resolved)
+            else:
+                reading = _unread("it is no file on disk")
+            self._readings[resolved] = reading
+        return reading
+
+    def _read_packaged(self, package: str, inner: str) -> Reading:
+        from usdvol_lint.volumefile.package import NotInPlaceError, Package
+
+        if package not in self._packages:
+            self._packages[package] = Package(package)
+        try:
+            offset, size = self._packages[package].locate(inner)
+        except NotInPlaceError as error:
+            return _unread(f"it {error}")
+        return self._files.read(package, offset, size)
+
+
+def _moments(samples: AssetSamples, claims: FieldClaims) -> Iterator[tuple[Sample, Claim]]:
+    """The samples of a file path, and those at times when what the field says changes."""
+    if not claims.times:
+        for sample in samples.samples:
+            yield sample, claims.default
+        return
+    files = StepSamples((sample.time, sample) for sample in samples.samples)
+    moments: list[Time] = [None] if files.default else []
+    for time in (*moments, *sorted({*files.times, *claims.times})):
+        if held_file := files.at(time):
+            yield held_file._replace(time=time), claims.at(time)
+
+
+def _unread(reason: str) -> Reading:
+    fault = Fault("not-in-place", reason)
+    return Reading(None, fault, fault)
