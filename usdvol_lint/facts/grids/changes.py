@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias, TypeVar
+from typing import TypeAlias
 
 from usdvol_lint.facts.files.assets import Affected
 from usdvol_lint.facts.grids.contents import Content
 from usdvol_lint.facts.grids.timelines import FieldContents
 from usdvol_lint.model import quoted
 
-_T = TypeVar("_T")
-
-Grids: TypeAlias = Mapping[str, tuple[str, ...]]
-"""The value types of the grids of each name."""
+Grids: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
+"""The names of grids, in their order, each with the value types of the grids of that name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,33 +31,20 @@ def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
     frames in which some field does not find what it asks for, since that is said of the field.
     Where no more than half of the frames agree, nobody knows which are the odd ones.
     """
-    first, fits, grids_of = fields[0], _by_kind(_fits), _by_kind(_grids)
+    first = fields[0]
+    fits = zip(*([fit for _, fit in field.all.answers(_fits)] for field in fields), strict=True)
     frames = [
-        (contents[0].sample, grids_of(contents[0]))
-        for contents in zip(*(field.all.contents for field in fields), strict=True)
-        if contents[0].sample.time is not None and all(map(fits, contents))
+        (sample, grids or ())
+        for (sample, grids), fit in zip(first.all.answers(_grids), fits, strict=True)
+        if sample.time is not None and all(fit)
     ]
-    kinds = Counter(tuple(sorted(grids.items())) for _, grids in frames)
-    commonest, count = max(kinds.items(), key=lambda item: item[1], default=((), 0))
+    counts = Counter(grids for _, grids in frames)
+    usual, count = max(counts.items(), key=lambda item: item[1], default=((), 0))
     if not len(frames) / 2 < count < len(frames):
         return None
-    usual = dict(commonest)
     differing = [(sample, grids) for sample, grids in frames if grids != usual]
     found = Affected(first.attribute, tuple(sample for sample, _ in differing), first.all.total)
-    return GridChanges(found, _difference(differing[0][1], usual))
-
-
-def _by_kind(ask: Callable[[Content], _T]) -> Callable[[Content], _T]:
-    """The same question, asked once among contents of one kind."""
-    answers: dict[Hashable, _T] = {}
-
-    def answer(content: Content) -> _T:
-        kind = (content.reading.kind, content.claim)
-        if kind not in answers:
-            answers[kind] = ask(content)
-        return answers[kind]
-
-    return answer
+    return GridChanges(found, _difference(dict(differing[0][1]), dict(usual)))
 
 
 def _fits(content: Content) -> bool:
@@ -73,10 +58,10 @@ def _grids(content: Content) -> Grids:
     grids: dict[str, tuple[str, ...]] = defaultdict(tuple)
     for grid in content.file.grids if content.file else ():
         grids[grid.unique_name] += (grid.value_type,)
-    return dict(grids)
+    return tuple(sorted(grids.items()))
 
 
-def _difference(grids: Grids, usual: Grids) -> str:
+def _difference(grids: Mapping[str, tuple[str, ...]], usual: Mapping[str, tuple[str, ...]]) -> str:
     lacking = usual.keys() - grids.keys()
     added = grids.keys() - usual.keys()
     others = sorted(name for name in grids.keys() & usual.keys() if grids[name] != usual[name])

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeVar
 
-from usdvol_lint.facts.files.assets import Affected
+from usdvol_lint.facts.files.assets import Affected, Sample
 from usdvol_lint.facts.grids.contents import Content, Kind
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.volumefile.model import Grid
@@ -25,9 +25,14 @@ class Timeline:
     kinds: tuple[tuple[Kind, list[Content]], ...]
     total: int
 
-    @property
-    def contents(self) -> list[Content]:
-        return sorted((content for _, contents in self.kinds for content in contents), key=_order)
+    def answers(self, key: Callable[[Content], _K | None]) -> list[tuple[Sample, _K | None]]:
+        """What a key function gives for each file, in ascending time, the default first."""
+        found = [
+            (content.sample, kind.answer(key))
+            for kind, contents in self.kinds
+            for content in contents
+        ]
+        return sorted(found, key=lambda pair: _in_time(pair[0]))
 
     def grids(self) -> Iterator[tuple[Time, Grid | None]]:
         """The grid that name and index select, at each time."""
@@ -63,7 +68,8 @@ class Timeline:
     @property
     def files(self) -> list[tuple[Time, str]]:
         """The files and when they are named, which fields may share."""
-        return [(sample.time, sample.resolved) for sample, *_ in self.contents]
+        samples = [content.sample for _, contents in self.kinds for content in contents]
+        return [(sample.time, sample.resolved) for sample in sorted(samples, key=_in_time)]
 
 
 class FieldContents(NamedTuple):
@@ -90,7 +96,7 @@ class FieldContents(NamedTuple):
     def _affected(self, groups: list[list[Content]]) -> tuple[Content, Affected]:
         together = [content for contents in groups for content in contents]
         if len(groups) > 1:
-            together.sort(key=_order)
+            together.sort(key=lambda content: _in_time(content.sample))
         samples = tuple(content.sample for content in together)
         return together[0], Affected(self.attribute, samples, self.all.total)
 
@@ -101,6 +107,5 @@ def _place_of_grid(content: Content) -> int | None:
     return file.grids.index(grid) if file and grid else None
 
 
-def _order(content: Content) -> tuple[bool, float]:
-    time = content.sample.time
-    return time is not None, time or 0.0
+def _in_time(sample: Sample) -> tuple[bool, float]:
+    return sample.time is not None, sample.time or 0.0
