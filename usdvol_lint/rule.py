@@ -25,6 +25,7 @@ __all__ = [
     "STAGE",
     "UNKNOWN_TYPE",
     "WARNING",
+    "AssetSample",
     "AssetState",
     "BindingMark",
     "Content",
@@ -42,7 +43,6 @@ __all__ = [
     "Problem",
     "Problems",
     "Rule",
-    "Sample",
     "TargetState",
     "Volumes",
     "When",
@@ -57,11 +57,13 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.files.assets import Sample
+    from usdvol_lint.facts.files.assets import AssetSample
     from usdvol_lint.facts.grids.contents import Content
     from usdvol_lint.facts.grids.contents import Kind as ContentClass
 else:
-    Content = ContentClass = Sample = Any  # so that rules can be loaded where pxr is not imported
+    Content = ContentClass = AssetSample = (
+        Any  # so that rules can be loaded where pxr is not imported
+    )
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 

@@ -19,7 +19,7 @@ _LAYERS_NAMED = 3
 _PATH_OF = attrgetter("path")
 
 
-class Sample(NamedTuple):
+class AssetSample(NamedTuple):
     """One value of an asset attribute.
 
     `time` is None for the default; `authored` is as written, an expression where it is one and
@@ -52,7 +52,7 @@ class AssetSamples(NamedTuple):
     """
 
     attribute: Any
-    samples: tuple[Sample, ...]
+    samples: tuple[AssetSample, ...]
     states: frozenset[AssetState]
 
     def of(self, *states: AssetState) -> Affected | None:
@@ -71,13 +71,13 @@ class AssetSamples(NamedTuple):
             if sample.state in PLACES and pattern.match(sample.path)
         )
 
-    def affected(self, samples: Iterable[Sample]) -> Affected | None:
+    def affected(self, samples: Iterable[AssetSample]) -> Affected | None:
         """Some of the samples, or None if there are none."""
         found = tuple(samples)
         timed = sum(sample.time is not None for sample in self.samples) if found else 0
         return Affected(self.attribute, found, timed) if found else None
 
-    def anchored(self, sample: Sample) -> str:
+    def anchored(self, sample: AssetSample) -> str:
         """The absolute path that a sample would have, did it exist."""
         return anchored(self.attribute, sample.time, sample.path)
 
@@ -85,7 +85,7 @@ class AssetSamples(NamedTuple):
         """The samples in one of these states, apart for each detail."""
         found = self.of(*states)
         if found:
-            apart: dict[str, list[Sample]] = defaultdict(list)
+            apart: dict[str, list[AssetSample]] = defaultdict(list)
             for sample in found.samples:
                 apart[sample.detail].append(sample)
             yield from (replace(found, samples=tuple(samples)) for samples in apart.values())
@@ -100,10 +100,10 @@ class AssetSamples(NamedTuple):
 class Affected(Occurrences):
     """Some of an attribute's samples, with what a finding says of them."""
 
-    samples: tuple[Sample, ...]
+    samples: tuple[AssetSample, ...]
 
     @property
-    def first(self) -> Sample:
+    def first(self) -> AssetSample:
         return self.samples[0]
 
     @property

@@ -7,7 +7,7 @@ from typing import Any
 
 from pxr import Ar, Sdf, Usd
 
-from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.paths import FORMAT_ARGUMENTS, anchored, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
@@ -31,7 +31,7 @@ class AssetReader:
     def __init__(self, disk: Disk, advance: Callable[[int], None]) -> None:
         self._disk = disk
         self._advance = advance
-        self._alone: dict[Any, tuple[Sample]] = {}
+        self._alone: dict[Any, tuple[AssetSample]] = {}
         """Defaults that name files, which are the same wherever they are authored."""
 
     def read(self, batch: PrimBatch, name: str) -> list[AssetSamples]:
@@ -57,18 +57,18 @@ class AssetReader:
             self._alone[value] = alone
         return AssetSamples(attribute, alone, frozenset({alone[0].state}))
 
-    def _classified(self, attribute: Any) -> Iterator[Sample]:
+    def _classified(self, attribute: Any) -> Iterator[AssetSample]:
         for number, (time, value) in enumerate(read_values(attribute), start=1):
             yield _classify(attribute, time, value, self._disk)
             if number % _READ_TOGETHER == 0:
                 self._advance(_READ_TOGETHER)
 
 
-def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Sample:
+def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> AssetSample:
     if value is None:
-        return Sample(time, "", "", "", AssetState.BLOCKED)
+        return AssetSample(time, "", "", "", AssetState.BLOCKED)
     if not isinstance(value, Sdf.AssetPath):
-        return Sample(time, str(value), "", "", AssetState.MISTYPED)
+        return AssetSample(time, str(value), "", "", AssetState.MISTYPED)
     path, resolved = value.path, value.resolvedPath
     if FORMAT_ARGUMENTS in path:
         resolved = _resolved_without_arguments(attribute, time, path)
@@ -76,12 +76,12 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Sam
     if fault is FileFault.BROKEN_LINK:
         resolved, fault = "", None  # USD takes a link for a file, wherever it leads
     if resolved and not fault:
-        return Sample(time, authored_path(value) or path, path, resolved, AssetState.FILE)
+        return AssetSample(time, authored_path(value) or path, path, resolved, AssetState.FILE)
     authored = authored_path(value) or _authored_in_layer(attribute, time) or path
     if fault:
-        return Sample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault)
+        return AssetSample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault)
     state, detail = _why_unresolved(attribute, time, authored, path)
-    return Sample(time, authored, path, "", state, detail)
+    return AssetSample(time, authored, path, "", state, detail)
 
 
 def _authored_in_layer(attribute: Any, time: float | None) -> str | None:

@@ -8,7 +8,7 @@ from itertools import groupby
 from operator import sub
 from typing import NamedTuple
 
-from usdvol_lint.facts.files.assets import Sample
+from usdvol_lint.facts.files.assets import AssetSample
 from usdvol_lint.facts.files.numbering import Numbering
 from usdvol_lint.facts.files.sequences import SampleSequence, most_frequent
 from usdvol_lint.facts.files.states import ON_DISK
@@ -27,7 +27,7 @@ class Missing(NamedTuple):
     None where that can't be told.
     """
 
-    before: Sample
+    before: AssetSample
     present: int
     times: tuple[float, ...]
     paths: tuple[str, ...]
@@ -50,7 +50,7 @@ class Missing(NamedTuple):
 class Gap(NamedTuple):
     """Times between two samples where a regular run has none, with the numbers they would have."""
 
-    before: Sample
+    before: AssetSample
     times: tuple[float, ...]
     numbers: tuple[float, ...]
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from pxr import Ar
 
-from usdvol_lint.facts.files.assets import Affected, AssetSamples, Sample
+from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.corrections import correct_case
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.origins import SampleLayers
@@ -56,7 +56,7 @@ class _Folders:
         self._layers = SampleLayers(paths)
         self._known: dict[tuple[str, str, float | None], _Folder | None] = {}
 
-    def have_in_another_case(self, sample: Sample) -> bool:
+    def have_in_another_case(self, sample: AssetSample) -> bool:
         """Whether a file is there, or would be, under another case of the path."""
         if sample.state not in ON_DISK:
             return False
@@ -71,11 +71,11 @@ class _Folders:
         there = folder.names.get(name) or folder.names.get(name.lower())
         return there is not None and (folder.differs or there != name)
 
-    def place(self, sample: Sample) -> str:
+    def place(self, sample: AssetSample) -> str:
         """The absolute path of a sample."""
         return sample.resolved or self._paths.anchored(sample)
 
-    def _look(self, sample: Sample, head: str) -> _Folder | None:
+    def _look(self, sample: AssetSample, head: str) -> _Folder | None:
         if sample.resolved and not self._disk.ignores_case(sample.resolved):
             return None
         place = self.place(sample)

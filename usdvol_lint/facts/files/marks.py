@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from enum import Enum
 
-from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.states import AssetState, PathMark
 from usdvol_lint.facts.prims.attributes import Authored
@@ -65,7 +65,7 @@ class PathMarks:
     def _is_blind_to_case(self, paths: AssetSamples) -> bool:
         if AssetState.MISSING in paths.states:
             return True
-        folders: dict[str, Sample] = {}
+        folders: dict[str, AssetSample] = {}
         for sample in paths.samples:
             folders.setdefault(sample.resolved.rpartition("/")[0], sample)
         resolved = (sample.resolved for sample in folders.values() if sample.resolved)

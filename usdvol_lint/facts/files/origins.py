@@ -8,7 +8,7 @@ from typing import Any
 
 from pxr import Ar
 
-from usdvol_lint.facts.files.assets import Affected, AssetSamples, Sample
+from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.states import ON_DISK
 from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
 
@@ -55,7 +55,7 @@ class SampleLayers:
         self._paths = paths
         self._known: dict[float | None, Any | None] = {}
 
-    def of(self, sample: Sample) -> Any | None:
+    def of(self, sample: AssetSample) -> Any | None:
         """The layer that holds a sample."""
         time = self.key(sample)
         if time not in self._known:
@@ -63,7 +63,7 @@ class SampleLayers:
             self._known[time] = held.spec.layer if held else None
         return self._known[time]
 
-    def key(self, sample: Sample) -> float | None:
+    def key(self, sample: AssetSample) -> float | None:
         """A time at which the layer is that of the sample, the same for many samples."""
         return sample.time if sample.time is None or self._from_clips else self._last
 

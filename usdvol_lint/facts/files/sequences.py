@@ -10,7 +10,7 @@ from operator import attrgetter, sub
 
 from pxr import Ar
 
-from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.numbering import Numbering, number
 from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.states import AssetState
@@ -24,7 +24,7 @@ class SampleSequence:
     Everything is found when first asked for: most sequences are regular, which is quickly seen.
     """
 
-    def __init__(self, paths: AssetSamples, samples: Sequence[Sample]) -> None:
+    def __init__(self, paths: AssetSamples, samples: Sequence[AssetSample]) -> None:
         self.paths = paths
         self.samples = samples
         self.times: list[float] = list(map(attrgetter("time"), samples))
@@ -59,7 +59,7 @@ class SampleSequence:
         """The most frequent step."""
         return self.steps[0] if self.is_even else most_frequent(self.steps)
 
-    def exists(self, sample: Sample, path: str) -> bool:
+    def exists(self, sample: AssetSample, path: str) -> bool:
         """Whether a file is where `path` would lead in place of the sample's own."""
         folder, name = split_path(path)
         key = (sample.time, folder)

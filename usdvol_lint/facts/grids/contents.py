@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Hashable
 from typing import Any, NamedTuple, TypeVar
 
-from usdvol_lint.facts.files.assets import Sample
+from usdvol_lint.facts.files.assets import AssetSample
 from usdvol_lint.facts.grids.claims import Claim
 from usdvol_lint.volumefile import tokens
 from usdvol_lint.volumefile.cache import Fault, Reading
@@ -24,7 +24,7 @@ class Content(NamedTuple):
     `wanted` is the format of files that the field's schema asks for.
     """
 
-    sample: Sample
+    sample: AssetSample
     claim: Claim
     reading: Reading
     wanted: Format

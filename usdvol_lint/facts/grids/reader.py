@@ -8,7 +8,7 @@ from typing import Any
 
 from pxr import Ar
 
-from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.grids.claims import Claim, FieldClaims
@@ -36,7 +36,7 @@ class ContentReader:
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
         self._kinds: dict[Hashable, Kind] = {}
-        self._alone: dict[tuple[Sample, FieldClaims, Format], Timeline] = {}
+        self._alone: dict[tuple[AssetSample, FieldClaims, Format], Timeline] = {}
 
     def read(
         self,
@@ -116,7 +116,7 @@ class ContentReader:
         return self._files.read(package, offset, size)
 
 
-def _moments(samples: AssetSamples, claims: FieldClaims) -> Iterator[tuple[Sample, Claim]]:
+def _moments(samples: AssetSamples, claims: FieldClaims) -> Iterator[tuple[AssetSample, Claim]]:
     """The samples of a file path, and those at times when what the field says changes."""
     if not claims.times:
         for sample in samples.samples:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeVar
 
-from usdvol_lint.facts.files.assets import Affected, Sample
+from usdvol_lint.facts.files.assets import Affected, AssetSample
 from usdvol_lint.facts.grids.contents import Content, Kind
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.volumefile.model import Grid
@@ -25,7 +25,7 @@ class Timeline:
     kinds: tuple[tuple[Kind, list[Content]], ...]
     total: int
 
-    def answers(self, key: Callable[[Content], _K | None]) -> list[tuple[Sample, _K | None]]:
+    def answers(self, key: Callable[[Content], _K | None]) -> list[tuple[AssetSample, _K | None]]:
         """What a key function gives for each file, in ascending time, the default first."""
         found = [
             (content.sample, kind.answer(key))
@@ -107,5 +107,5 @@ def _place_of_grid(content: Content) -> int | None:
     return file.grids.index(grid) if file and grid else None
 
 
-def _in_time(sample: Sample) -> tuple[bool, float]:
+def _in_time(sample: AssetSample) -> tuple[bool, float]:
     return sample.time is not None, sample.time or 0.0
