@@ -58,12 +58,10 @@ __all__ = [
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.assets import AssetSample
-    from usdvol_lint.facts.grids.contents import Content
-    from usdvol_lint.facts.grids.contents import Kind as ContentClass
+    from usdvol_lint.facts.grids.contents import Content, ContentClass
 else:
-    Content = ContentClass = AssetSample = (
-        Any  # so that rules can be loaded where pxr is not imported
-    )
+    # Rules can be loaded where pxr is not imported.
+    AssetSample = Content = ContentClass = Any
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 

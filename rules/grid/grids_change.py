@@ -6,7 +6,7 @@ from usdvol_lint.rule import WARNING, Facts, Grids, Prim, Problem, Problems, Whe
 @rule(
     "GRD013",
     on="FieldAsset",
-    when=When(Grids.content_classes, lambda kinds: len(kinds) > 1),
+    when=When(Grids.content_classes, lambda classes: len(classes) > 1),
     severity=WARNING,
     since="0.1",
 )

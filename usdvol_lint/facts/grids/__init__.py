@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files import Files
     from usdvol_lint.facts.grids.changes import GridChanges
     from usdvol_lint.facts.grids.claims import ClaimReader, FieldClaims
-    from usdvol_lint.facts.grids.contents import Kind
+    from usdvol_lint.facts.grids.contents import ContentClass
     from usdvol_lint.facts.grids.reader import ContentReader
     from usdvol_lint.facts.grids.timelines import FieldContents, Timeline
     from usdvol_lint.facts.prims.tables import Table, Tables
@@ -54,9 +54,11 @@ class Grids(Wing):
         return self._content_reader.read(paths, claims, table.authored)
 
     @summary
-    def content_classes(self, table: Table) -> Sequence[tuple[Kind, ...]]:
+    def content_classes(self, table: Table) -> Sequence[tuple[ContentClass, ...]]:
         """The classes of what is inside the files that a field names."""
-        return [tuple([kind for kind, _ in each.kinds]) for each in self.timelines.each(table)]
+        return [
+            tuple([each for each, _ in timeline.classes]) for timeline in self.timelines.each(table)
+        ]
 
     def contents(self, field: Any) -> FieldContents:
         """What is inside the files that a field names."""
@@ -70,7 +72,7 @@ class Grids(Wing):
         Of the fields that share a sequence, the first one is told.
         """
         timeline = self.timelines(field)
-        if len(timeline.kinds) < 2:
+        if len(timeline.classes) < 2:
             return None
         from usdvol_lint.facts.grids.changes import find_grid_changes
 

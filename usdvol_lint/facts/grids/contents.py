@@ -135,7 +135,7 @@ class Content(NamedTuple):
         return hints.fitting if hints.strength == "strong" else ()
 
 
-class Kind:
+class ContentClass:
     """What contents have in common that a rule says the same of; `content` is the first of them.
 
     It is shared by all fields of a stage, so a rule makes up its mind once.

@@ -12,7 +12,7 @@ from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.grids.claims import Claim, FieldClaims
-from usdvol_lint.facts.grids.contents import Content, Kind
+from usdvol_lint.facts.grids.contents import Content, ContentClass
 from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.facts.usd.steps import StepSamples, Time
@@ -35,7 +35,7 @@ class ContentReader:
         self._formats: dict[frozenset[str], Format | None] = {}
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
-        self._kinds: dict[Hashable, Kind] = {}
+        self._classes: dict[Hashable, ContentClass] = {}
         self._alone: dict[tuple[AssetSample, FieldClaims, Format], Timeline] = {}
 
     def read(
@@ -62,20 +62,20 @@ class ContentReader:
         return found
 
     def _read(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Timeline:
-        kinds: dict[Kind, list[Content]] = {}
+        classes: dict[ContentClass, list[Content]] = {}
         total = read = 0
         for sample, claim in _moments(samples, claims):
             total += sample.time is not None
             if sample.state is AssetState.FILE:
                 content = Content(sample, claim, self._reading(sample.resolved), wanted)
-                kinds.setdefault(self._kind(content), []).append(content)
+                classes.setdefault(self._class_of(content), []).append(content)
                 read += 1
                 if self._extent == "first":
                     total = int(sample.time is not None)
                     break
                 if read % _READ_TOGETHER == 0:
                     self._advance(_READ_TOGETHER)
-        return Timeline(tuple(kinds.items()), total)
+        return Timeline(tuple(classes.items()), total)
 
     def _wanted(self, schemas: frozenset[str]) -> Format | None:
         """The format of files that fields of these schemas ask for."""
@@ -84,13 +84,13 @@ class ContentReader:
             self._formats[schemas] = next(named, None)
         return self._formats[schemas]
 
-    def _kind(self, content: Content) -> Kind:
+    def _class_of(self, content: Content) -> ContentClass:
         _, claim, reading, wanted = content
         key = (claim, reading.kind, wanted, content.unexpected_format)
-        kind = self._kinds.get(key)
-        if kind is None:
-            kind = self._kinds[key] = Kind(content)
-        return kind
+        found = self._classes.get(key)
+        if found is None:
+            found = self._classes[key] = ContentClass(content)
+        return found
 
     def _reading(self, resolved: str) -> Reading:
         reading = self._readings.get(resolved)
