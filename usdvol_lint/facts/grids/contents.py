@@ -10,7 +10,7 @@ from usdvol_lint.facts.files.assets import AssetSample
 from usdvol_lint.facts.grids.claims import Claim
 from usdvol_lint.volumefile import tokens
 from usdvol_lint.volumefile.cache import Fault, Reading
-from usdvol_lint.volumefile.model import Format, Grid, VolumeFile, quoted
+from usdvol_lint.volumefile.model import Format, Grid, VolumeFile, quoted_short
 
 _NAMES = 8
 _UNREAD = ("needs-h5py", "not-in-place")
@@ -108,7 +108,7 @@ class Content(NamedTuple):
     @property
     def label(self) -> str:
         """The label of the grid that is selected, in quotes; empty where there is none."""
-        return quoted(self.grid.label) if self.grid else ""
+        return quoted_short(self.grid.label) if self.grid else ""
 
     @property
     def data_types(self) -> tuple[str, ...]:
@@ -159,4 +159,4 @@ class ContentClass:
 def _shown(grid: Grid) -> str:
     if not (grid.name or grid.unique_name):
         return "an unnamed grid"
-    return quoted(f"{grid.purpose}:{grid.label}" if grid.purpose else grid.label)
+    return quoted_short(f"{grid.purpose}:{grid.label}" if grid.purpose else grid.label)
