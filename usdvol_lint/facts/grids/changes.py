@@ -32,10 +32,12 @@ def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
     Where no more than half of the frames agree, nobody knows which are the odd ones.
     """
     first = fields[0]
-    fits = zip(*([fit for _, fit in field.all.answers(_fits)] for field in fields), strict=True)
+    fits = zip(
+        *([fit for _, fit in field.timeline.answers(_fits)] for field in fields), strict=True
+    )
     frames = [
         (sample, grids or ())
-        for (sample, grids), fit in zip(first.all.answers(_grids), fits, strict=True)
+        for (sample, grids), fit in zip(first.timeline.answers(_grids), fits, strict=True)
         if sample.time is not None and all(fit)
     ]
     counts = Counter(grids for _, grids in frames)
@@ -43,7 +45,9 @@ def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
     if not len(frames) / 2 < count < len(frames):
         return None
     differing = [(sample, grids) for sample, grids in frames if grids != usual]
-    found = Affected(first.attribute, tuple(sample for sample, _ in differing), first.all.total)
+    found = Affected(
+        first.attribute, tuple(sample for sample, _ in differing), first.timeline.total
+    )
     return GridChanges(found, _difference(dict(differing[0][1]), dict(usual)))
 
 

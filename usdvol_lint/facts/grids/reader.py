@@ -27,10 +27,10 @@ _NOTHING = Timeline((), 0)
 class ContentReader:
     """Reads the files of a stage's fields, each once."""
 
-    def __init__(self, files: VolumeFiles, extent: str, advance: Callable[[int], None]) -> None:
-        """`extent` is how many of a field's files are read: all, first or off."""
+    def __init__(self, files: VolumeFiles, depth: str, advance: Callable[[int], None]) -> None:
+        """`depth` is how many of a field's files are read: all, first or off."""
         self._files = files
-        self._extent = extent
+        self._depth = depth
         self._advance = advance
         self._formats: dict[frozenset[str], Format | None] = {}
         self._readings: dict[str, Reading] = {}
@@ -46,7 +46,7 @@ class ContentReader:
     ) -> list[Timeline]:
         """The contents of the files in the samples of `filePath` of many fields that are alike."""
         wanted = self._wanted(authored.schemas)
-        if not wanted or self._extent == "off":
+        if not wanted or self._depth == "off":
             return [_NOTHING for _ in samples]
         return [self._contents(*each, wanted) for each in zip(samples, claims, strict=True)]
 
@@ -70,7 +70,7 @@ class ContentReader:
                 content = Content(sample, claim, self._reading(sample.resolved), wanted)
                 classes.setdefault(self._class_of(content), []).append(content)
                 read += 1
-                if self._extent == "first":
+                if self._depth == "first":
                     total = int(sample.time is not None)
                     break
                 if read % _READ_TOGETHER == 0:

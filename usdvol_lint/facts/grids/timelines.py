@@ -45,14 +45,14 @@ class Timeline:
                     yield sample.time, reading.file.grids[place]
 
     @property
-    def select_grids(self) -> bool:
+    def selects_grids(self) -> bool:
         """Whether some file was looked into and has the grid that the field names."""
         return any(
             content_class.answer(_place_of_grid) is not None for content_class, _ in self.classes
         )
 
     @property
-    def have_no_data_type(self) -> bool:
+    def lacks_data_type(self) -> bool:
         """Whether the grids were found, and no `fieldDataType` stands for what they hold."""
         contents = [content_class.content for content_class, _ in self.classes]
         return bool(contents) and all(
@@ -78,7 +78,7 @@ class FieldContents(NamedTuple):
     """The contents of a field's files, and the attribute that names them."""
 
     attribute: Any
-    all: Timeline
+    timeline: Timeline
 
     def grouped(
         self, key: Callable[[Content], _K | None]
@@ -89,7 +89,7 @@ class FieldContents(NamedTuple):
         transforms and the numbers in messages, nor on the sample.
         """
         found: dict[_K, list[list[Content]]] = {}
-        for content_class, contents in self.all.classes:
+        for content_class, contents in self.timeline.classes:
             value = content_class.answer(key)
             if value is not None:
                 found.setdefault(value, []).append(contents)
@@ -100,7 +100,7 @@ class FieldContents(NamedTuple):
         if len(groups) > 1:
             together.sort(key=lambda content: _in_time(content.sample))
         samples = tuple(content.sample for content in together)
-        return together[0], Affected(self.attribute, samples, self.all.total)
+        return together[0], Affected(self.attribute, samples, self.timeline.total)
 
 
 def _place_of_grid(content: Content) -> int | None:

@@ -76,5 +76,5 @@ class Enclosure:
         for _, target in bindings.with_files():
             field = in_prototype(target.prim)
             timeline = self._grids.timelines(field)
-            if timeline.select_grids:
+            if timeline.selects_grids:
                 yield target, field, timeline

@@ -59,7 +59,7 @@ class Hulls:
         most = 0.0
         for timeline, placement in placed:
             if limit is None:
-                if timeline.select_grids:
+                if timeline.selects_grids:
                     return inf
                 continue
             known = timeline in self._at_rest
@@ -73,7 +73,7 @@ class Hulls:
         return most
 
     def _find_at_rest(self, timeline: Timeline) -> Hull | None:
-        found = self._hull(timeline, IDENTITY) if timeline.select_grids else _NOTHING
+        found = self._hull(timeline, IDENTITY) if timeline.selects_grids else _NOTHING
         self._at_rest[timeline] = found
         return found
 
