@@ -12,28 +12,29 @@ from usdvol_lint.model import quoted
 
 
 def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:
-    """The weaker time samples or clip set, in words, that a stronger default hides."""
+    """The time samples or clip set, in words, that a stronger default hides; None if none are."""
     specs = attribute.GetPropertyStack()
     if len(specs) < 2 and not clips:
-        return None  # so it is nearly always, and all that follows takes time
-    held = opinion(attribute, None)
-    if held is None or attribute.Get() is None or attribute.GetNumTimeSamples():
+        return None  # nearly always, and what follows is slow
+    default = opinion(attribute, None)
+    if default is None or attribute.Get() is None or attribute.GetNumTimeSamples():
         return None
     for spec in specs:
         if count := spec.layer.GetNumTimeSamplesForPath(spec.path):
             samples = "time sample" if count == 1 else f"{count} time samples"
             return f"the {samples} in {quoted(spec.layer.GetDisplayName())}"
     for clip_set in clips:
-        if clip_set.is_outranked_by(held.spec) and clip_set.layer_with_samples(attribute):
+        if clip_set.is_outranked_by(default.spec) and clip_set.layer_with_samples(attribute):
             return f"the value clips {quoted(clip_set.name)} on <{shown(clip_set.prim).path}>"
     return None
 
 
 @dataclass(frozen=True, slots=True)
 class UnlistedClips:
-    """Clips that hold samples of an attribute which their manifest does not declare.
+    """Clips that hold samples of an attribute that their manifest does not declare.
 
-    `clip` and `manifest` are the names of layers; `spec` names the manifest at `manifest_path`.
+    `clip` and `manifest` are display names of layers; `spec` is the prim spec that authors
+    `manifest_path`.
     """
 
     clip: str
@@ -46,9 +47,9 @@ def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips 
     """The clips that would give the attribute its values if the manifest declared it."""
     if not clips or attribute.GetNumTimeSamples():
         return None
-    held = opinion(attribute, None)
+    default = opinion(attribute, None)
     for clip_set in clips:
-        if held and clip_set.is_outranked_by(held.spec):
+        if default and clip_set.is_outranked_by(default.spec):
             return None
         manifest = clip_set.manifest
         declared = open_layer(manifest) if manifest else None

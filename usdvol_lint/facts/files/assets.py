@@ -1,4 +1,4 @@
-"""The values of an asset attribute, classified, and those of them that a finding is about."""
+"""The values of an asset attribute, and those of them that a finding is about."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from operator import attrgetter
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.files.paths import anchored, extension_of
-from usdvol_lint.facts.files.states import PLACES, AssetState
+from usdvol_lint.facts.files.states import ON_DISK_OR_PATTERN, AssetState
 from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
 from usdvol_lint.facts.usd.values import Occurrences
 from usdvol_lint.model import frame_ranges, quoted
@@ -22,9 +22,11 @@ _PATH_OF = attrgetter("path")
 class AssetSample(NamedTuple):
     """One value of an asset attribute.
 
-    `time` is None for the default; `authored` is as written, an expression where it is one and
-    `path` what it evaluates to; `resolved` is the file, without arguments for a file format;
-    `detail` says more of the state: the fault, the error, the variable, the scheme, the pattern.
+    `time` is a time code of the stage, None for the default.
+    `authored` is the text in the layer; where that is an expression, `path` is what it evaluates
+    to, elsewhere the same text.
+    `resolved` is the file that USD finds, without file format arguments; empty if it finds none.
+    `detail` depends on the state: the fault, the error, the variable, the scheme or the pattern.
     """
 
     time: float | None
@@ -36,7 +38,7 @@ class AssetSample(NamedTuple):
 
     @property
     def is_there(self) -> bool:
-        """Whether it is a readable file with content."""
+        """Whether it names a readable file with content."""
         return self.state is AssetState.FILE
 
     @property
@@ -48,7 +50,7 @@ class AssetSample(NamedTuple):
 class AssetSamples(NamedTuple):
     """All samples of one asset attribute in ascending time, the default first.
 
-    `states` are those that occur: most rules find nothing, and need not look at each sample.
+    `states` are the states that occur: most rules see from them that there is nothing to find.
     """
 
     attribute: Any
@@ -62,43 +64,44 @@ class AssetSamples(NamedTuple):
         return self.affected(sample for sample in self.samples if sample.state in states)
 
     def matching(self, pattern: re.Pattern[str]) -> Affected | None:
-        """The samples that name a file, there or not, whose paths match from their start."""
-        if not any(map(pattern.match, map(_PATH_OF, self.samples))):  # no loop of ours: most do not
+        """The samples that name files, there or not, whose paths match from their start."""
+        # Most match nowhere, which `any` and `map` find without a loop in Python.
+        if not any(map(pattern.match, map(_PATH_OF, self.samples))):
             return None
         return self.affected(
             sample
             for sample in self.samples
-            if sample.state in PLACES and pattern.match(sample.path)
+            if sample.state in ON_DISK_OR_PATTERN and pattern.match(sample.path)
         )
 
     def affected(self, samples: Iterable[AssetSample]) -> Affected | None:
-        """Some of the samples, or None if there are none."""
+        """These samples as what a finding is about, or None if there are none."""
         found = tuple(samples)
         timed = sum(sample.time is not None for sample in self.samples) if found else 0
         return Affected(self.attribute, found, timed) if found else None
 
     def anchored(self, sample: AssetSample) -> str:
-        """The absolute path that a sample would have, did it exist."""
+        """The absolute path of a sample, whether or not anything is there."""
         return anchored(self.attribute, sample.time, sample.path)
 
     def by_detail(self, *states: AssetState) -> Iterator[Affected]:
-        """The samples in one of these states, apart for each detail."""
-        found = self.of(*states)
-        if found:
-            apart: dict[str, list[AssetSample]] = defaultdict(list)
-            for sample in found.samples:
-                apart[sample.detail].append(sample)
-            yield from (replace(found, samples=tuple(samples)) for samples in apart.values())
+        """The samples in one of these states, grouped by their detail."""
+        affected = self.of(*states)
+        if affected:
+            groups: dict[str, list[AssetSample]] = defaultdict(list)
+            for sample in affected.samples:
+                groups[sample.detail].append(sample)
+            yield from (replace(affected, samples=tuple(group)) for group in groups.values())
 
     @property
     def names_a_path(self) -> bool:
-        """Whether there is a value of some kind at some time."""
+        """Whether any value is neither empty nor blocked."""
         return not self.states <= {AssetState.EMPTY, AssetState.BLOCKED}
 
 
 @dataclass(frozen=True, slots=True)
 class Affected(Occurrences):
-    """Some of an attribute's samples, with what a finding says of them."""
+    """The samples that a finding is about, and what its message says of them."""
 
     samples: tuple[AssetSample, ...]
 
@@ -108,6 +111,7 @@ class Affected(Occurrences):
 
     @property
     def asset(self) -> str:
+        """The first path as authored, which the line of the finding points to."""
         return self.first.authored
 
     @property
@@ -118,7 +122,7 @@ class Affected(Occurrences):
         return f"{quoted(first.path)}{origin}"
 
     def _more(self, times: Sequence[float]) -> Iterator[str]:
-        """The frames as authored where they differ, and the layers where there are several."""
+        """The frames as authored if a layer offset moves them, and the layers if several."""
         authored = self._authored(times)
         if authored != times:
             frames = "frame" if len(authored) == 1 else "frames"
@@ -129,20 +133,21 @@ class Affected(Occurrences):
             yield f"in {len(layers)} layers: {', '.join(layers[:_LAYERS_NAMED])}{more}"
 
     def _authored(self, times: Sequence[float]) -> Sequence[float]:
-        """The times as the layer of the first sample has them, before its layer offset."""
-        held = opinion(self.attribute, times[0])
-        if held is None or held.offset.IsIdentity():
+        """The stage times in the time of the layer that holds the first sample."""
+        strongest = opinion(self.attribute, times[0])
+        if strongest is None or strongest.offset.IsIdentity():
             return times
-        inverse = held.offset.GetInverse()
+        inverse = strongest.offset.GetInverse()
         return tuple(sorted(inverse * time for time in times))
 
     def _layers(self, times: Sequence[float]) -> list[str]:
         """The names of the layers that hold the samples; only clips spread them over several."""
         from_clips = is_from_clips(self.attribute, times[0])
-        asked = self.samples if from_clips else (self.samples[0], self.samples[-1])
-        held = (opinion(self.attribute, sample.time) for sample in asked)
-        return list(dict.fromkeys(found.spec.layer.GetDisplayName() for found in held if found))
+        samples = self.samples if from_clips else (self.samples[0], self.samples[-1])
+        opinions = (opinion(self.attribute, sample.time) for sample in samples)
+        names = (each.spec.layer.GetDisplayName() for each in opinions if each)
+        return list(dict.fromkeys(names))
 
     def anchored(self) -> str:
-        """The absolute path that the first sample would have, did it exist."""
+        """The absolute path of the first sample, whether or not anything is there."""
         return anchored(self.attribute, self.first.time, self.first.path)

@@ -1,4 +1,4 @@
-"""Reads the values of asset attributes, and classifies each by what it leads to."""
+"""Reads the values of asset attributes, and classifies each by what it resolves to."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from usdvol_lint.facts.usd.opinions import opinion
 from usdvol_lint.facts.usd.values import read_values
 
 _LIVE_SCHEMES = frozenset({"op", "opdef", "oplib"})
+"""Schemes of paths into a Houdini session."""
 _READ_TOGETHER = 1024
 _FILE = frozenset({AssetState.FILE})
 
@@ -31,12 +32,12 @@ class AssetReader:
     def __init__(self, disk: Disk, advance: Callable[[int], None]) -> None:
         self._disk = disk
         self._advance = advance
-        self._alone: dict[Any, tuple[AssetSample]] = {}
-        """Defaults that name files, which are the same wherever they are authored."""
+        self._defaults: dict[Any, tuple[AssetSample]] = {}
+        """The samples of defaults that resolve to files, by value: fields share them."""
 
     def read(self, batch: PrimBatch, name: str) -> list[AssetSamples]:
         """The values of an attribute of that name on each of many prims."""
-        known = self._alone
+        known = self._defaults
         return [
             AssetSamples(attribute, known[value], _FILE)
             if not count and isinstance(value, Sdf.AssetPath) and value in known
@@ -48,16 +49,17 @@ class AssetReader:
 
     def _read(self, attribute: Any, count: int, value: Any) -> AssetSamples:
         if count:
-            samples = tuple(self._classified(attribute))
-            return AssetSamples(attribute, samples, frozenset(each.state for each in samples))
+            samples = tuple(self._read_samples(attribute))
+            states = frozenset(sample.state for sample in samples)
+            return AssetSamples(attribute, samples, states)
         if value is None and not attribute.GetResolveInfo().ValueIsBlocked():
             return AssetSamples(attribute, (), frozenset())
-        alone = (_classify(attribute, None, value, self._disk),)
-        if alone[0].state is AssetState.FILE and FORMAT_ARGUMENTS not in alone[0].path:
-            self._alone[value] = alone
-        return AssetSamples(attribute, alone, frozenset({alone[0].state}))
+        default = _classify(attribute, None, value, self._disk)
+        if default.state is AssetState.FILE and FORMAT_ARGUMENTS not in default.path:
+            self._defaults[value] = (default,)
+        return AssetSamples(attribute, (default,), frozenset({default.state}))
 
-    def _classified(self, attribute: Any) -> Iterator[AssetSample]:
+    def _read_samples(self, attribute: Any) -> Iterator[AssetSample]:
         for number, (time, value) in enumerate(read_values(attribute), start=1):
             yield _classify(attribute, time, value, self._disk)
             if number % _READ_TOGETHER == 0:
@@ -74,7 +76,7 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Ass
         resolved = _resolved_without_arguments(attribute, time, path)
     fault = disk.fault(resolved) if resolved else None
     if fault is FileFault.BROKEN_LINK:
-        resolved, fault = "", None  # USD takes a link for a file, wherever it leads
+        resolved, fault = "", None  # USD resolves a link without asking where it leads
     if resolved and not fault:
         return AssetSample(time, authored_path(value) or path, path, resolved, AssetState.FILE)
     authored = authored_path(value) or _authored_in_layer(attribute, time) or path
@@ -85,22 +87,23 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Ass
 
 
 def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
-    held = opinion(attribute, time)
-    if held is None:
+    """The text in the layer, for a USD that forgets what it was evaluated from."""
+    strongest = opinion(attribute, time)
+    if strongest is None:
         return None
-    spec, offset = held
+    spec, offset = strongest
     value = None
     if time is not None:
-        there = offset.GetInverse() * time
-        _, *around = spec.layer.GetBracketingTimeSamplesForPath(spec.path, there)
-        nearest = min(around, key=lambda sample: abs(sample - there))
+        layer_time = offset.GetInverse() * time
+        _, *around = spec.layer.GetBracketingTimeSamplesForPath(spec.path, layer_time)
+        nearest = min(around, key=lambda sample: abs(sample - layer_time))
         value = spec.layer.QueryTimeSample(spec.path, nearest)
     value = value or spec.default
     return str(value.path) if isinstance(value, Sdf.AssetPath) else None
 
 
 def _resolved_without_arguments(attribute: Any, time: float | None, path: str) -> str:
-    """The file that a path with file format arguments names: USD versions do not agree here."""
+    """The file that a path with file format arguments names: USD versions differ in how."""
     with Ar.ResolverContextBinder(attribute.GetStage().GetPathResolverContext()):
         return str(Ar.GetResolver().Resolve(anchored(attribute, time, path)))
 
@@ -108,6 +111,7 @@ def _resolved_without_arguments(attribute: Any, time: float | None, path: str) -
 def _why_unresolved(
     attribute: Any, time: float | None, authored: str, path: str
 ) -> tuple[AssetState, str]:
+    """The state of a value that resolves to no file, and its detail."""
     if Sdf.VariableExpression.IsExpression(authored):
         variables = _expression_variables(attribute, time)
         result = Sdf.VariableExpression(authored).Evaluate(variables)
@@ -131,7 +135,7 @@ def _why_unresolved(
 
 
 def _expression_variables(attribute: Any, time: float | None) -> dict[str, Any]:
-    """The variables that USD knows where the opinion is."""
+    """The expression variables of the layer stack that holds the strongest opinion."""
     code = Usd.TimeCode.Default() if time is None else time
     node = attribute.GetResolveInfo(code).GetNode()
     return dict(node.layerStack.expressionVariables.GetVariables()) if node else {}

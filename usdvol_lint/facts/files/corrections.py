@@ -1,4 +1,4 @@
-"""Paths that lead nowhere, or by another case: why, and as which path each was probably meant."""
+"""Why nothing is at a path, and which path was probably meant."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from usdvol_lint.nearest import closest_match
 
 
 class Absence(NamedTuple):
-    """Why nothing is at a path, in words that follow it, and the path that was probably meant."""
+    """Why nothing is at a path, in words that follow it, and a similar path with a file, if any."""
 
     reason: str
     similar: str | None
 
 
 def find_absence(disk: Disk, path: str, authored: str) -> Absence:
-    """Why nothing is at an absolute path; `authored` is how it was written."""
+    """Why nothing is at an absolute path; `authored` is the text that it comes from."""
     authored, _ = Sdf.Layer.SplitIdentifier(authored)
     corrected = correct_case(disk, path, authored)
     if Ar.IsPackageRelativePath(path):
@@ -35,19 +35,19 @@ def find_absence(disk: Disk, path: str, authored: str) -> Absence:
         return Absence(f" in {quoted(os.path.basename(package))}", corrected)
     missing = _first_missing(path)
     folder, name = os.path.split(missing)
-    rest = path[len(missing) :]
-    shown = _with_end(authored, rest, "") if rest else authored
+    below = path[len(missing) :]
+    shown = _with_end(authored, below, "") if below else authored
     similar = None if corrected else _closest_name(disk, folder, name)
     if similar:
-        whole = os.path.exists(os.path.join(folder, similar) + rest)
-        corrected = _with_end(authored, name + rest, similar + rest if whole else similar)
+        has_file = os.path.exists(os.path.join(folder, similar) + below)
+        corrected = _with_end(authored, name + below, similar + below if has_file else similar)
     if os.path.islink(missing):
         return Absence(f": {_broken_link(missing)}", corrected)
-    return Absence(f": no folder {quoted(shown)}" if rest else "", corrected)
+    return Absence(f": no folder {quoted(shown)}" if below else "", corrected)
 
 
 def correct_case(disk: Disk, path: str, authored: str) -> str | None:
-    """The authored path as the folders spell it, if only the case differs; else None.
+    """The authored path as the disk spells it, if only the case differs; else None.
 
     `path` is its absolute form.
     """
@@ -64,9 +64,9 @@ def correct_case(disk: Disk, path: str, authored: str) -> str | None:
 
 
 def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
-    """The files that a path with a placeholder for the frame stands for, by frame number.
+    """The frame numbers and paths of the files that a path with a placeholder stands for.
 
-    `path` is the absolute form of `authored`, and the files are named as `authored` names them.
+    `path` is the absolute form of `authored`; the paths begin as `authored` does.
     """
     folder, name = os.path.split(path)
     found = matching_frames(name, disk.listing(folder))
@@ -76,19 +76,19 @@ def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
 def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
     shown, inner = Ar.SplitPackageRelativePathOuter(authored)
     reason, corrected = find_absence(disk, package, shown)
-    if corrected and corrected.endswith(os.path.splitext(shown)[1]):  # else it is a folder
+    if corrected and corrected.endswith(os.path.splitext(shown)[1]):  # else it corrects a folder
         corrected = str(Ar.JoinPackageRelativePath(corrected, inner))
     return Absence(reason or f": no package {quoted(shown)}", corrected)
 
 
 def _closest_name(disk: Disk, folder: str, name: str) -> str | None:
-    """The name in a folder that comes closest; another number is no misspelling."""
+    """The closest other name in a folder; a name with other numbers is no misspelling."""
     others = disk.names_numbered_alike(folder, name)
     return closest_match(name, (other for other in others if other != name))
 
 
 def _first_missing(path: str) -> str:
-    """The first part of an absolute path that is not there: a folder, or the whole path."""
+    """The topmost folder of an absolute path that does not exist, or the whole path."""
     while not os.path.exists(parent := os.path.dirname(path)) and parent != path:
         path = parent
     return path
@@ -105,7 +105,7 @@ def _broken_link(path: str) -> str:
 
 
 def _with_end(path: str, end: str, replacement: str) -> str:
-    """The path with another end; the replacement alone where the path does not end so."""
+    """The path with its end replaced; the replacement alone if the path does not end so."""
     return path.removesuffix(end) + replacement if path.endswith(end) else replacement
 
 

@@ -1,4 +1,4 @@
-"""The state of files on disk or in a package, each looked at once per stage."""
+"""The state of files and folders, on disk or in a package, each looked at once per stage."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
-LFS_SIGNATURE = LFS_POINTER
+LFS_SIGNATURE = LFS_POINTER  # `engine.stage` knows it by this name
 _LFS_POINTER_LIMIT = 1024
 _NUMBER = re.compile(r"[0-9]+")
 
@@ -23,7 +23,10 @@ _Numbers: TypeAlias = tuple[int, ...]
 
 
 class Disk:
-    """The state of files and the names in folders, kept for all variant selections of a stage."""
+    """Looks at files and folders, and keeps what it saw for all variant selections of a stage.
+
+    What it says of a folder it says of a package, `package.usdz`, too.
+    """
 
     def __init__(self) -> None:
         self._faults: dict[str, str | None] = {}
@@ -35,21 +38,17 @@ class Disk:
 
     @property
     def checked(self) -> int:
-        """How many distinct files were looked at."""
+        """How many distinct files were asked for their fault."""
         return len(self._faults)
 
     def fault(self, resolved: str) -> str | None:
-        """Why a resolved path can't be a readable file with content, or None.
-
-        Paths are absolute file names, or `package.usdz[inner]`; other forms, such as a URI that
-        an installed resolver answers for, are taken at the resolver's word.
-        """
+        """Why a resolved path is no readable file with content, or None; see `file_fault`."""
         if resolved not in self._faults:
             self._faults[resolved] = file_fault(resolved)
         return self._faults[resolved]
 
     def listing(self, folder: str) -> tuple[str, ...]:
-        """The names in a folder, or in a package, sorted; none if it can't be read."""
+        """The names in a folder, sorted; none if it can't be read."""
         if folder not in self._listings:
             names = _package_names if os.path.isfile(folder) else os.listdir
             try:
@@ -59,7 +58,7 @@ class Disk:
         return self._listings[folder]
 
     def names(self, folder: str) -> dict[str, str]:
-        """The names in a folder, or in a package, by themselves and by their lower case."""
+        """The names in a folder, by themselves and by their lower case."""
         if folder not in self._by_case:
             listing = self.listing(folder)
             lower = {name.lower(): name for name in listing}
@@ -67,15 +66,15 @@ class Disk:
         return self._by_case[folder]
 
     def names_numbered_alike(self, folder: str, name: str) -> Sequence[str]:
-        """The names in a folder, or in a package, whose numbers are those of a name."""
+        """The names in a folder whose numbers are the same as in `name`."""
         if folder not in self._by_numbers:
             self._by_numbers[folder] = _group_by_numbers(self.listing(folder))
         return self._by_numbers[folder].get(_numbers(name), ())
 
     def in_case(self, path: str, count: int) -> str | None:
-        """An absolute path with its last `count` names in the case that their folders list.
+        """An absolute path with its last `count` names as the folders on disk spell them.
 
-        None where nothing is there in any case.
+        None where nothing of that name is there in any case.
         """
         folder, name = os.path.split(path)
         if count == 0 or not name:
@@ -91,7 +90,7 @@ class Disk:
         return f"{actual_folder.rstrip('/')}/{actual_name}" if actual_name else None
 
     def ignores_case(self, path: str) -> bool:
-        """Whether the folder of a file that is there finds it under another case of its name."""
+        """Whether the file system finds an existing file under another case of its name."""
         folder, _, name = path.rpartition("/")
         if folder not in self._ignores_case:
             try:
@@ -103,7 +102,11 @@ class Disk:
 
 
 def file_fault(path: str) -> str | None:
-    """Why an absolute path, or one in a package, is no readable file with content, or None."""
+    """Why a path is no readable file with content, or None.
+
+    Paths are absolute, or `package.usdz[inner]`; of others, such as a URI that an installed
+    resolver answers for, there is no fault.
+    """
     if is_packaged(path):
         return _package_fault(path)
     if not os.path.isabs(path):
@@ -120,7 +123,7 @@ def file_fault(path: str) -> str | None:
         return FileFault.EMPTY
     if not status.st_mode & stat.S_IROTH and not os.access(path, os.R_OK):
         return FileFault.UNREADABLE
-    if len(LFS_SIGNATURE) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
+    if len(LFS_POINTER) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
         return FileFault.LFS_POINTER
     return None
 
@@ -128,7 +131,7 @@ def file_fault(path: str) -> str | None:
 def _starts_like_lfs(path: str) -> bool:
     try:
         with open(path, "rb", buffering=0) as file:  # Path takes three times as long
-            return file.read(len(LFS_SIGNATURE)) == LFS_SIGNATURE
+            return file.read(len(LFS_POINTER)) == LFS_POINTER
     except OSError:
         return False
 

@@ -19,12 +19,11 @@ _SHOWN = 4
 
 
 class Missing(NamedTuple):
-    """All samples that a sequence lacks.
+    """The samples that a sequence lacks.
 
-    `before` is the sample before the first of them, `present` the number of samples there are.
-    `paths` are what the missing ones would name, in the words of those around them, and `found`
-    those of the files that are there, by the time in the layer that holds the samples; `found` is
-    None where that can't be told.
+    `before` is the sample before the first of them; `present` is how many samples there are.
+    `times` are stage times; `paths` are the paths that the missing samples would have.
+    `found` are the layer times and paths of those whose files exist, None if that is unknown.
     """
 
     before: AssetSample
@@ -35,7 +34,7 @@ class Missing(NamedTuple):
 
     @property
     def advice(self) -> str:
-        """What to do, with the first of the samples that are to add, as a layer has them."""
+        """What to do, with the first of the samples to add as they are written in a layer."""
         if self.found is None:
             return "add the samples, or write the frames that are missing"
         if not self.found:
@@ -48,7 +47,7 @@ class Missing(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """Times between two samples where a regular run has none, with the numbers they would have."""
+    """A hole after one sample: the missing stage times, and the frame numbers at these."""
 
     before: AssetSample
     times: tuple[float, ...]
@@ -56,7 +55,7 @@ class Gap(NamedTuple):
 
 
 def find_missing(sequence: SampleSequence) -> Missing | None:
-    """The samples of all gaps, with those of their files that are there."""
+    """The missing samples of all gaps; None if there are none."""
     if sequence.is_even:
         return None
     numbering = sequence.numbering
@@ -66,27 +65,26 @@ def find_missing(sequence: SampleSequence) -> Missing | None:
     times: list[float] = []
     paths: list[str] = []
     found: list[tuple[float, str]] = []
-    can_tell = True
+    is_known = True
     for gap in gaps:
         times += gap.times
         named = [numbering.renumbered(gap.before.path, number) for number in gap.numbers]
         layer_times = _layer_times(sequence, gap)
-        can_tell &= layer_times is not None and None not in named
+        is_known &= layer_times is not None and None not in named
         for time, path in zip(layer_times or (), named, strict=False):
             if path:
                 paths.append(path)
                 if sequence.exists(gap.before, path):
                     found.append((time, path))
-    files = tuple(found) if can_tell else None
+    files = tuple(found) if is_known else None
     return Missing(gaps[0].before, len(sequence.samples), tuple(times), tuple(paths), files)
 
 
 def _gaps(sequence: SampleSequence, numbering: Numbering) -> list[Gap]:
-    """Where samples are missing in an otherwise regular run.
+    """Where samples are missing in an otherwise regular sequence.
 
-    The numbers of the files must leave out what the times leave out: where they go on as if
-    nothing was missing, a file is held on purpose.  So is the first sample if it stands alone,
-    such as a rest frame.
+    The frame numbers must skip as much as the times: if they go on without a jump, one file is
+    shown longer on purpose.  So is a lone first sample, such as a rest frame.
     """
     count, steps, usual = len(sequence.samples), sequence.steps, sequence.step
     irregular = [index for index, step in enumerate(steps) if step != usual]
@@ -99,16 +97,16 @@ def _gaps(sequence: SampleSequence, numbering: Numbering) -> list[Gap]:
     found = []
     for index in _isolated(irregular):
         length = round(steps[index] / usual)
-        left_out = _near(steps[index], length * usual)
-        if length > 1 and pace and left_out and _near(jumps[index], length * pace):
+        is_multiple = _near(steps[index], length * usual)
+        if length > 1 and pace and is_multiple and _near(jumps[index], length * pace):
             found.append((index, length))
     if sum(length - 1 for _, length in found) > count:
-        return []  # two ranges, and not one with something missing
+        return []  # more is missing than present: these are separate ranges
     return [_gap(sequence, numbers[index], index, length, pace) for index, length in found]
 
 
 def _isolated(irregular: Iterable[int]) -> Iterator[int]:
-    """Irregular steps that stand alone or in pairs, but for the first; longer runs are a retime."""
+    """Irregular steps, alone or in pairs, but for the first step: a longer run is a retime."""
     for _, members in groupby(enumerate(irregular), lambda item: item[1] - item[0]):
         run = [index for _, index in members]
         if len(run) <= 2 and run[0] > 0:
@@ -116,7 +114,7 @@ def _isolated(irregular: Iterable[int]) -> Iterator[int]:
 
 
 def _gap(sequence: SampleSequence, first: float, index: int, length: int, pace: float) -> Gap:
-    """The gap after the sample at `index`, whose number is `first`; it is `length` steps long."""
+    """The gap after the sample at `index`, whose frame number is `first`, `length` steps long."""
     start = sequence.times[index]
     step = (sequence.times[index + 1] - start) / length
     return Gap(
@@ -127,12 +125,12 @@ def _gap(sequence: SampleSequence, first: float, index: int, length: int, pace: 
 
 
 def _layer_times(sequence: SampleSequence, gap: Gap) -> list[float] | None:
-    """The times of a gap in the layer that holds the samples, or None if they have none there."""
+    """The times of a gap in the layer of the samples; None if a sample can't be added there."""
     attribute, time = sequence.paths.attribute, gap.before.time
-    held = opinion(attribute, time)
-    if held is None or gap.before.state not in ON_DISK or is_from_clips(attribute, time):
+    strongest = opinion(attribute, time)
+    if strongest is None or gap.before.state not in ON_DISK or is_from_clips(attribute, time):
         return None
-    inverse = held.offset.GetInverse()
+    inverse = strongest.offset.GetInverse()
     return [inverse * missing for missing in gap.times]
 
 

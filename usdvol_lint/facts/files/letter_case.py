@@ -1,4 +1,4 @@
-"""Paths that differ by case from the names that the folders hold."""
+"""Paths that differ from the names on disk in nothing but case."""
 
 from __future__ import annotations
 
@@ -17,29 +17,29 @@ from usdvol_lint.facts.files.states import ON_DISK
 
 
 class Recased(NamedTuple):
-    """Samples whose paths differ by case from what the folders hold; `path` corrects the first."""
+    """Samples whose paths differ by case from the names on disk; `path` corrects the first."""
 
     affected: Affected
     path: str
 
 
 def recased(paths: AssetSamples, disk: Disk) -> Recased | None:
-    """The samples whose file, or a folder above it, has its name in another case.
+    """The samples whose file, or a folder that they name, has another case on disk.
 
-    What resolves is looked at only where the file system ignores case.
+    Paths that resolve are looked at only where the file system ignores case.
     """
     folders = _Folders(paths, disk)
-    affected = paths.affected(filter(folders.have_in_another_case, paths.samples))
+    affected = paths.affected(filter(folders.have_another_case, paths.samples))
     if affected is None:
         return None
-    path = correct_case(disk, folders.place(affected.first), affected.first.path)
+    path = correct_case(disk, folders.absolute(affected.first), affected.first.path)
     return Recased(affected, path or affected.first.path)
 
 
 class _Folder(NamedTuple):
-    """The names in a folder, as `Files.names` has them; those in a package begin with `prefix`.
+    """The names in a folder, as `Disk.names` gives them; those in a package begin with `prefix`.
 
-    `differs` says whether the folder's own path has another case.
+    `differs` is whether the folder's own path has another case on disk.
     """
 
     names: Mapping[str, str]
@@ -48,7 +48,7 @@ class _Folder(NamedTuple):
 
 
 class _Folders:
-    """The folders that samples lead to, each looked at once, however many samples there are."""
+    """The folders of the samples' files, each looked at once, however many samples there are."""
 
     def __init__(self, paths: AssetSamples, disk: Disk) -> None:
         self._paths = paths
@@ -56,33 +56,34 @@ class _Folders:
         self._layers = SampleLayers(paths)
         self._known: dict[tuple[str, str, float | None], _Folder | None] = {}
 
-    def have_in_another_case(self, sample: AssetSample) -> bool:
-        """Whether a file is there, or would be, under another case of the path."""
+    def have_another_case(self, sample: AssetSample) -> bool:
+        """Whether there is a file whose path differs from the sample's in nothing but case."""
         if sample.state not in ON_DISK:
             return False
-        head, name = split_path(sample.path)
-        key = (head, sample.resolved.rpartition("/")[0], self._layers.key(sample))
+        folder_path, name = split_path(sample.path)
+        key = (folder_path, sample.resolved.rpartition("/")[0], self._layers.key(sample))
         if key not in self._known:
-            self._known[key] = self._look(sample, head)
+            self._known[key] = self._look(sample, folder_path)
         folder = self._known[key]
         if folder is None:
             return False
         name = folder.prefix + name
-        there = folder.names.get(name) or folder.names.get(name.lower())
-        return there is not None and (folder.differs or there != name)
+        actual = folder.names.get(name) or folder.names.get(name.lower())
+        return actual is not None and (folder.differs or actual != name)
 
-    def place(self, sample: AssetSample) -> str:
+    def absolute(self, sample: AssetSample) -> str:
         """The absolute path of a sample."""
         return sample.resolved or self._paths.anchored(sample)
 
-    def _look(self, sample: AssetSample, head: str) -> _Folder | None:
+    def _look(self, sample: AssetSample, folder_path: str) -> _Folder | None:
+        """The folder of a sample, `folder_path` in its path; None where no case can differ."""
         if sample.resolved and not self._disk.ignores_case(sample.resolved):
             return None
-        place = self.place(sample)
-        if Ar.IsPackageRelativePath(place):
-            package, inner = Ar.SplitPackageRelativePathOuter(place)
+        path = self.absolute(sample)
+        if Ar.IsPackageRelativePath(path):
+            package, inner = Ar.SplitPackageRelativePathOuter(path)
             folder, slash, _ = inner.rpartition("/")
             return _Folder(self._disk.names(package), folder + slash, differs=False)
-        folder = os.path.dirname(place)
-        there = self._disk.in_case(folder, count_names(head))
-        return _Folder(self._disk.names(there), "", there != folder) if there else None
+        folder = os.path.dirname(path)
+        actual = self._disk.in_case(folder, count_names(folder_path))
+        return _Folder(self._disk.names(actual), "", actual != folder) if actual else None

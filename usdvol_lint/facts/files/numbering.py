@@ -9,20 +9,24 @@ from itertools import islice, pairwise
 from typing import NamedTuple
 
 _DIGITS = re.compile(r"([0-9]+)")
-_NUMBERS = (re.compile(r"-?[0-9]+"), re.compile(r"-?[0-9]+\.[0-9]+"))  # the latter: sub-frames
+_NUMBERS = (re.compile(r"-?[0-9]+"), re.compile(r"-?[0-9]+\.[0-9]+"))  # whole frames, sub-frames
 _NO_NUMBER = math.nan
 
 
 class Numbering(NamedTuple):
-    """The number in each path, NaN where there is none, and which of its digit groups hold it."""
+    """The frame number in each path of a sequence.
+
+    `numbers` has one for each path, NaN if it has none; `groups` are the positions of the number
+    among the groups of digits in a path.
+    """
 
     numbers: list[float]
     groups: tuple[int, ...]
 
     def renumbered(self, path: str, number: float) -> str | None:
-        """A path of the sequence with another number in it, as wide as its own.
+        """A path of the sequence with another frame number, padded like its own.
 
-        None for a number below 0 or between two frames.
+        None if the number is negative or no integer.
         """
         number = round(number, 3)
         if number < 0 or not number.is_integer():
@@ -34,13 +38,13 @@ class Numbering(NamedTuple):
         return "".join(parts)
 
 
-def number(paths: Sequence[str]) -> Numbering | None:
-    """The last number that varies in the paths; most of them must be alike but for numbers."""
-    return _number_that_alone_differs(paths) or _number_of_most(paths)
+def find_numbering(paths: Sequence[str]) -> Numbering | None:
+    """The last number that varies, or None; most paths must differ in nothing but numbers."""
+    return _only_difference(paths) or _difference_of_most(paths)
 
 
-def _number_that_alone_differs(paths: Sequence[str]) -> Numbering | None:
-    """Quick, and enough for a sequence whose paths differ in one number and nothing else."""
+def _only_difference(paths: Sequence[str]) -> Numbering | None:
+    """The number, if the paths differ in nothing else: the usual case, and quick to see."""
     low, high = min(paths), max(paths)
     pairs = enumerate(zip(low, high, strict=False))
     same = next((index for index, (a, b) in pairs if a != b), len(low))
@@ -60,28 +64,31 @@ def _number_that_alone_differs(paths: Sequence[str]) -> Numbering | None:
 
 def _are_numbers(texts: Sequence[str]) -> bool:
     joined = "".join(texts)
-    if joined.isascii() and joined.isdecimal() and all(texts):  # nearly always, and at once
+    if joined.isascii() and joined.isdecimal() and all(texts):  # nearly always, and quick
         return True
     return all(any(pattern.fullmatch(text) for pattern in _NUMBERS) for text in texts)
 
 
-def _number_of_most(paths: Sequence[str]) -> Numbering | None:
-    """What two neighbours in the middle differ in, where most other paths are like them."""
+def _difference_of_most(paths: Sequence[str]) -> Numbering | None:
+    """The number that differs in two neighbouring paths, if most of the paths are like them.
+
+    The neighbours are taken from the middle: a rest frame may come first.
+    """
     neighbours = pairwise(islice(paths, len(paths) // 2 - 1, None))
     one, other = next((pair for pair in neighbours if pair[0] != pair[1]), ("", ""))
     parts, others = _DIGITS.split(one), _DIGITS.split(other)
-    places = [
-        place for place, pair in enumerate(zip(parts, others, strict=False)) if len({*pair}) > 1
-    ]
-    if len(parts) != len(others) or not places or not all(place % 2 for place in places):
+    pairs = enumerate(zip(parts, others, strict=False))
+    differing = [index for index, (part, other_part) in pairs if part != other_part]
+    # What `split` puts at odd positions are the groups of digits.
+    if len(parts) != len(others) or not differing or not all(index % 2 for index in differing):
         return None
-    last = places[-1]
-    shape = [re.escape(part) for part in parts]
-    for place in places:
-        shape[place] = "([0-9]+)" if place == last else "[0-9]+"
-    found = list(map(re.compile("".join(shape)).fullmatch, paths))
-    if found.count(None) * 5 > len(paths):
+    last = differing[-1]
+    pattern = [re.escape(part) for part in parts]
+    for index in differing:
+        pattern[index] = "([0-9]+)" if index == last else "[0-9]+"
+    matches = list(map(re.compile("".join(pattern)).fullmatch, paths))
+    if matches.count(None) * 5 > len(paths):
         return None
-    numbers = [float(match[1]) if match else _NO_NUMBER for match in found]
-    same = [place // 2 for place in places if parts[place] == parts[last]]
-    return Numbering(numbers, tuple(same))
+    numbers = [float(match[1]) if match else _NO_NUMBER for match in matches]
+    equal = [index // 2 for index in differing if parts[index] == parts[last]]
+    return Numbering(numbers, tuple(equal))

@@ -13,14 +13,15 @@ from usdvol_lint.facts.files.sequences import SampleSequence, most_frequent
 from usdvol_lint.facts.files.states import ON_DISK
 
 _FEWEST = 5
-"""Fewer samples make no rule that another could break."""
+"""Fewer samples than this set no order that another could break."""
 _SLACK = 0.01
+"""How far, in frames, a number may lie from the expected one."""
 
 
 class OutOfOrder(NamedTuple):
-    """Samples whose frame numbers are out of the order that all others keep.
+    """Samples whose frame numbers break the order that all others keep.
 
-    `likely` is the path that the first of them would have in that order.
+    `likely` is the path that the first of them would have in that order, if there is one.
     """
 
     affected: Affected
@@ -30,8 +31,9 @@ class OutOfOrder(NamedTuple):
 def find_out_of_order(sequence: SampleSequence) -> OutOfOrder | None:
     """The few samples that break the order of all others, or None if there are none.
 
-    Files that are held, skipped or played at another pace keep the order, and so do loops and
-    what stands at either end.  A number whose file is not there may have been replaced on purpose.
+    Files that are repeated, skipped or played at another pace keep the order, and so do loops and
+    what is added at either end.  Where the expected file does not exist, another may have replaced
+    it on purpose.
     """
     numbering = sequence.numbering
     if len(sequence.samples) < _FEWEST or not numbering:
@@ -62,9 +64,9 @@ def find_out_of_order(sequence: SampleSequence) -> OutOfOrder | None:
 
 
 class _Order(NamedTuple):
-    """The frame numbers of samples, and those that they would have if all followed the time.
+    """The frame numbers of samples, and those that are expected from the times.
 
-    `pace` is how far the numbers go in one unit of time.
+    `pace` is the number of frames in one unit of time.
     """
 
     numbers: Sequence[float]
@@ -73,19 +75,22 @@ class _Order(NamedTuple):
 
     @property
     def outside(self) -> list[bool]:
-        """Whether each number is another than expected."""
+        """Whether each number differs from the expected one."""
         pairs = zip(self.numbers, self.expected, strict=True)
         return [abs(number - expected) > _SLACK for number, expected in pairs]
 
     def runs_outside(self) -> Iterator[list[int]]:
-        """The positions of neighbouring samples whose numbers are not as expected."""
+        """The positions of each run of samples whose numbers differ from the expected ones."""
         outside = self.outside
         for is_outside, positions in groupby(range(len(outside)), outside.__getitem__):
             if is_outside:
                 yield list(positions)
 
     def is_broken_by(self, run: list[int]) -> bool:
-        """Whether the numbers at these positions are out of order with those around them."""
+        """Whether the numbers of a run go back against those before and after it.
+
+        At either end of the sequence, whether they are the expected numbers in another order.
+        """
         first, last = run[0], run[-1]
         if first == 0 or last == len(self.numbers) - 1:
             return sorted(self.numbers[first : last + 1]) == sorted(self.expected[first : last + 1])
@@ -94,9 +99,9 @@ class _Order(NamedTuple):
 
 
 def _find_order(times: Sequence[float], numbers: Sequence[float]) -> _Order | None:
-    """The order that most samples keep, or None where none or too many break it."""
+    """The order that most samples keep, or None if no sample or too many break it."""
     if len({number - time for time, number in zip(times, numbers, strict=True)}) == 1:
-        return None  # all keep it, as nearly always
+        return None  # all samples keep one order, as nearly always
     pace = most_frequent(
         (number - previous) / (time - before)
         for (before, time), (previous, number) in zip(
@@ -113,7 +118,7 @@ def _find_order(times: Sequence[float], numbers: Sequence[float]) -> _Order | No
 
 
 def _may_exist(sequence: SampleSequence, numbering: Numbering, index: int, number: float) -> bool:
-    """Whether the file with the number that a sample should have is there, as far as is known."""
+    """Whether there may be a file with the number that is expected of a sample."""
     sample = sequence.samples[index]
     path = numbering.renumbered(sample.path, number)
     return sample.state not in ON_DISK or not path or sequence.exists(sample, path)

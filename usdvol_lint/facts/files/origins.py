@@ -1,4 +1,4 @@
-"""In which layer and package the samples of an asset attribute are, and their files are too."""
+"""The layers and packages that samples are authored in, and how their files lie to these."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from usdvol_lint.facts.usd.opinions import is_from_clips, opinion
 
 
 def outside_package(paths: AssetSamples) -> Affected | None:
-    """The samples in a package, or in layers of a stage that is one, whose files lie outside it."""
+    """The samples authored in a package, or on a stage that is one, whose files lie outside it."""
     layers = SampleLayers(paths)
     root = package_of(paths.attribute.GetStage().GetRootLayer())
     return paths.affected(
@@ -27,7 +27,7 @@ def outside_package(paths: AssetSamples) -> Affected | None:
 
 
 def package_of(layer: Any | None) -> str:
-    """The package on disk that a layer is in, or is the root of; empty where there is none."""
+    """The path of the package that a layer lies in, or is the root of; empty if there is none."""
     if layer is None:
         return ""
     path = str(layer.realPath)
@@ -37,9 +37,9 @@ def package_of(layer: Any | None) -> str:
 
 
 def below_layer(affected: Affected) -> str | None:
-    """The first path in relation to the folder of the layer that holds it, if it lies below it."""
-    held = opinion(affected.attribute, affected.first.time)
-    folder = os.path.dirname(held.spec.layer.realPath) if held else ""
+    """The first path relative to the folder of its layer, if it lies below that; else None."""
+    strongest = opinion(affected.attribute, affected.first.time)
+    folder = os.path.dirname(strongest.spec.layer.realPath) if strongest else ""
     below = affected.first.path.removeprefix(f"{folder}/")
     return f"./{below}" if folder and below != affected.first.path else None
 
@@ -49,7 +49,7 @@ def _is_in(package: str, path: str) -> bool:
 
 
 class SampleLayers:
-    """The layers that hold samples: one for all time samples, unless they come from clips."""
+    """The layers that hold the samples: one for all time samples, unless they come from clips."""
 
     def __init__(self, paths: AssetSamples) -> None:
         self._paths = paths
@@ -59,12 +59,12 @@ class SampleLayers:
         """The layer that holds a sample."""
         time = self.key(sample)
         if time not in self._known:
-            held = opinion(self._paths.attribute, time)
-            self._known[time] = held.spec.layer if held else None
+            strongest = opinion(self._paths.attribute, time)
+            self._known[time] = strongest.spec.layer if strongest else None
         return self._known[time]
 
     def key(self, sample: AssetSample) -> float | None:
-        """A time at which the layer is that of the sample, the same for many samples."""
+        """A time that stands for all samples in the layer of this one."""
         return sample.time if sample.time is None or self._from_clips else self._last
 
     @cached_property

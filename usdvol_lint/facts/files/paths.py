@@ -1,4 +1,4 @@
-"""Asset paths as text, and the absolute paths that they stand for."""
+"""Asset paths: their parts as text, and the absolute path of each."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from pxr import Ar, Sdf
 from usdvol_lint.facts.usd.opinions import opinion
 
 FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
-"""What separates a file from arguments for the plugin that reads it."""
+"""Stands between a path and the arguments for the file format plugin that reads it."""
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
 
 
 def split_path(path: str) -> tuple[str, str]:
-    """The folder of a path, without its last slash, and the file name, without arguments."""
+    """The folder of a path and the name of the file, without a slash between, and no arguments."""
     folder, _, name = path.partition(FORMAT_ARGUMENTS)[0].rpartition("/")
     return folder, name
 
@@ -28,7 +28,7 @@ def extension_of(path: str) -> str:
 
 
 def count_names(path: str) -> int:
-    """How many names a path has that folders list: those after `.` and `..`."""
+    """How many names a path has that folders list, so without `.` and `..`."""
     names = os.path.normpath(path).replace(os.sep, "/").split("/")
     return sum(name not in ("", ".", "..") for name in names)
 
@@ -39,7 +39,7 @@ def is_packaged(path: str) -> bool:
 
 
 def is_uri(path: str) -> bool:
-    """Whether a path has a scheme that no resolver here answers for."""
+    """Whether a path has a scheme that no installed resolver answers for."""
     if ":" not in path:
         return False
     scheme = _SCHEME.match(Sdf.Layer.SplitIdentifier(path)[0])
@@ -47,13 +47,16 @@ def is_uri(path: str) -> bool:
 
 
 def anchored(attribute: Any, time: float | None, path: str) -> str:
-    """The absolute path, in relation to the layer that holds the opinion, without arguments."""
+    """The absolute path of a value, without arguments, whether or not anything is there.
+
+    It is anchored at the layer that holds the strongest opinion at a time; None is the default.
+    """
     bare = str(Sdf.Layer.SplitIdentifier(path)[0])
-    held = opinion(attribute, time)
-    if held is None:
+    strongest = opinion(attribute, time)
+    if strongest is None:
         return bare
-    layer = held.spec.layer
+    layer = strongest.spec.layer
     absolute = str(layer.ComputeAbsolutePath(bare))
-    # USD leaves a bare name that it finds nowhere to the resolver's search path.
+    # USD leaves a bare name that it does not find as it is, for the resolver's search path.
     searched = absolute == bare and not (os.path.isabs(bare) or is_uri(bare))
     return str(layer.ComputeAbsolutePath(f"./{bare}")) if searched else absolute

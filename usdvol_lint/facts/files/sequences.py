@@ -11,7 +11,7 @@ from operator import attrgetter, sub
 from pxr import Ar
 
 from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
-from usdvol_lint.facts.files.numbering import Numbering, number
+from usdvol_lint.facts.files.numbering import Numbering, find_numbering
 from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.states import AssetState
 
@@ -19,9 +19,9 @@ _NO_PATH = frozenset({AssetState.BROKEN_EXPRESSION, AssetState.UNSET_VARIABLE})
 
 
 class SampleSequence:
-    """The time samples of an asset attribute, of which there are two at least, in ascending time.
+    """The time samples of an asset attribute, at least two, in ascending time.
 
-    Everything is found when first asked for: most sequences are regular, which is quickly seen.
+    Steps and numbers are found when first asked for.
     """
 
     def __init__(self, paths: AssetSamples, samples: Sequence[AssetSample]) -> None:
@@ -40,18 +40,18 @@ class SampleSequence:
     def numbering(self) -> Numbering | None:
         """The frame numbers in the paths, or None if no number varies."""
         if self.paths.states.isdisjoint(_NO_PATH):
-            return number(list(map(attrgetter("path"), self.samples)))
-        return number(["" if s.state in _NO_PATH else s.path for s in self.samples])
+            return find_numbering(list(map(attrgetter("path"), self.samples)))
+        return find_numbering(["" if s.state in _NO_PATH else s.path for s in self.samples])
 
     @cached_property
     def steps(self) -> list[float]:
-        """The distances between neighbouring samples; without rounding errors unless all agree."""
+        """The times between neighbouring samples, rounded to 6 digits unless all are equal."""
         steps = list(map(sub, self.times[1:], self.times))
         return steps if len(set(steps)) == 1 else [round(step, 6) for step in steps]
 
     @cached_property
     def is_even(self) -> bool:
-        """Whether all steps are the same."""
+        """Whether all steps are equal."""
         return len(set(self.steps)) == 1
 
     @cached_property
@@ -60,7 +60,7 @@ class SampleSequence:
         return self.steps[0] if self.is_even else most_frequent(self.steps)
 
     def exists(self, sample: AssetSample, path: str) -> bool:
-        """Whether a file is where `path` would lead in place of the sample's own."""
+        """Whether there would be a file if the sample had this path."""
         folder, name = split_path(path)
         key = (sample.time, folder)
         if key not in self._folders:
@@ -72,14 +72,14 @@ class SampleSequence:
 
 
 def read_sequence(paths: AssetSamples) -> SampleSequence | None:
-    """The time samples as a sequence, or None if there are less than two."""
+    """The time samples as a sequence, or None if there are fewer than two."""
     samples = paths.samples
     timed = samples[1:] if samples and samples[0].time is None else samples
     return SampleSequence(paths, timed) if len(timed) > 1 else None
 
 
 def most_frequent(values: Iterable[float]) -> float:
-    """The first of those that occur most often, but for rounding; 0 if there are none."""
+    """The first of the values that occur most often after rounding to 6 digits; 0 if none."""
     found = list(values)
     rounded = [round(value, 6) for value in found]
     most = Counter(rounded).most_common(1)
