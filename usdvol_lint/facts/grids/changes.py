@@ -1,4 +1,4 @@
-"""Where along a sequence a file holds other grids than most."""
+"""The frames of a sequence that hold other grids than most of its frames."""
 
 from __future__ import annotations
 
@@ -18,40 +18,39 @@ Grids: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 
 @dataclass(frozen=True, slots=True)
 class GridChanges:
-    """The samples whose files differ from most, and how the first one of them does, in words."""
+    """The samples whose files differ from most, and how the first one does, in words."""
 
-    found: Affected
+    affected: Affected
     difference: str
 
 
 def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
     """Compares the frames of fields that share their files.
 
-    Files without grids, and such as could not be read to their end, are left out; and so are
-    frames in which some field does not find what it asks for, since that is said of the field.
-    Where no more than half of the frames agree, nobody knows which are the odd ones.
+    Left out are files without grids or not read to their end, and frames that lack what one of the
+    fields claims, which other rules report.
+    None unless more than half of the frames agree: else it is open which ones differ.
     """
     first = fields[0]
-    fits = zip(
-        *([fit for _, fit in field.timeline.answers(_fits)] for field in fields), strict=True
-    )
+    fits = ([fit for _, fit in field.timeline.answers(_fits)] for field in fields)
+    all_fit = map(all, zip(*fits, strict=True))
     frames = [
         (sample, grids or ())
-        for (sample, grids), fit in zip(first.timeline.answers(_grids), fits, strict=True)
-        if sample.time is not None and all(fit)
+        for (sample, grids), fit in zip(first.timeline.answers(_grids), all_fit, strict=True)
+        if fit and sample.time is not None
     ]
     counts = Counter(grids for _, grids in frames)
     usual, count = max(counts.items(), key=lambda item: item[1], default=((), 0))
     if not len(frames) / 2 < count < len(frames):
         return None
     differing = [(sample, grids) for sample, grids in frames if grids != usual]
-    found = Affected(
-        first.attribute, tuple(sample for sample, _ in differing), first.timeline.total
-    )
-    return GridChanges(found, _difference(dict(differing[0][1]), dict(usual)))
+    samples = tuple(sample for sample, _ in differing)
+    affected = Affected(first.attribute, samples, first.timeline.total)
+    return GridChanges(affected, _difference(dict(differing[0][1]), dict(usual)))
 
 
 def _fits(content: Content) -> bool:
+    """Whether a file was read to its end and has what the field claims."""
     file, claim, grid = content.file, content.claim, content.grid
     if file is None or not file.complete or not file.grids or (claim.name and not grid):
         return False
@@ -68,10 +67,10 @@ def _grids(content: Content) -> Grids:
 def _difference(grids: Mapping[str, tuple[str, ...]], usual: Mapping[str, tuple[str, ...]]) -> str:
     lacking = usual.keys() - grids.keys()
     added = grids.keys() - usual.keys()
-    others = sorted(name for name in grids.keys() & usual.keys() if grids[name] != usual[name])
     retyped = (
         f"has {quoted(name)} as {' and '.join(grids[name])} instead of {' and '.join(usual[name])}"
-        for name in others
+        for name in sorted(grids.keys() & usual.keys())
+        if grids[name] != usual[name]
     )
     words = [f"lacks {_listed(lacking)}" if lacking else "", *retyped]
     words.append(f"has {_listed(added)} beside" if added else "")

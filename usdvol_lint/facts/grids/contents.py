@@ -1,4 +1,4 @@
-"""The content of one file, held against what the field that names it says of it."""
+"""The content of one file, and how it compares with what the field claims about it."""
 
 from __future__ import annotations
 
@@ -12,16 +12,18 @@ from usdvol_lint.volumefile import tokens
 from usdvol_lint.volumefile.cache import Fault, Reading
 from usdvol_lint.volumefile.model import Format, Grid, VolumeFile, quoted_short
 
-_NAMES = 8
+_NAMES_SHOWN = 8
 _UNREAD = ("needs-h5py", "not-in-place")
+_ANNOUNCED: dict[str, Format] = {".nvdb": "nanovdb", ".vdb": "openvdb", ".f3d": "field3d"}
+"""The format that an extension announces."""
 
 _K = TypeVar("_K", bound=Hashable)
 
 
 class Content(NamedTuple):
-    """The content of one sample's file, and what the field says of it at that time.
+    """The content of one sample's file, and what the field claims about it at that time.
 
-    `wanted` is the format of files that the field's schema asks for.
+    `wanted` is the file format that the field's schema asks for.
     """
 
     sample: AssetSample
@@ -31,45 +33,45 @@ class Content(NamedTuple):
 
     @property
     def fault(self) -> Fault | None:
-        """What is wrong with a file that was read."""
+        """What is wrong with the file; None also if it was not read."""
         return None if self.unread else self.reading.fault
 
     @property
     def fault_message(self) -> str:
-        """The same in words; empty where nothing is wrong."""
+        """The fault in words, or empty."""
         return self.fault.message if self.fault else ""
 
     @property
     def unread(self) -> str | None:
-        """Why a file was not looked into, in words."""
+        """Why the file was not read, in words; None if it was."""
         fault = self.reading.fault
         return fault.message if fault and fault.code in _UNREAD else None
 
     @property
     def unexpected_format(self) -> Format | None:
-        """The format of the file if it is another than its extension or the schema lets expect.
+        """The file's format, if neither its extension nor the schema announces it; else None.
 
-        A NanoVDB file with an extension of its own is not the schema's, but read by some.
+        A NanoVDB file called `.nvdb` is announced: the schema does not ask for it, but some
+        renderers read it.
         """
         file = self.reading.file
         if file is None or file.format == self.wanted:
             return None
         extension = os.path.splitext(self.sample.resolved.rstrip("]"))[1].lower()
-        told = {".nvdb": "nanovdb", ".vdb": "openvdb", ".f3d": "field3d"}.get(extension)
-        return None if told == file.format else file.format
+        return None if _ANNOUNCED.get(extension) == file.format else file.format
 
     @property
     def file(self) -> VolumeFile | None:
-        """What can be relied on: of a truncated file as much as is there."""
+        """What was read, if it can be relied on; of a truncated file what comes before its end."""
         fault = self.reading.fault
-        sound = fault is None or fault.code == "truncated"
-        return self.reading.file if sound and not self.unexpected_format else None
+        is_sound = fault is None or fault.code == "truncated"
+        return self.reading.file if is_sound and not self.unexpected_format else None
 
     @property
     def grids(self) -> tuple[Grid, ...]:
-        """The grids of the field's name, in the order of the file.
+        """The grids with the name and purpose that the field claims, in the order of the file.
 
-        Where the field gives no name, the only grid is meant.
+        If it claims no name, the grid of a file that holds just one.
         """
         file, name, purpose = self.file, self.claim.name, self.claim.purpose
         if file is None:
@@ -79,55 +81,55 @@ class Content(NamedTuple):
             grids = tuple(grid for grid in grids if grid.purpose == purpose)
         if not name:
             return grids if file.complete and len(grids) == 1 else ()
-        found = (
+        named = (
             tuple(grid for grid in grids if getattr(grid, attribute) == name)
             for attribute in ("unique_name", "label", "name")
         )
-        return next(filter(None, found), ())
+        return next(filter(None, named), ())
 
     @property
     def holds(self) -> str:
-        """What the file holds, in words that follow `holds`."""
+        """The names of the grids in the file, in words that follow `holds`."""
         shown = [_shown(grid) for grid in self.file.grids] if self.file else []
-        if len(shown) > _NAMES:
-            shown[_NAMES - 1 :] = [f"{len(shown) - _NAMES + 1} more"]
+        if len(shown) > _NAMES_SHOWN:
+            shown[_NAMES_SHOWN - 1 :] = [f"{len(shown) - _NAMES_SHOWN + 1} more"]
         return ", ".join(shown) if shown else "no grids"
 
     @property
     def grid(self) -> Grid | None:
-        """The grid that name and index select, the first where there is no index."""
+        """The grid that the claimed name and index select, the first without an index; or None."""
         index = self.claim.index or 0
         grids = self.grids
         return grids[index] if 0 <= index < len(grids) else None
 
     @property
     def grid_names(self) -> frozenset[str]:
-        """The names of the grids in the file, as far as they can be relied on."""
+        """The names of the grids in the file."""
         return frozenset(grid.unique_name for grid in self.file.grids) if self.file else frozenset()
 
     @property
     def label(self) -> str:
-        """The label of the grid that is selected, in quotes; empty where there is none."""
+        """The label of the selected grid in quotes, or empty."""
         return quoted_short(self.grid.label) if self.grid else ""
 
     @property
     def data_types(self) -> tuple[str, ...]:
-        """The data types that fit the grid, the best one first."""
+        """The values of `fieldDataType` that fit the selected grid, the best one first."""
         return tokens.data_types(self.grid.value_type, self.grid.half) if self.grid else ()
 
     @property
     def field_class(self) -> str:
-        """The class of the grid; unknown where it says none, or its format has none."""
+        """The value of `fieldClass` that fits the selected grid, `unknown` if it has no class."""
         return tokens.field_class(self.grid.grid_class) if self.grid else "unknown"
 
     @property
     def written_class(self) -> str:
-        """The same as the file has it."""
+        """The class of the selected grid as the file spells it, or empty."""
         return self.grid.grid_class if self.grid else ""
 
     @property
     def role_hints(self) -> tuple[str, ...]:
-        """The roles that fit the grid's vectors; none where it tells nothing of them for sure."""
+        """The values of `vectorDataRoleHint` that fit the selected grid, none if any might."""
         grid = self.grid
         if grid is None or not grid.value_type.startswith("vec"):
             return ()
@@ -136,9 +138,10 @@ class Content(NamedTuple):
 
 
 class ContentClass:
-    """What contents have in common that a rule says the same of; `content` is the first of them.
+    """An equivalence class of contents: a rule's question has the same answer for all of them.
 
-    It is shared by all fields of a stage, so a rule makes up its mind once.
+    They differ in nothing but the sample, bounds, transforms and numbers in messages.
+    `content` is the first of them.  Fields of a stage share the classes.
     """
 
     __slots__ = ("_answers", "content")
@@ -148,12 +151,12 @@ class ContentClass:
         self._answers: dict[Hashable, Any] = {}
 
     def answer(self, key: Callable[[Content], _K | None]) -> _K | None:
-        """What a rule asks of these contents; `key` is known again if it is equal to itself."""
+        """What a key function gives for the first content; equal functions are called once."""
         answers = self._answers
         if key not in answers:
             answers[key] = key(self.content)
-        found: _K | None = answers[key]
-        return found
+        answer: _K | None = answers[key]
+        return answer
 
 
 def _shown(grid: Grid) -> str:

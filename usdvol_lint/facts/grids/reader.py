@@ -1,4 +1,4 @@
-"""Reads the files that the fields of a stage name, each once."""
+"""Reads the files that the fields of a stage name, each path once."""
 
 from __future__ import annotations
 
@@ -25,10 +25,13 @@ _NOTHING = Timeline((), 0)
 
 
 class ContentReader:
-    """Reads the files of a stage's fields, each once."""
+    """Reads the files of the fields of a stage."""
 
     def __init__(self, files: VolumeFiles, depth: str, advance: Callable[[int], None]) -> None:
-        """`depth` is how many of a field's files are read: all, first or off."""
+        """`depth` is how many of a field's files are read: all, first or off.
+
+        `advance` is told how many files were read since its last call.
+        """
         self._files = files
         self._depth = depth
         self._advance = advance
@@ -36,7 +39,7 @@ class ContentReader:
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
         self._classes: dict[Hashable, ContentClass] = {}
-        self._alone: dict[tuple[AssetSample, FieldClaims, Format], Timeline] = {}
+        self._single: dict[tuple[AssetSample, FieldClaims, Format], Timeline] = {}
 
     def read(
         self,
@@ -44,7 +47,10 @@ class ContentReader:
         claims: Iterable[FieldClaims],
         authored: Authored,
     ) -> list[Timeline]:
-        """The contents of the files in the samples of `filePath` of many fields that are alike."""
+        """The contents of each field's files; `authored` is what all the fields share.
+
+        `samples` are the values of their `filePath`.
+        """
         wanted = self._wanted(authored.schemas)
         if not wanted or self._depth == "off":
             return [_NOTHING for _ in samples]
@@ -56,15 +62,15 @@ class ContentReader:
         if len(samples.samples) > 1:
             return self._read(samples, claims, wanted)
         key = (samples.samples[0], claims, wanted)
-        found = self._alone.get(key)
+        found = self._single.get(key)
         if found is None:
-            found = self._alone[key] = self._read(samples, claims, wanted)
+            found = self._single[key] = self._read(samples, claims, wanted)
         return found
 
     def _read(self, samples: AssetSamples, claims: FieldClaims, wanted: Format) -> Timeline:
         classes: dict[ContentClass, list[Content]] = {}
         total = read = 0
-        for sample, claim in _moments(samples, claims):
+        for sample, claim in _with_claims(samples, claims):
             total += sample.time is not None
             if sample.state is AssetState.FILE:
                 content = Content(sample, claim, self._reading(sample.resolved), wanted)
@@ -78,7 +84,7 @@ class ContentReader:
         return Timeline(tuple(classes.items()), total)
 
     def _wanted(self, schemas: frozenset[str]) -> Format | None:
-        """The format of files that fields of these schemas ask for."""
+        """The file format that fields of these schemas ask for, or None."""
         if schemas not in self._formats:
             named = (format for name, format in _FORMATS.items() if name in schemas)
             self._formats[schemas] = next(named, None)
@@ -116,17 +122,17 @@ class ContentReader:
         return self._files.read(package, offset, size)
 
 
-def _moments(samples: AssetSamples, claims: FieldClaims) -> Iterator[tuple[AssetSample, Claim]]:
-    """The samples of a file path, and those at times when what the field says changes."""
+def _with_claims(samples: AssetSamples, claims: FieldClaims) -> Iterator[tuple[AssetSample, Claim]]:
+    """The samples with their claims; a sample recurs at each time at which the claim changes."""
     if not claims.times:
         for sample in samples.samples:
             yield sample, claims.default
         return
     files = StepSamples((sample.time, sample) for sample in samples.samples)
-    moments: list[Time] = [None] if files.default else []
-    for time in (*moments, *sorted({*files.times, *claims.times})):
-        if held_file := files.at(time):
-            yield held_file._replace(time=time), claims.at(time)
+    default: list[Time] = [None] if files.default else []
+    for time in (*default, *sorted({*files.times, *claims.times})):
+        if shown := files.at(time):
+            yield shown._replace(time=time), claims.at(time)
 
 
 def _unread(reason: str) -> Reading:

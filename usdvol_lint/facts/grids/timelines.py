@@ -16,10 +16,10 @@ _K = TypeVar("_K", bound=Hashable)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Timeline:
-    """The contents of all files that a field names, by class, in ascending time, the default first.
+    """The contents of all files that a field names, by class; those of a class ascend in time.
 
-    `total` is at how many times it was looked for them.  Fields that name the same single file and
-    say the same of it share one.
+    The default comes first.  `total` is the number of times at which files were looked for.
+    Fields that name the same one file and claim the same about it share one.
     """
 
     classes: tuple[tuple[ContentClass, list[Content]], ...]
@@ -35,25 +35,25 @@ class Timeline:
         return sorted(found, key=lambda pair: _in_time(pair[0]))
 
     def grids(self) -> Iterator[tuple[Time, Grid | None]]:
-        """The grid that name and index select, at each time."""
+        """The time of each file, class by class, and the grid that the field selects, if any."""
         for content_class, contents in self.classes:
-            place: Any = content_class.answer(_place_of_grid)
+            index: Any = content_class.answer(_grid_index)
             for sample, _, reading, _ in contents:
-                if place is None or reading.file is None:
+                if index is None or reading.file is None:
                     yield sample.time, None
                 else:
-                    yield sample.time, reading.file.grids[place]
+                    yield sample.time, reading.file.grids[index]
 
     @property
     def selects_grids(self) -> bool:
-        """Whether some file was looked into and has the grid that the field names."""
+        """Whether any file has the grid that the field selects."""
         return any(
-            content_class.answer(_place_of_grid) is not None for content_class, _ in self.classes
+            content_class.answer(_grid_index) is not None for content_class, _ in self.classes
         )
 
     @property
     def lacks_data_type(self) -> bool:
-        """Whether the grids were found, and no `fieldDataType` stands for what they hold."""
+        """Whether every file has the grid, and no value of `fieldDataType` fits it."""
         contents = [content_class.content for content_class, _ in self.classes]
         return bool(contents) and all(
             content.grid is not None and not content.data_types for content in contents
@@ -61,7 +61,7 @@ class Timeline:
 
     @property
     def single_grid(self) -> bool:
-        """Whether files were looked into, and each holds exactly one grid."""
+        """Whether files were read, and each holds exactly one grid."""
         files = [content_class.content.file for content_class, _ in self.classes]
         return bool(files) and all(
             file is not None and file.complete and len(file.grids) == 1 for file in files
@@ -69,7 +69,7 @@ class Timeline:
 
     @property
     def files(self) -> list[tuple[Time, str]]:
-        """The files and when they are named, which fields may share."""
+        """The times and paths of the files, in ascending time, the default first."""
         samples = [content.sample for _, contents in self.classes for content in contents]
         return [(sample.time, sample.resolved) for sample in sorted(samples, key=_in_time)]
 
@@ -83,28 +83,28 @@ class FieldContents(NamedTuple):
     def grouped(
         self, key: Callable[[Content], _K | None]
     ) -> Iterable[tuple[_K, Content, Affected]]:
-        """Each key that the contents have, None aside, with its first content and all samples.
+        """Each value of a key function but None, with its first content and all its samples.
 
-        The key is asked for once among contents of one class: it can't depend on bounds,
-        transforms and the numbers in messages, nor on the sample.
+        The function is called once for each class of contents, so it can't depend on the sample,
+        on bounds and transforms, nor on numbers in messages.
         """
-        found: dict[_K, list[list[Content]]] = {}
+        groups: dict[_K, list[list[Content]]] = {}
         for content_class, contents in self.timeline.classes:
             value = content_class.answer(key)
             if value is not None:
-                found.setdefault(value, []).append(contents)
-        return [(value, *self._affected(groups)) for value, groups in found.items()]
+                groups.setdefault(value, []).append(contents)
+        return [(value, *self._affected(lists)) for value, lists in groups.items()]
 
-    def _affected(self, groups: list[list[Content]]) -> tuple[Content, Affected]:
-        together = [content for contents in groups for content in contents]
-        if len(groups) > 1:
-            together.sort(key=lambda content: _in_time(content.sample))
-        samples = tuple(content.sample for content in together)
-        return together[0], Affected(self.attribute, samples, self.timeline.total)
+    def _affected(self, lists: list[list[Content]]) -> tuple[Content, Affected]:
+        contents = [content for each in lists for content in each]
+        if len(lists) > 1:
+            contents.sort(key=lambda content: _in_time(content.sample))
+        samples = tuple(content.sample for content in contents)
+        return contents[0], Affected(self.attribute, samples, self.timeline.total)
 
 
-def _place_of_grid(content: Content) -> int | None:
-    """Which of the grids in its file a content selects, counted from 0."""
+def _grid_index(content: Content) -> int | None:
+    """The index of the selected grid among the grids of the file, or None."""
     file, grid = content.file, content.grid
     return file.grids.index(grid) if file and grid else None
 
