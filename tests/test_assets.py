@@ -13,7 +13,7 @@ from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.files import classify
 from usdvol_lint.facts.files.corrections import Absence, find_absence
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.paths import is_uri
+from usdvol_lint.facts.files.paths import extension_of, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.model import StageReport
 
@@ -339,3 +339,25 @@ def test_placeholders(path: str, pattern: str | None) -> None:
 )
 def test_schemes(path: str, expected: bool) -> None:
     assert is_uri(path) is expected
+
+
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [
+        ("./a.vdb", ".vdb"),
+        ("./a.0001.VDB", ".vdb"),
+        ("./a.nvdb:SDF_FORMAT_ARGS:b=c.vdb", ".nvdb"),
+        ("./shot.usdz[vdb/a.vdb]", ".vdb"),
+        ("./shot.usdz[a.f3d]:SDF_FORMAT_ARGS:b=c", ".f3d"),
+        ("./v1.0/a", ""),
+        ("", ""),
+    ],
+)
+def test_extensions(path: str, expected: str) -> None:
+    assert extension_of(path) == expected
+
+
+def test_a_path_in_a_package_may_have_format_arguments(lint_text: Lint, tmp_path: Path) -> None:
+    package(tmp_path / "shot.usdz", "#usda 1.0\n", {"a.vdb": CONTENT})
+    path = "./shot.usdz[a.vdb]:SDF_FORMAT_ARGS:b=c"
+    assert said(lint_text(volume(f"asset filePath = @{path}@"))) == []

@@ -24,7 +24,8 @@ def split_path(path: str) -> tuple[str, str]:
 def extension_of(path: str) -> str:
     """The extension in lower case with its dot, or empty; in a package that of the inner file."""
     name = path.partition(FORMAT_ARGUMENTS)[0].rstrip("]").rpartition("/")[2]
-    return "".join(name.rpartition(".")[1:]).lower()
+    _, dot, extension = name.rpartition(".")
+    return f".{extension}".lower() if dot else ""
 
 
 def count_names(path: str) -> int:
