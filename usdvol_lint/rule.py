@@ -25,6 +25,7 @@ __all__ = [
     "STAGE",
     "UNKNOWN_TYPE",
     "WARNING",
+    "AssetSample",
     "AssetState",
     "BindingMark",
     "Content",
@@ -42,7 +43,6 @@ __all__ = [
     "Problem",
     "Problems",
     "Rule",
-    "Sample",
     "TargetState",
     "Volumes",
     "When",
@@ -57,11 +57,11 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.files.assets import Sample
-    from usdvol_lint.facts.grids.contents import Content
-    from usdvol_lint.facts.grids.contents import Kind as ContentClass
+    from usdvol_lint.facts.files.assets import AssetSample
+    from usdvol_lint.facts.grids.contents import Content, ContentClass
 else:
-    Content = ContentClass = Sample = Any  # so that rules can be loaded where pxr is not imported
+    # Rules can be loaded where pxr is not imported.
+    AssetSample = Content = ContentClass = Any
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 

@@ -1,20 +1,18 @@
 """AST006: a field's file must have the extension that its readers are chosen by."""
 
-import re
-
-from usdvol_lint.rule import WARNING, AssetState, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 from usdvol_lint.schema import FILE_EXTENSIONS
 
 _TYPES = {extension: name for name, extension in FILE_EXTENSIONS.items()}
-_WITHOUT = {extension: re.compile(rf"(?is)(?!.*\{extension}(?:\]*\Z|:SDF_FORMAT_ARGS:))") for extension in _TYPES}
 
 
 @rule("AST006", on=tuple(_TYPES.values()), when=file_paths(PathMark.FOREIGN), severity=WARNING, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
     wanted = ".vdb" if facts.prims.is_a(field, "OpenVDBAsset") else ".f3d"
-    other = facts.files.paths(field).matching(_WITHOUT[wanted], {AssetState.FILE})
+    paths = facts.files.paths(field)
+    other = paths.affected(each for each in paths.samples if each.is_there and each.extension != wanted)
     if other:
-        extension = _extension(other.first.path)
+        extension = other.first.extension
         if (extension, wanted) == (".nvdb", ".vdb"):
             what = "is a NanoVDB file, which some renderers read and Storm does not"
             advice = "write it as '.vdb' for renderers that read OpenVDB alone"
@@ -28,8 +26,3 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
             at=other,
             suggestion=advice,
         )
-
-
-def _extension(path: str) -> str:
-    name = path.partition(":SDF_FORMAT_ARGS:")[0].rstrip("]").rpartition("/")[2]
-    return "".join(name.rpartition(".")[1:]).lower()

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, Sample, file_paths, quoted, rule
+from usdvol_lint.rule import WARNING, AssetSample, Facts, PathMark, Prim, Problem, Problems, file_paths, quoted, rule
 
 _SUSPECT = re.compile(r"[A-Za-z]:|~|\s|[^\\]*+(?:\\|(?<=\s)\Z)")
 _HOME = re.compile(r"~[^/\\]*[/\\]")
@@ -24,7 +24,7 @@ def path_malformed(field: Prim, facts: Facts) -> Problems:
         )
 
 
-def _defects(sample: Sample) -> Iterator[str]:
+def _defects(sample: AssetSample) -> Iterator[str]:
     path = sample.path
     if path[1:2] == ":" and path[0].isalpha():
         yield "begins with a drive letter, which only Windows has"

@@ -5,13 +5,12 @@ from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, 
 
 @rule("AST011", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def sequence_gap(field: Prim, facts: Facts) -> Problems:
-    sequence = facts.files.sequence(field)
-    missing = sequence.missing() if sequence else None
-    if sequence and missing:
+    missing = facts.files.missing_samples(field)
+    if missing:
         samples = "no sample" if len(missing.times) == 1 else "no samples"
         yield Problem(
             f"{samples} at {frame_ranges(missing.times)}, in a run that is regular otherwise "
-            f"({len(missing.times)} missing, {len(sequence.samples)} there)",
+            f"({len(missing.times)} missing, {missing.present} there)",
             at=field.GetAttribute("filePath"),
             times=missing.times,
             asset=missing.before.authored,

@@ -17,7 +17,7 @@ def field_data_type_missing(field: Prim, facts: Facts) -> Problems:
     values = list(facts.prims.values(field, "fieldDataType"))
     if any(values) or ("" not in values and data_type.HasAuthoredValue()):
         return
-    if facts.grids.contents(field).all.have_no_data_type:
+    if facts.grids.contents(field).timeline.lacks_data_type:
         return
     if not facts.layers.may_lack_values(field):
         yield Problem(

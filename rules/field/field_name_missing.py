@@ -15,7 +15,7 @@ def field_name_missing(field: Prim, facts: Facts) -> Problems:
     names = {name.Get(), *map(name.Get, name.GetTimeSamples())}
     if any(names) or ("" not in names and name.HasAuthoredValue()):
         return
-    if not facts.grids.contents(field).all.single_grid and not facts.layers.may_lack_values(field):
+    if not facts.grids.contents(field).timeline.single_grid and not facts.layers.may_lack_values(field):
         yield Problem(
             "fieldName is empty" if "" in names else "no fieldName",
             at=name if name.IsAuthored() else field,

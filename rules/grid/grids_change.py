@@ -6,16 +6,16 @@ from usdvol_lint.rule import WARNING, Facts, Grids, Prim, Problem, Problems, Whe
 @rule(
     "GRD013",
     on="FieldAsset",
-    when=When(Grids.content_classes, lambda kinds: len(kinds) > 1),
+    when=When(Grids.content_classes, lambda classes: len(classes) > 1),
     severity=WARNING,
     since="0.1",
 )
 def grids_change(field: Prim, facts: Facts) -> Problems:
     changes = facts.grids.changes(field)
     if changes:
-        found = changes.found
+        affected, difference = changes.affected, changes.difference
         yield Problem(
-            f"{found.shown} {changes.difference}, unlike most of the sequence{found.count}",
-            at=found,
+            f"{affected.shown} {difference}, unlike most of the sequence{affected.count}",
+            at=affected,
             suggestion="look whether the frames come from one simulation",
         )

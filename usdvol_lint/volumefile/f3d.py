@@ -14,7 +14,7 @@ from usdvol_lint.volumefile.model import (
     Metadatum,
     VolumeFile,
     VolumeFileError,
-    quoted,
+    quoted_short,
 )
 from usdvol_lint.volumefile.transform import (
     IDENTITY,
@@ -99,15 +99,17 @@ def _mapping(partition: Group) -> tuple[tuple[str, Matrix] | None, FileWarning |
         return ("NullFieldMapping", IDENTITY), None
     numbers = mapping.value("matrix_0")
     if kind != "MatrixFieldMapping" or not isinstance(numbers, tuple) or len(numbers) != 16:
-        message = f"partition {quoted(partition.name)}: no {quoted(str(kind))} is read"
+        message = f"partition {quoted_short(partition.name)}: no {quoted_short(str(kind))} is read"
         return None, FileWarning("mapping-unread", message)
     if not finite(numbers):
-        message = f"the mapping of partition {quoted(partition.name)} is not finite"
+        message = f"the mapping of partition {quoted_short(partition.name)} is not finite"
         raise VolumeFileError("not-a-volume-file", message)
     samples = mapping.value("num_time_samples")
     warning = None
     if isinstance(samples, int) and samples > 1:
-        message = f"the mapping of partition {quoted(partition.name)} moves in {samples} samples"
+        message = (
+            f"the mapping of partition {quoted_short(partition.name)} moves in {samples} samples"
+        )
         warning = FileWarning("mapping-animated", message)
     return ("MatrixFieldMapping", rows(numbers)), warning
 

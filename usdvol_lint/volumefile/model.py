@@ -152,6 +152,6 @@ class VolumeFileError(Exception):
         return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
 
 
-def quoted(text: str) -> str:
+def quoted_short(text: str) -> str:
     """Text out of a file, printable and short enough for a message."""
     return model.quoted(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")

@@ -14,7 +14,7 @@ from usdvol_lint.volumefile.model import (
     Metadatum,
     VolumeFile,
     VolumeFileError,
-    quoted,
+    quoted_short,
 )
 from usdvol_lint.volumefile.signatures import NANOVDB
 from usdvol_lint.volumefile.transform import Bounds, Point, Transform, finite, scale_translate
@@ -200,7 +200,7 @@ class _Reader:
             # The way to the root counts from the start of the tree.
             root += start + _BUFFER.size
             if size < _BUFFER.size + _TREE.size or root > start + size:
-                raise _invalid(f"grid {quoted(_name(name))} of {size} bytes", start)
+                raise _invalid(f"grid {quoted_short(_name(name))} of {size} bytes", start)
             window.position = root
             index = window.unpack(_ROOT)
             bounds: IndexBounds = (index[:3], index[3:])
@@ -246,7 +246,7 @@ class _Reader:
         """Goes behind the voxels of the last grid, without reading them."""
         window = self.window
         if end > window.size:
-            label = quoted(self.grids[-1].label)
+            label = quoted_short(self.grids[-1].label)
             message = f"grid {label} ends at byte {end}, the file at {window.size}"
             raise VolumeFileError("truncated", message, window.size)
         window.position = end

@@ -17,7 +17,7 @@ from usdvol_lint.volumefile.model import (
     Metadatum,
     VolumeFile,
     VolumeFileError,
-    quoted,
+    quoted_short,
 )
 from usdvol_lint.volumefile.signatures import OPENVDB
 from usdvol_lint.volumefile.transform import (
@@ -267,7 +267,9 @@ class _Reader:
 
         window.limit = window.size
         if end > window.size:
-            message = f"grid {quoted(grid.label)} ends at byte {end}, the file at {window.size}"
+            message = (
+                f"grid {quoted_short(grid.label)} ends at byte {end}, the file at {window.size}"
+            )
             raise VolumeFileError("truncated", message, window.size)
         if not self.streamed:
             window.position = end
@@ -282,7 +284,7 @@ class _Reader:
             return 0
         section_end = end if is_instance else blocks
         if not window.position <= grid_start <= section_end <= end:
-            message = f"grid {quoted(name)} has offsets {grid_start}, {blocks}, {end}"
+            message = f"grid {quoted_short(name)} has offsets {grid_start}, {blocks}, {end}"
             raise _invalid(message, at)
         window.position = grid_start
         window.limit = min(section_end, window.size)
@@ -303,7 +305,7 @@ class _Reader:
 
     def read_linear_map(self, kind: str, at: int) -> Matrix:
         if kind not in _MAPS:
-            raise _invalid(f"unknown transform {quoted(kind)}", at)
+            raise _invalid(f"unknown transform {quoted_short(kind)}", at)
         form, matrix_of = _MAPS[kind]
         matrix = matrix_of(self.window.unpack(form))
         if not finite(chain.from_iterable(matrix)):
@@ -312,12 +314,14 @@ class _Reader:
 
     def warn(self, grid: Grid, stored_type: str, *, repeated: bool) -> None:
         position = len(self.grids) - 1
-        label = quoted(grid.label)
+        label = quoted_short(grid.label)
         if not grid.registered:
-            message = f"grid {label} is of type {quoted(grid.tree_type)}, unknown to stock OpenVDB"
+            message = (
+                f"grid {label} is of type {quoted_short(grid.tree_type)}, unknown to stock OpenVDB"
+            )
             self.warnings.append(FileWarning("type-unregistered", message, position))
         if grid.name != grid.unique_name:
-            message = f"grid {label} is named {quoted(grid.name)} in its metadata"
+            message = f"grid {label} is named {quoted_short(grid.name)} in its metadata"
             self.warnings.append(FileWarning("name-differs", message, position))
         if repeated:
             message = f"more than one grid is stored as {label}"
@@ -333,7 +337,7 @@ class _Reader:
             grid = self.grids[position]
             if parent is None:
                 if complete:
-                    message = f"grid {quoted(grid.label)} is an instance of no grid here"
+                    message = f"grid {quoted_short(grid.label)} is an instance of no grid here"
                     warning = FileWarning("instance-parent-missing", message, position)
                     self.warnings.append(warning)
             elif grid.index_bounds is None and not grid.is_empty:

@@ -10,9 +10,10 @@ import pytest
 from stages import CONTENT, only, package, said, volume, write
 
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.facts.files import assets as asset_facts
-from usdvol_lint.facts.files.assets import is_uri
-from usdvol_lint.facts.files.disk import Absence, Disk
+from usdvol_lint.facts.files import classify
+from usdvol_lint.facts.files.corrections import Absence, find_absence
+from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.paths import extension_of, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.model import StageReport
 
@@ -141,7 +142,7 @@ def test_what_a_missing_path_may_have_meant(path: str, expected: Absence, tmp_pa
     """Another frame is another file, never a misspelling."""
     write(tmp_path, "cloud.vdb", *(f"smoke/smoke.{frame:04}.vdb" for frame in (1, 2, 3)))
     absolute = os.path.normpath(tmp_path / path.partition(":")[0])
-    assert Disk().absence(absolute, path) == expected
+    assert find_absence(Disk(), absolute, path) == expected
 
 
 def test_bare_names_are_looked_for_beside_their_layer(lint_text: Lint, tmp_path: Path) -> None:
@@ -242,7 +243,7 @@ def test_expressions_in_a_usd_that_forgets_them(
     lint_text: Lint, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Old USD gives the evaluated path alone: what was written is found in the layer."""
-    monkeypatch.setattr(asset_facts, "authored_path", lambda asset: "")
+    monkeypatch.setattr(classify, "authored_path", lambda asset: "")
     variables = '(\n    expressionVariables = {\n        string TAKE = "clod"\n    }\n)'
     expressions = {
         '`"./${TAKE}.vdb"`': "AST002 no file at './clod.vdb' (from '`\"./${TAKE}.vdb\"`')",
@@ -338,3 +339,25 @@ def test_placeholders(path: str, pattern: str | None) -> None:
 )
 def test_schemes(path: str, expected: bool) -> None:
     assert is_uri(path) is expected
+
+
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [
+        ("./a.vdb", ".vdb"),
+        ("./a.0001.VDB", ".vdb"),
+        ("./a.nvdb:SDF_FORMAT_ARGS:b=c.vdb", ".nvdb"),
+        ("./shot.usdz[vdb/a.vdb]", ".vdb"),
+        ("./shot.usdz[a.f3d]:SDF_FORMAT_ARGS:b=c", ".f3d"),
+        ("./v1.0/a", ""),
+        ("", ""),
+    ],
+)
+def test_extensions(path: str, expected: str) -> None:
+    assert extension_of(path) == expected
+
+
+def test_a_path_in_a_package_may_have_format_arguments(lint_text: Lint, tmp_path: Path) -> None:
+    package(tmp_path / "shot.usdz", "#usda 1.0\n", {"a.vdb": CONTENT})
+    path = "./shot.usdz[a.vdb]:SDF_FORMAT_ARGS:b=c"
+    assert said(lint_text(volume(f"asset filePath = @{path}@"))) == []

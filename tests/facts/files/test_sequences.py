@@ -12,7 +12,7 @@ import pytest
 from process import ASSETS
 
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.sequences import Numbering, number
+from usdvol_lint.facts.files.numbering import Numbering, find_numbering
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]
@@ -75,16 +75,16 @@ def frames(report: StageReport, code: str) -> list[str | None]:
     ],
 )
 def test_frame_numbers(paths: list[str], numbers: list[float] | None, groups: tuple[int]) -> None:
-    assert number(paths) == (None if numbers is None else Numbering(numbers, groups))
+    assert find_numbering(paths) == (None if numbers is None else Numbering(numbers, groups))
 
 
 def test_frame_numbers_of_most() -> None:
     """A few names that are otherwise do no harm, many leave no sequence."""
     paths = ["rest.vdb", *(f"s.{frame:04}.vdb" for frame in range(1, 8))]
-    found = number(paths)
+    found = find_numbering(paths)
     assert found is not None
     assert str(found.numbers) == "[nan, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]"
-    assert number(["rest.vdb"] * 4 + paths) is None
+    assert find_numbering(["rest.vdb"] * 4 + paths) is None
 
 
 def test_missing_samples_with_some_of_their_files(lint_text: Lint, tmp_path: Path) -> None:

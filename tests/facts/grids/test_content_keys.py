@@ -1,6 +1,6 @@
-"""What rules ask of contents is the same for all that count as one kind: it is asked of the first.
+"""What rules ask of contents is the same for all of one class: it is asked of the first.
 
-`contents(key)` and `grouped(key)` take functions of a content, and `Kind` answers them once.
+`contents(key)` and `grouped(key)` take functions of a content: `ContentClass` answers them once.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from process import ROOT
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.grids import Grids
-from usdvol_lint.facts.grids.contents import Content, ContentReader, Kind
+from usdvol_lint.facts.grids.contents import Content, ContentClass
+from usdvol_lint.facts.grids.reader import ContentReader
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.testing import STAGE, cases, pages, write_example
@@ -31,30 +32,30 @@ CLAIMS = ("", "float", "fogVolume", "Point", "1", "cloud")
 
 
 class Met(NamedTuple):
-    """The keys that rules asked for, and the contents of each kind."""
+    """The keys that rules asked for, and the contents of each class."""
 
     keys: dict[Key, None]
-    kinds: dict[Kind, list[Content]]
+    classes: dict[ContentClass, list[Content]]
 
 
 @pytest.fixture(scope="module")
 def met(engine: Engine, assets: Path, tmp_path_factory: pytest.TempPathFactory) -> Met:
     """Those of all examples that name files, and of all samples, whole, cut and of any version."""
     met = Met({}, {})
-    answer, find = Kind.answer, ContentReader._kind
+    answer, find = ContentClass.answer, ContentReader._class_of
 
-    def noting_answer(kind: Kind, key: Key) -> Any:
+    def noting_answer(asked: ContentClass, key: Key) -> Any:
         met.keys[key] = None
-        return answer(kind, key)
+        return answer(asked, key)
 
-    def noting_kind(reader: ContentReader, content: Content) -> Kind:
-        kind = find(reader, content)
-        met.kinds.setdefault(kind, []).append(content)
-        return kind
+    def noting_class(reader: ContentReader, content: Content) -> ContentClass:
+        found = find(reader, content)
+        met.classes.setdefault(found, []).append(content)
+        return found
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Kind, "answer", noting_answer)
-        patch.setattr(ContentReader, "_kind", noting_kind)
+        patch.setattr(ContentClass, "answer", noting_answer)
+        patch.setattr(ContentReader, "_class_of", noting_class)
         for stage in stages(tmp_path_factory.mktemp("contents"), assets):
             assert engine.lint(str(stage)).status == "checked"
     return met
@@ -119,37 +120,42 @@ def test_all_keys_were_met(met: Met, catalog: Catalog) -> None:
 
     rules = [rule for rule in catalog.rules.values() if rule.when]
     by_contents = {module(rule) for rule in rules if rule.when.keys is Grids.content_classes}
-    without_key = {module(catalog.rules["GRD013"])}  # it counts kinds
+    without_key = {module(catalog.rules["GRD013"])}  # it counts classes
     assert by_contents - without_key == {
         key.__module__ for key in met.keys if ".rules." in key.__module__
     }
     assert len(by_contents) > 10
-    assert sum(len(contents) > 1 for contents in met.kinds.values()) > 100
+    assert sum(len(contents) > 1 for contents in met.classes.values()) > 100
 
 
-def test_contents_of_one_kind_have_the_same_answers(met: Met) -> None:
-    for contents in met.kinds.values():
+def test_contents_of_one_class_have_the_same_answers(met: Met) -> None:
+    for contents in met.classes.values():
         for key in met.keys:
             first, *others = contents
             for other in others:
                 assert key(other) == key(first), said(key, first, other)
 
 
-def test_what_kinds_do_not_go_by_changes_no_answer(met: Met) -> None:
-    """Each part of a file that may differ among contents of one kind, one by one."""
+def test_what_classes_do_not_go_by_changes_no_answer(met: Met) -> None:
+    """Each part of a file that may differ among contents of one class, one by one."""
     changed: set[str] = set()
-    for content in {str(identity(kind)): kind.content for kind in met.kinds}.values():
-        for name, other in others_of_its_kind(content):
+    for content in {str(identity(each)): each.content for each in met.classes}.values():
+        for name, other in others_of_its_class(content):
             changed.add(name)
             for key in met.keys:
                 assert key(other) == key(content), f"{name}: {said(key, content, other)}"
     assert {"index_bounds", "transform", "metadata", "time"} <= changed
 
 
-def identity(kind: Kind) -> tuple[Any, ...]:
-    """What tells kinds of several stages apart."""
-    _, claim, reading, wanted = kind.content
-    return kind_of(reading.file, reading.fault), claim, wanted, kind.content.unexpected_format
+def identity(content_class: ContentClass) -> tuple[Any, ...]:
+    """What tells classes of several stages apart."""
+    _, claim, reading, wanted = content_class.content
+    return (
+        kind_of(reading.file, reading.fault),
+        claim,
+        wanted,
+        content_class.content.unexpected_format,
+    )
 
 
 # What a reader makes of other parts, such as `registered` of the type, differs only with these.
@@ -166,7 +172,7 @@ OTHER = {
 }
 
 
-def others_of_its_kind(content: Content) -> Iterator[tuple[str, Content]]:
+def others_of_its_class(content: Content) -> Iterator[tuple[str, Content]]:
     """Contents with another value in one place, and the name of that place."""
     sample, file = content.sample, content.reading.file
     yield "time", content._replace(sample=sample._replace(time=4711.0))

@@ -1,4 +1,4 @@
-"""The files that asset attributes name: where each value leads, and what is there."""
+"""The files that asset attributes name: what each value resolves to, and what is there."""
 
 from __future__ import annotations
 
@@ -10,19 +10,24 @@ from typing import TYPE_CHECKING, Any
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.files.assets import Affected, AssetReader, AssetSamples, UnlistedClips
-    from usdvol_lint.facts.files.disk import Absence, Disk
+    from usdvol_lint.facts.files.animation import UnlistedClips
+    from usdvol_lint.facts.files.assets import Affected, AssetSamples
+    from usdvol_lint.facts.files.classify import AssetReader
+    from usdvol_lint.facts.files.corrections import Absence
+    from usdvol_lint.facts.files.disk import Disk
+    from usdvol_lint.facts.files.gaps import Missing
+    from usdvol_lint.facts.files.letter_case import Recased
     from usdvol_lint.facts.files.marks import PathMarks
-    from usdvol_lint.facts.files.places import Recased
+    from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
 
 
 class Files(Wing):
-    """What the `filePath` of fields names.
+    """The files that the `filePath` of fields names.
 
-    `disk` has the state of files; `advance` is told of progress in long sequences.
+    `disk` looks at files and folders; `advance` is told of progress in long sequences.
     """
 
     def __init__(
@@ -41,57 +46,75 @@ class Files(Wing):
 
     @summary
     def path_marks(self, table: Table) -> Sequence[frozenset[Enum]]:
-        """The states of the values of `filePath`, and what is remarkable about them."""
+        """The states of the values of `filePath`, and further properties."""
         return self._marks.of(self.paths.all(table), table.authored)
 
     @fact
     def sequence(self, field: Any) -> SampleSequence | None:
-        """The time samples of `filePath` as a sequence, or None if there are not two."""
+        """The time samples of `filePath` as a sequence, or None if there are fewer than two."""
         from usdvol_lint.facts.files.sequences import read_sequence
 
         return read_sequence(self.paths(field))
 
+    def missing_samples(self, field: Any) -> Missing | None:
+        """The samples that the sequence of `filePath` lacks, if it is regular otherwise."""
+        from usdvol_lint.facts.files.gaps import find_missing
+
+        sequence = self.sequence(field)
+        return find_missing(sequence) if sequence else None
+
+    def out_of_order(self, field: Any) -> OutOfOrder | None:
+        """The few samples of `filePath` whose frame numbers break the order of all others."""
+        from usdvol_lint.facts.files.order import find_out_of_order
+
+        sequence = self.sequence(field)
+        return find_out_of_order(sequence) if sequence else None
+
     def absence(self, path: str, authored: str) -> Absence:
-        """What is known of an absolute path where nothing is; `authored` is how it was written."""
-        return self._disk.absence(path, authored)
+        """Why nothing is at an absolute path; `authored` is the text that it comes from."""
+        from usdvol_lint.facts.files.corrections import find_absence
+
+        return find_absence(self._disk, path, authored)
 
     def frames(self, found: Affected) -> list[tuple[int, str]]:
-        """The files that a path with a placeholder for the frame stands for, by frame number."""
-        return self._disk.frames(found.anchored(), found.first.path)
+        """The frame numbers and paths of the files that a path with a placeholder stands for."""
+        from usdvol_lint.facts.files.corrections import find_frames
+
+        return find_frames(self._disk, found.anchored(), found.first.path)
 
     def recased(self, field: Any) -> Recased | None:
-        """The samples of `filePath` that differ by case from what the folders hold."""
-        from usdvol_lint.facts.files.places import recased
+        """The samples of `filePath` that differ by case from the names on disk."""
+        from usdvol_lint.facts.files.letter_case import recased
 
         return recased(self.paths(field), self._disk)
 
     def outside_package(self, field: Any) -> Affected | None:
-        """The samples of a `filePath` in a package that name files outside it."""
-        from usdvol_lint.facts.files.places import outside_package
+        """The samples of `filePath` authored in a package whose files lie outside it."""
+        from usdvol_lint.facts.files.origins import outside_package
 
         return outside_package(self.paths(field)) if self._has_packages else None
 
     def below_layer(self, found: Affected) -> str | None:
-        """The first path in relation to its layer, if the file lies below the layer's folder."""
-        from usdvol_lint.facts.files.places import below_layer
+        """The first path relative to the folder of its layer, if it lies below that; else None."""
+        from usdvol_lint.facts.files.origins import below_layer
 
         return below_layer(found)
 
     def hidden_animation(self, field: Any) -> str | None:
-        """What animates `filePath` in vain, in words, because a stronger default hides it."""
-        from usdvol_lint.facts.files.assets import hidden_animation
+        """The time samples or clips of `filePath`, in words, that a stronger default hides."""
+        from usdvol_lint.facts.files.animation import hidden_animation
 
         return hidden_animation(self.paths(field).attribute, self._clips.reaching(field))
 
     def unlisted_clips(self, field: Any) -> UnlistedClips | None:
-        """The clips that hold a `filePath` which their manifest does not declare."""
-        from usdvol_lint.facts.files.assets import unlisted_clips
+        """The clips that hold samples of `filePath` that their manifest does not declare."""
+        from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
 
     @cached_property
     def _reader(self) -> AssetReader:
-        from usdvol_lint.facts.files.assets import AssetReader
+        from usdvol_lint.facts.files.classify import AssetReader
 
         return AssetReader(self._disk, self._advance)
 
@@ -104,6 +127,6 @@ class Files(Wing):
     @cached_property
     def _has_packages(self) -> bool:
         """Whether any layer lies in a package."""
-        from usdvol_lint.facts.files.places import package_of
+        from usdvol_lint.facts.files.origins import package_of
 
         return any(map(package_of, self._stage.GetUsedLayers()))

@@ -1,64 +1,54 @@
-"""The state of files on disk or in a package, each looked at once per stage."""
+"""The state of files and folders, on disk or in a package, each looked at once per stage."""
 
 from __future__ import annotations
 
-import errno
 import os
 import re
 import stat
 from collections import defaultdict
-from collections.abc import Iterable
-from typing import Any, NamedTuple, TypeAlias
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeAlias
 
-from pxr import Ar, Sdf, Tf
+from pxr import Ar, Tf
 
-from usdvol_lint.facts.files.patterns import matching_frames
+from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.states import FileFault
-from usdvol_lint.model import quoted
-from usdvol_lint.nearest import closest_match
+from usdvol_lint.volumefile.signatures import LFS_POINTER
 
-LFS_SIGNATURE = b"version https://git-lfs"
+LFS_SIGNATURE = LFS_POINTER  # `engine.stage` knows it by this name
 _LFS_POINTER_LIMIT = 1024
 _NUMBER = re.compile(r"[0-9]+")
 
-Numbers: TypeAlias = tuple[int, ...]
-
-
-class Absence(NamedTuple):
-    """Why nothing is at a path, in words that follow it, and the path that may have been meant."""
-
-    reason: str
-    similar: str | None
+_Numbers: TypeAlias = tuple[int, ...]
 
 
 class Disk:
-    """The state of files: what is wrong with one as such, and what lies beside a missing one."""
+    """Looks at files and folders, and keeps what it saw for all variant selections of a stage.
+
+    What it says of a folder it says of a package, `package.usdz`, too.
+    """
 
     def __init__(self) -> None:
         self._faults: dict[str, str | None] = {}
         self._listings: dict[str, tuple[str, ...]] = {}
-        self._by_numbers: dict[str, dict[Numbers, list[str]]] = {}
+        self._by_numbers: dict[str, dict[_Numbers, list[str]]] = {}
         self._by_case: dict[str, dict[str, str]] = {}
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._ignores_case: dict[str, bool] = {}
 
     @property
     def checked(self) -> int:
-        """How many distinct files were looked at."""
+        """How many distinct files were asked for their fault."""
         return len(self._faults)
 
     def fault(self, resolved: str) -> str | None:
-        """Why a resolved path can't be a readable file with content, or None.
-
-        Paths are absolute file names, or `package.usdz[inner]`; other forms, such as a URI that
-        an installed resolver answers for, are taken at the resolver's word.
-        """
+        """Why a resolved path is no readable file with content, or None; see `file_fault`."""
         if resolved not in self._faults:
             self._faults[resolved] = file_fault(resolved)
         return self._faults[resolved]
 
     def listing(self, folder: str) -> tuple[str, ...]:
-        """The names in a folder, or in a package, sorted; none if it can't be read."""
+        """The names in a folder, sorted; none if it can't be read."""
         if folder not in self._listings:
             names = _package_names if os.path.isfile(folder) else os.listdir
             try:
@@ -67,83 +57,40 @@ class Disk:
                 self._listings[folder] = ()
         return self._listings[folder]
 
-    def absence(self, path: str, authored: str) -> Absence:
-        """What is known of an absolute path where nothing is; `authored` is how it was written."""
-        authored, _ = Sdf.Layer.SplitIdentifier(authored)
-        corrected = self.recased(path, authored)
-        if Ar.IsPackageRelativePath(path):
-            package, inner = Ar.SplitPackageRelativePathOuter(path)
-            if not os.path.isfile(package):
-                return self._absence_of_package(package, authored)
-            similar = None if corrected else self._nearest(package, inner)
-            corrected = _with_end(authored, inner, similar) if similar else corrected
-            return Absence(f" in {quoted(os.path.basename(package))}", corrected)
-        missing = _first_missing(path)
-        folder, name = os.path.split(missing)
-        rest = path[len(missing) :]
-        shown = _with_end(authored, rest, "") if rest else authored
-        similar = None if corrected else self._nearest(folder, name)
-        if similar:
-            whole = os.path.exists(os.path.join(folder, similar) + rest)
-            corrected = _with_end(authored, name + rest, similar + rest if whole else similar)
-        if os.path.islink(missing):
-            return Absence(f": {_broken_link(missing)}", corrected)
-        return Absence(f": no folder {quoted(shown)}" if rest else "", corrected)
-
-    def _absence_of_package(self, package: str, authored: str) -> Absence:
-        shown, inner = Ar.SplitPackageRelativePathOuter(authored)
-        reason, corrected = self.absence(package, shown)
-        if corrected and corrected.endswith(os.path.splitext(shown)[1]):  # else it is a folder
-            corrected = str(Ar.JoinPackageRelativePath(corrected, inner))
-        return Absence(reason or f": no package {quoted(shown)}", corrected)
-
-    def recased(self, path: str, authored: str) -> str | None:
-        """What `authored` should be for the folders to have its names, where only the case differs.
-
-        `path` is its absolute form; None where nothing is there in any case, or where it is right.
-        """
-        authored, _ = Sdf.Layer.SplitIdentifier(authored)
-        if Ar.IsPackageRelativePath(path):
-            package, inner = Ar.SplitPackageRelativePathOuter(path)
-            there = self.names(package).get(inner.lower(), inner)
-            return _with_end(authored, inner, there) if there != inner else None
-        found = self.in_case(path, authored)
-        if found is None or found == path:
-            return None
-        count = _count_names(authored)
-        return _with_end(authored, _last_names(path, count), _last_names(found, count))
-
-    def in_case(self, path: str, authored: str) -> str | None:
-        """An absolute path with the names that `authored` says of it as their folders have them.
-
-        None where nothing is there in any case.
-        """
-        return self._with_names_in_case(path, _count_names(authored))
-
-    def _with_names_in_case(self, path: str, count: int) -> str | None:
-        folder, name = os.path.split(path)
-        if count == 0 or not name:
-            return path
-        key = (folder, count - 1)
-        if key not in self._in_case:
-            self._in_case[key] = self._with_names_in_case(*key)
-        folder_there = self._in_case[key]
-        if folder_there is None:
-            return None
-        names = self.names(folder_there)
-        name_there = names.get(name) or names.get(name.lower())
-        return f"{folder_there.rstrip('/')}/{name_there}" if name_there else None
-
     def names(self, folder: str) -> dict[str, str]:
-        """The names in a folder, or in a package, by themselves and by their lower case."""
+        """The names in a folder, by themselves and by their lower case."""
         if folder not in self._by_case:
             listing = self.listing(folder)
             lower = {name.lower(): name for name in listing}
             self._by_case[folder] = lower | {name: name for name in listing}
         return self._by_case[folder]
 
+    def names_numbered_alike(self, folder: str, name: str) -> Sequence[str]:
+        """The names in a folder whose numbers are the same as in `name`."""
+        if folder not in self._by_numbers:
+            self._by_numbers[folder] = _group_by_numbers(self.listing(folder))
+        return self._by_numbers[folder].get(_numbers(name), ())
+
+    def in_case(self, path: str, count: int) -> str | None:
+        """An absolute path with its last `count` names as the folders on disk spell them.
+
+        None where nothing of that name is there in any case.
+        """
+        folder, name = os.path.split(path)
+        if count == 0 or not name:
+            return path
+        key = (folder, count - 1)
+        if key not in self._in_case:
+            self._in_case[key] = self.in_case(*key)
+        actual_folder = self._in_case[key]
+        if actual_folder is None:
+            return None
+        names = self.names(actual_folder)
+        actual_name = names.get(name) or names.get(name.lower())
+        return f"{actual_folder.rstrip('/')}/{actual_name}" if actual_name else None
+
     def ignores_case(self, path: str) -> bool:
-        """Whether the folder of a file that is there finds it under another case of its name."""
+        """Whether the file system finds an existing file under another case of its name."""
         folder, _, name = path.rpartition("/")
         if folder not in self._ignores_case:
             try:
@@ -153,30 +100,13 @@ class Disk:
             self._ignores_case[folder] = same
         return self._ignores_case[folder]
 
-    def frames(self, path: str, authored: str) -> list[tuple[int, str]]:
-        """The files that a path with a placeholder for the frame stands for, by frame number.
-
-        `path` is the absolute form of `authored`, in whose words the files are named.
-        """
-        folder, name = os.path.split(path)
-        found = matching_frames(name, self.listing(folder))
-        return [(frame.number, _with_end(authored, name, frame.name)) for frame in found]
-
-    def _nearest(self, folder: str, name: str) -> str | None:
-        """The name in a folder that comes closest: another number is no misspelling."""
-        if folder not in self._by_numbers:
-            self._by_numbers[folder] = _group_by_numbers(self.listing(folder))
-        others = self._by_numbers[folder].get(_numbers(name), ())
-        return closest_match(name, (other for other in others if other != name))
-
-
-def is_packaged(path: str) -> bool:
-    """Whether a path names a file in a package, `package.usdz[inner]`."""
-    return path.endswith("]") and bool(Ar.IsPackageRelativePath(path))
-
 
 def file_fault(path: str) -> str | None:
-    """Why an absolute path, or one in a package, is no readable file with content, or None."""
+    """Why a path is no readable file with content, or None.
+
+    Paths are absolute, or `package.usdz[inner]`; of others, such as a URI that an installed
+    resolver answers for, there is no fault.
+    """
     if is_packaged(path):
         return _package_fault(path)
     if not os.path.isabs(path):
@@ -193,7 +123,7 @@ def file_fault(path: str) -> str | None:
         return FileFault.EMPTY
     if not status.st_mode & stat.S_IROTH and not os.access(path, os.R_OK):
         return FileFault.UNREADABLE
-    if len(LFS_SIGNATURE) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
+    if len(LFS_POINTER) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
         return FileFault.LFS_POINTER
     return None
 
@@ -201,7 +131,7 @@ def file_fault(path: str) -> str | None:
 def _starts_like_lfs(path: str) -> bool:
     try:
         with open(path, "rb", buffering=0) as file:  # Path takes three times as long
-            return file.read(len(LFS_SIGNATURE)) == LFS_SIGNATURE
+            return file.read(len(LFS_POINTER)) == LFS_POINTER
     except OSError:
         return False
 
@@ -226,44 +156,12 @@ def _package_names(package: str) -> list[str]:
         return []
 
 
-def _first_missing(path: str) -> str:
-    """The first part of an absolute path that is not there: a folder, or the whole path."""
-    while not os.path.exists(parent := os.path.dirname(path)) and parent != path:
-        path = parent
-    return path
-
-
-def _broken_link(path: str) -> str:
-    target = os.readlink(path)
-    try:
-        os.stat(path)
-    except OSError as error:
-        if error.errno == errno.ELOOP:
-            return f"a symbolic link to {quoted(target)} that leads round in a circle"
-    return f"a symbolic link to {quoted(target)}, which does not exist"
-
-
-def _with_end(path: str, end: str, replacement: str) -> str:
-    """The path with another end; the replacement alone where the path does not end so."""
-    return path.removesuffix(end) + replacement if path.endswith(end) else replacement
-
-
-def _count_names(path: str) -> int:
-    """How many names a path has that folders list: those after `.` and `..`."""
-    names = os.path.normpath(path).replace(os.sep, "/").split("/")
-    return sum(name not in ("", ".", "..") for name in names)
-
-
-def _last_names(path: str, count: int) -> str:
-    return "/".join(path.split("/")[-count:])
-
-
-def _group_by_numbers(names: Iterable[str]) -> dict[Numbers, list[str]]:
-    groups: dict[Numbers, list[str]] = defaultdict(list)
+def _group_by_numbers(names: Iterable[str]) -> dict[_Numbers, list[str]]:
+    groups: dict[_Numbers, list[str]] = defaultdict(list)
     for name in names:
         groups[_numbers(name)].append(name)
     return groups
 
 
-def _numbers(name: str) -> Numbers:
+def _numbers(name: str) -> _Numbers:
     return tuple(map(int, _NUMBER.findall(name)))

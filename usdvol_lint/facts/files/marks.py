@@ -1,4 +1,4 @@
-"""What is remarkable about the values of an asset attribute, for rules that ask for just that."""
+"""Properties of an asset attribute's values that preconditions of rules look at."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from enum import Enum
 
-from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.states import AssetState, PathMark
 from usdvol_lint.facts.prims.attributes import Authored
@@ -16,9 +16,9 @@ _UNPLAIN = re.compile(r"(?s)/|.*[\\:~\s]")
 
 
 class PathMarks:
-    """Finds the marks of a stage's fields; those that name one file, and no other, share theirs.
+    """Finds the marks of the fields of a stage; fields that name the same one file share theirs.
 
-    `has_packages` says whether some layer of the stage lies in a package.
+    `has_packages` is whether any layer of the stage lies in a package.
     """
 
     def __init__(self, disk: Disk, has_packages: bool) -> None:
@@ -27,34 +27,34 @@ class PathMarks:
         self._known: dict[tuple[str, str, Authored], frozenset[Enum]] = {}
 
     def of(self, paths: Iterable[AssetSamples], authored: Authored) -> list[frozenset[Enum]]:
-        """The states and the marks of the values of many prims that are alike."""
+        """The states and marks of each prim's values; `authored` is what all the prims share."""
         return [self._of(each, authored) for each in paths]
 
     def _of(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
         samples = paths.samples
         if len(samples) != 1 or samples[0].state is not AssetState.FILE:
-            return self._look(paths, authored)
+            return self._find(paths, authored)
         key = (samples[0].path, samples[0].resolved, authored)
         found = self._known.get(key)
         if found is None:
-            found = self._known[key] = self._look(paths, authored)
+            found = self._known[key] = self._find(paths, authored)
         return found
 
-    def _look(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
+    def _find(self, paths: AssetSamples, authored: Authored) -> frozenset[Enum]:
         found: set[Enum] = set(paths.states)
         if not paths.names_a_path:
             found.add(PathMark.NONE)
         if len(paths.samples) > 1:
             found.add(PathMark.SEVERAL)
-        wanted = (end for name, end in FILE_EXTENSIONS.items() if name in authored.schemas)
-        extension = next(wanted, "")
+        extensions = (end for name, end in FILE_EXTENSIONS.items() if name in authored.schemas)
+        extension = next(extensions, "")
         if any(not sample.path.endswith(extension) for sample in paths.samples):
             found.add(PathMark.FOREIGN)
         if any(map(_UNPLAIN.match, (sample.path for sample in paths.samples))):
             found.add(PathMark.UNPLAIN)
         if self._has_packages:
             found.add(PathMark.PACKAGED)
-        if self._is_blind_to_case(paths):
+        if self._may_differ_in_case(paths):
             found.add(PathMark.CASE_BLIND)
         if authored.is_clipped:
             found.add(PathMark.CLIPPED)
@@ -62,10 +62,10 @@ class PathMarks:
             found.add(PathMark.LAYERED)
         return frozenset(found)
 
-    def _is_blind_to_case(self, paths: AssetSamples) -> bool:
+    def _may_differ_in_case(self, paths: AssetSamples) -> bool:
         if AssetState.MISSING in paths.states:
             return True
-        folders: dict[str, Sample] = {}
+        folders: dict[str, AssetSample] = {}
         for sample in paths.samples:
             folders.setdefault(sample.resolved.rpartition("/")[0], sample)
         resolved = (sample.resolved for sample in folders.values() if sample.resolved)

@@ -1,4 +1,4 @@
-"""Placeholders in paths that USD does not replace, and the files that they stand for."""
+"""Placeholders in paths, which USD does not replace, and the files that they stand for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the values of asset attributes turn out to be: names that need no pxr."""
+"""The states of asset attributes' values and of files, without pxr, for rules to name."""
 
 from __future__ import annotations
 
@@ -6,58 +6,61 @@ from enum import Enum, StrEnum, auto
 
 
 class AssetState(Enum):
-    """What one value of an asset attribute turns out to be; each has exactly one."""
+    """What one value of an asset attribute leads to; each value has exactly one state."""
 
     FILE = auto()
     """A readable file with content."""
     MISSING = auto()
     """Nothing is there."""
     PATTERN = auto()
-    """Nothing is there, and the name holds `$F4`, `####` or the like."""
+    """Nothing is there, and the path has a placeholder such as `$F4` or `####`."""
     NOT_A_FILE = auto()
-    """Something is there, but a folder, empty, unreadable, a Git-LFS pointer."""
+    """What is there is no readable file with content; see `FileFault`."""
     BROKEN_EXPRESSION = auto()
     """A variable expression that can't be evaluated."""
     UNSET_VARIABLE = auto()
-    """A variable expression with a variable that is not set where it is evaluated."""
+    """A variable expression that needs a variable that is not set where it is authored."""
     UNVERIFIABLE = auto()
     """A URI that no resolver here answers for."""
     LIVE_SESSION = auto()
     """A path into a running Houdini session."""
     EMPTY = auto()
+    """An empty path, or an expression that evaluates to one."""
     BLOCKED = auto()
-    """No value: blocked, or a value clip that gives none."""
+    """No value: a block, or a value clip without one."""
     MISTYPED = auto()
     """A value that is no asset path."""
 
 
-PLACES = frozenset({AssetState.FILE, AssetState.MISSING, AssetState.NOT_A_FILE, AssetState.PATTERN})
-"""What a value can turn out to be that names a place on disk, whether or not a file is there."""
+ON_DISK = frozenset({AssetState.FILE, AssetState.NOT_A_FILE, AssetState.MISSING})
+"""The states of values that name a path on disk, whether or not a file is there."""
+ON_DISK_OR_PATTERN = ON_DISK | {AssetState.PATTERN}
+"""The same, with those of paths that have a placeholder."""
 
 
 class PathMark(Enum):
-    """What else the values of an asset attribute have about them, beside their states."""
+    """Further properties of an asset attribute's values that preconditions of rules test."""
 
     NONE = auto()
-    """No value names anything."""
+    """Every value is empty or blocked, or there is none."""
     SEVERAL = auto()
-    """There are several values."""
+    """There is more than one value."""
     UNPLAIN = auto()
-    """Some path is absolute, or has blanks, backslashes, a colon or a tilde in it."""
+    """A path is absolute, or has blanks, backslashes, a colon or a tilde in it."""
     FOREIGN = auto()
-    """Some path has not the extension that the type of the prim asks for."""
+    """A path does not end in the extension that the type of the prim asks for."""
     CASE_BLIND = auto()
-    """Something is missing, or lies in a folder that finds names in any case."""
+    """A path may differ from the disk by case: nothing is there, or the folder ignores case."""
     PACKAGED = auto()
-    """Some layer of the stage lies in a package."""
+    """A layer of the stage lies in a package."""
     LAYERED = auto()
-    """Several specs have a say, or value clips."""
+    """There are several specs, or value clips."""
     CLIPPED = auto()
-    """Value clips have a say."""
+    """There are value clips."""
 
 
 class FileFault(StrEnum):
-    """Why something that is there is no readable file with content, in words that follow `is`."""
+    """Why what is at a path is no readable file with content, in words that follow `is`."""
 
     FOLDER = "a folder"
     SPECIAL = "not a regular file"

@@ -1,4 +1,4 @@
-"""The grids that fields ask for, and those that their files hold."""
+"""What fields claim about their grids, and the grids that their files hold."""
 
 from __future__ import annotations
 
@@ -14,16 +14,18 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files import Files
     from usdvol_lint.facts.grids.changes import GridChanges
     from usdvol_lint.facts.grids.claims import ClaimReader, FieldClaims
-    from usdvol_lint.facts.grids.contents import ContentReader, FieldContents, Kind, Timeline
+    from usdvol_lint.facts.grids.contents import ContentClass
+    from usdvol_lint.facts.grids.reader import ContentReader
+    from usdvol_lint.facts.grids.timelines import FieldContents, Timeline
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.volumefile.cache import VolumeFiles
 
 
 class Grids(Wing):
-    """What fields say of the content of their files, held against that content.
+    """What fields claim about the content of their files, and that content.
 
-    `content` says how many of a field's files are looked into: all, first or off; `volume_files`
-    has those that were read already; `advance` is told of progress in long sequences.
+    `content` is how many of a field's files are read: all, first or off; `volume_files` keeps what
+    was read, for other stages too; `advance` is told of progress in long sequences.
     """
 
     def __init__(
@@ -42,33 +44,35 @@ class Grids(Wing):
 
     @column
     def claims(self, table: Table) -> Sequence[FieldClaims]:
-        """What fields say of the content of their files."""
+        """What each field claims about the content of its files."""
         return self._claim_reader.read(table.batch, table.authored)
 
     @column
     def timelines(self, table: Table) -> Sequence[Timeline]:
-        """What is inside the files that fields name, over time; fields may share one."""
+        """The contents of each field's files, over time; fields may share a timeline."""
         paths, claims = self._files.paths.all(table), self.claims.all(table)
         return self._content_reader.read(paths, claims, table.authored)
 
     @summary
-    def content_classes(self, table: Table) -> Sequence[tuple[Kind, ...]]:
-        """The classes of what is inside the files that a field names."""
-        return [tuple([kind for kind, _ in each.kinds]) for each in self.timelines.all(table)]
+    def content_classes(self, table: Table) -> Sequence[tuple[ContentClass, ...]]:
+        """The classes of the contents of each field's files."""
+        return [
+            tuple([each for each, _ in timeline.classes]) for timeline in self.timelines.all(table)
+        ]
 
     def contents(self, field: Any) -> FieldContents:
-        """What is inside the files that a field names."""
-        from usdvol_lint.facts.grids.contents import FieldContents
+        """The contents of a field's files."""
+        from usdvol_lint.facts.grids.timelines import FieldContents
 
         return FieldContents(self._files.paths(field).attribute, self.timelines(field))
 
     def changes(self, field: Any) -> GridChanges | None:
-        """Where the grids along a field's sequence are others than in most of its frames.
+        """The frames of a field's sequence that hold other grids than most of its frames.
 
-        Of the fields that share a sequence, the first one is told.
+        None for all but the first of the fields that share a sequence.
         """
         timeline = self.timelines(field)
-        if len(timeline.kinds) < 2:
+        if len(timeline.classes) < 2:
             return None
         from usdvol_lint.facts.grids.changes import find_grid_changes
 
@@ -77,7 +81,7 @@ class Grids(Wing):
 
     @cached_property
     def _sharing(self) -> Mapping[Hashable, list[Any]]:
-        """The fields that name the same files at the same times."""
+        """Fields by their files and times: those that name the same files at the same times."""
         found: dict[Hashable, list[Any]] = defaultdict(list)
         for field, timeline in self.timelines.readable(schema.FIELD_ASSET):
             found[tuple(timeline.files)].append(field)
@@ -91,6 +95,6 @@ class Grids(Wing):
 
     @cached_property
     def _content_reader(self) -> ContentReader:
-        from usdvol_lint.facts.grids.contents import ContentReader
+        from usdvol_lint.facts.grids.reader import ContentReader
 
         return ContentReader(self._volume_files, self._content, self._advance)

@@ -1,67 +1,56 @@
-"""Where along a sequence a file holds other grids than most."""
+"""The frames of a sequence that hold other grids than most of its frames."""
 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias, TypeVar
+from typing import TypeAlias
 
 from usdvol_lint.facts.files.assets import Affected
-from usdvol_lint.facts.grids.contents import Content, FieldContents
+from usdvol_lint.facts.grids.contents import Content
+from usdvol_lint.facts.grids.timelines import FieldContents
 from usdvol_lint.model import quoted
 
-_T = TypeVar("_T")
-
-Grids: TypeAlias = Mapping[str, tuple[str, ...]]
-"""The value types of the grids of each name."""
+Grids: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
+"""The names of grids, in their order, each with the value types of the grids of that name."""
 
 
 @dataclass(frozen=True, slots=True)
 class GridChanges:
-    """The samples whose files differ from most, and how the first one of them does, in words."""
+    """The samples whose files differ from most, and how the first one does, in words."""
 
-    found: Affected
+    affected: Affected
     difference: str
 
 
 def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
     """Compares the frames of fields that share their files.
 
-    Files without grids, and such as could not be read to their end, are left out; and so are
-    frames in which some field does not find what it asks for, since that is said of the field.
-    Where no more than half of the frames agree, nobody knows which are the odd ones.
+    Left out are files without grids or not read to their end, and frames that lack what one of the
+    fields claims, which other rules report.
+    None unless more than half of the frames agree: else it is open which ones differ.
     """
-    first, fits, grids_of = fields[0], _by_kind(_fits), _by_kind(_grids)
+    first = fields[0]
+    fits = ([fit for _, fit in field.timeline.answers(_fits)] for field in fields)
+    all_fit = map(all, zip(*fits, strict=True))
     frames = [
-        (contents[0].sample, grids_of(contents[0]))
-        for contents in zip(*(field.all.contents for field in fields), strict=True)
-        if contents[0].sample.time is not None and all(map(fits, contents))
+        (sample, grids or ())
+        for (sample, grids), fit in zip(first.timeline.answers(_grids), all_fit, strict=True)
+        if fit and sample.time is not None
     ]
-    kinds = Counter(tuple(sorted(grids.items())) for _, grids in frames)
-    commonest, count = max(kinds.items(), key=lambda item: item[1], default=((), 0))
+    counts = Counter(grids for _, grids in frames)
+    usual, count = max(counts.items(), key=lambda item: item[1], default=((), 0))
     if not len(frames) / 2 < count < len(frames):
         return None
-    usual = dict(commonest)
     differing = [(sample, grids) for sample, grids in frames if grids != usual]
-    found = Affected(first.attribute, tuple(sample for sample, _ in differing), first.all.total)
-    return GridChanges(found, _difference(differing[0][1], usual))
-
-
-def _by_kind(ask: Callable[[Content], _T]) -> Callable[[Content], _T]:
-    """The same question, asked once among contents of one kind."""
-    answers: dict[Hashable, _T] = {}
-
-    def answer(content: Content) -> _T:
-        kind = (content.reading.kind, content.claim)
-        if kind not in answers:
-            answers[kind] = ask(content)
-        return answers[kind]
-
-    return answer
+    samples = tuple(sample for sample, _ in differing)
+    affected = Affected(first.attribute, samples, first.timeline.total)
+    return GridChanges(affected, _difference(dict(differing[0][1]), dict(usual)))
 
 
 def _fits(content: Content) -> bool:
+    """Whether a file was read to its end and has what the field claims."""
     file, claim, grid = content.file, content.claim, content.grid
     if file is None or not file.complete or not file.grids or (claim.name and not grid):
         return False
@@ -72,16 +61,16 @@ def _grids(content: Content) -> Grids:
     grids: dict[str, tuple[str, ...]] = defaultdict(tuple)
     for grid in content.file.grids if content.file else ():
         grids[grid.unique_name] += (grid.value_type,)
-    return dict(grids)
+    return tuple(sorted(grids.items()))
 
 
-def _difference(grids: Grids, usual: Grids) -> str:
+def _difference(grids: Mapping[str, tuple[str, ...]], usual: Mapping[str, tuple[str, ...]]) -> str:
     lacking = usual.keys() - grids.keys()
     added = grids.keys() - usual.keys()
-    others = sorted(name for name in grids.keys() & usual.keys() if grids[name] != usual[name])
     retyped = (
         f"has {quoted(name)} as {' and '.join(grids[name])} instead of {' and '.join(usual[name])}"
-        for name in others
+        for name in sorted(grids.keys() & usual.keys())
+        if grids[name] != usual[name]
     )
     words = [f"lacks {_listed(lacking)}" if lacking else "", *retyped]
     words.append(f"has {_listed(added)} beside" if added else "")

@@ -1,4 +1,4 @@
-"""What a field says of the content of its files."""
+"""What a field claims about the content of its files."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ _TYPES = {name: int if name == "index" else str for name in _ATTRIBUTES.values()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Claim:
-    """What a field says at one time of what it wants from its file; empty where it says nothing.
+    """What a field claims about its file at one time; what is not authored is empty or None.
 
-    Fields of a stage that say the same share one.
+    Compared by identity: fields of a stage with the same values share one.
     """
 
     name: str = ""
@@ -39,9 +39,9 @@ class Claim:
 
 
 class FieldClaims:
-    """What a field says over time: `times` are those at which it changes, if it ever does.
+    """The claims of a field over time, which change at `times`.
 
-    Fields of a stage that say the same once and for all share one.
+    Fields of a stage with the same values and without time samples share one.
     """
 
     def __init__(self, default: Claim, samples: Sequence[tuple[float, Claim]] = ()) -> None:
@@ -51,41 +51,41 @@ class FieldClaims:
         self.all = (default, *(claim for _, claim in samples))
 
     def at(self, time: Time) -> Claim:
-        """What it says at a time."""
+        """The claim at a time."""
         return self.default if time is None else self._samples.at(time) or self.default
 
 
 class ClaimReader:
-    """Reads what the fields of a stage say."""
+    """Reads the claims of the fields of a stage."""
 
     def __init__(self) -> None:
         self._claims: dict[tuple[Any, ...], Claim] = {}
-        self._unchanging: dict[tuple[Any, ...], FieldClaims] = {}
+        self._constants: dict[tuple[Any, ...], FieldClaims] = {}
 
     def read(self, batch: PrimBatch, authored: Authored) -> list[FieldClaims]:
-        """What many fields say that are alike."""
+        """The claims of each of many fields; `authored` is what all of them share."""
         names = tuple(name for name in _ATTRIBUTES if name in authored.declared)
         if not names:
             return [self._constant((), ())] * len(batch.prims)
         values = zip(*map(batch.values, names), strict=True)
         counts = zip(*map(batch.counts, names), strict=True)
         found = []
-        for field, said, are_animated in zip(batch.prims, values, counts, strict=True):
-            if any(are_animated):
-                found.append(self._read_changing([field.GetAttribute(name) for name in names]))
+        for field, defaults, sample_counts in zip(batch.prims, values, counts, strict=True):
+            if any(sample_counts):
+                found.append(self._read_animated([field.GetAttribute(name) for name in names]))
             else:
-                found.append(self._constant(names, said))
+                found.append(self._constant(names, defaults))
         return found
 
-    def _constant(self, names: tuple[str, ...], said: tuple[Any, ...]) -> FieldClaims:
-        key = (names, said, *map(type, said))  # to a dictionary 1, 1.0 and True are the same
-        found = self._unchanging.get(key)
+    def _constant(self, names: tuple[str, ...], values: tuple[Any, ...]) -> FieldClaims:
+        key = (names, values, *map(type, values))  # as keys 1, 1.0 and True are the same
+        found = self._constants.get(key)
         if found is None:
-            claim = self._claim(dict(zip(map(_ATTRIBUTES.__getitem__, names), said, strict=True)))
-            found = self._unchanging[key] = FieldClaims(claim)
+            claim = self._claim(dict(zip(map(_ATTRIBUTES.__getitem__, names), values, strict=True)))
+            found = self._constants[key] = FieldClaims(claim)
         return found
 
-    def _read_changing(self, attributes: Sequence[Any]) -> FieldClaims:
+    def _read_animated(self, attributes: Sequence[Any]) -> FieldClaims:
         constant: dict[str, Any] = {}
         animated: dict[str, StepSamples[Any]] = {}
         for attribute in attributes:
@@ -96,12 +96,14 @@ class ClaimReader:
                 constant[name] = get_value(attribute)
 
         def at(time: Time) -> Claim:
-            return self._claim(constant | {name: held.at(time) for name, held in animated.items()})
+            return self._claim(
+                constant | {name: samples.at(time) for name, samples in animated.items()}
+            )
 
-        times = {time for held in animated.values() for time in held.times}
+        times = {time for samples in animated.values() for time in samples.times}
         return FieldClaims(at(None), [(time, at(time)) for time in sorted(times)])
 
-    def _claim(self, said: dict[str, Any]) -> Claim:
-        """The claim of these values, the same one for the same values."""
-        given: Any = {name: value for name, value in said.items() if type(value) is _TYPES[name]}
-        return self._claims.setdefault(tuple(given.items()), Claim(**given))
+    def _claim(self, values: dict[str, Any]) -> Claim:
+        """The claim with these values, always the same object; those of other types are dropped."""
+        typed: Any = {name: value for name, value in values.items() if type(value) is _TYPES[name]}
+        return self._claims.setdefault(tuple(typed.items()), Claim(**typed))

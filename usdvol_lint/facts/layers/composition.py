@@ -10,7 +10,7 @@ from typing import Any
 
 from pxr import Pcp, Sdf, Usd
 
-from usdvol_lint.facts.files.assets import is_uri
+from usdvol_lint.facts.files.paths import is_uri
 from usdvol_lint.facts.layers.error_texts import (
     ARCS,
     LayerArc,

@@ -8,7 +8,8 @@ from typing import Any
 
 from pxr import Sdf, Tf
 
-from usdvol_lint.facts.files.disk import file_fault, is_packaged
+from usdvol_lint.facts.files.disk import file_fault
+from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.layers.error_texts import LayerArc, as_reason
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule

@@ -7,7 +7,7 @@ from typing import Any
 
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.grids import Grids
-from usdvol_lint.facts.grids.contents import Timeline
+from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims import Prims
 from usdvol_lint.facts.prims.tables import Table, Tables
 from usdvol_lint.facts.usd.instances import in_prototype
@@ -77,5 +77,5 @@ class Enclosure:
         for _, target in bindings.with_files():
             field = in_prototype(target.prim)
             timeline = self._grids.timelines(field)
-            if timeline.select_grids:
+            if timeline.selects_grids:
                 yield target, field, timeline

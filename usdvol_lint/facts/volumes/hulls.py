@@ -7,7 +7,7 @@ from math import inf
 from operator import le
 from typing import Any, NamedTuple
 
-from usdvol_lint.facts.grids.contents import Timeline
+from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.boxes import magnitude, union
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.volumes.placement import UNTRANSFORMED, Placement
@@ -60,7 +60,7 @@ class Hulls:
         most = 0.0
         for timeline, placement in placed:
             if limit is None:
-                if timeline.select_grids:
+                if timeline.selects_grids:
                     return inf
                 continue
             cached = timeline in self._untransformed
@@ -74,7 +74,7 @@ class Hulls:
         return most
 
     def _add_untransformed(self, timeline: Timeline) -> Hull | None:
-        hull = self._hull(timeline, IDENTITY) if timeline.select_grids else _NO_GRIDS
+        hull = self._hull(timeline, IDENTITY) if timeline.selects_grids else _NO_GRIDS
         self._untransformed[timeline] = hull
         return hull
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from usdvol_lint.facts.files.assets import AssetSamples, Sample
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.model import quoted
@@ -61,6 +61,6 @@ def find_mixed_files(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles |
     )
 
 
-def _file(sample: Sample | None) -> str:
+def _file(sample: AssetSample | None) -> str:
     """The identity of the file at a sample; empty where the path leads to no file."""
     return sample.resolved or sample.path if sample and sample.state in _KNOWN else ""

@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from typing import Any, ClassVar, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSamples
-from usdvol_lint.facts.grids.contents import Timeline
+from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.boxes import (
     AXES,
     Sides,

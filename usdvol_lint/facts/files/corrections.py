@@ -1,0 +1,113 @@
+"""Why nothing is at a path, and which path was probably meant."""
+
+from __future__ import annotations
+
+import errno
+import os
+from typing import NamedTuple
+
+from pxr import Ar, Sdf
+
+from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.paths import count_names
+from usdvol_lint.facts.files.patterns import matching_frames
+from usdvol_lint.model import quoted
+from usdvol_lint.nearest import closest_match
+
+
+class Absence(NamedTuple):
+    """Why nothing is at a path, in words that follow it, and a similar path with a file, if any."""
+
+    reason: str
+    similar: str | None
+
+
+def find_absence(disk: Disk, path: str, authored: str) -> Absence:
+    """Why nothing is at an absolute path; `authored` is the text that it comes from."""
+    authored, _ = Sdf.Layer.SplitIdentifier(authored)
+    corrected = correct_case(disk, path, authored)
+    if Ar.IsPackageRelativePath(path):
+        package, inner = Ar.SplitPackageRelativePathOuter(path)
+        if not os.path.isfile(package):
+            return _absence_of_package(disk, package, authored)
+        similar = None if corrected else _closest_name(disk, package, inner)
+        corrected = _with_end(authored, inner, similar) if similar else corrected
+        return Absence(f" in {quoted(os.path.basename(package))}", corrected)
+    missing = _first_missing(path)
+    folder, name = os.path.split(missing)
+    below = path[len(missing) :]
+    shown = _with_end(authored, below, "") if below else authored
+    similar = None if corrected else _closest_name(disk, folder, name)
+    if similar:
+        has_file = os.path.exists(os.path.join(folder, similar) + below)
+        corrected = _with_end(authored, name + below, similar + below if has_file else similar)
+    if os.path.islink(missing):
+        return Absence(f": {_broken_link(missing)}", corrected)
+    return Absence(f": no folder {quoted(shown)}" if below else "", corrected)
+
+
+def correct_case(disk: Disk, path: str, authored: str) -> str | None:
+    """The authored path as the disk spells it, if only the case differs; else None.
+
+    `path` is its absolute form.
+    """
+    authored, _ = Sdf.Layer.SplitIdentifier(authored)
+    if Ar.IsPackageRelativePath(path):
+        package, inner = Ar.SplitPackageRelativePathOuter(path)
+        actual = disk.names(package).get(inner.lower(), inner)
+        return _with_end(authored, inner, actual) if actual != inner else None
+    count = count_names(authored)
+    found = disk.in_case(path, count)
+    if found is None or found == path:
+        return None
+    return _with_end(authored, _last_names(path, count), _last_names(found, count))
+
+
+def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
+    """The frame numbers and paths of the files that a path with a placeholder stands for.
+
+    `path` is the absolute form of `authored`; the paths begin as `authored` does.
+    """
+    folder, name = os.path.split(path)
+    found = matching_frames(name, disk.listing(folder))
+    return [(frame.number, _with_end(authored, name, frame.name)) for frame in found]
+
+
+def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
+    shown, inner = Ar.SplitPackageRelativePathOuter(authored)
+    reason, corrected = find_absence(disk, package, shown)
+    if corrected and corrected.endswith(os.path.splitext(shown)[1]):  # else it corrects a folder
+        corrected = str(Ar.JoinPackageRelativePath(corrected, inner))
+    return Absence(reason or f": no package {quoted(shown)}", corrected)
+
+
+def _closest_name(disk: Disk, folder: str, name: str) -> str | None:
+    """The closest other name in a folder; a name with other numbers is no misspelling."""
+    others = disk.names_numbered_alike(folder, name)
+    return closest_match(name, (other for other in others if other != name))
+
+
+def _first_missing(path: str) -> str:
+    """The topmost folder of an absolute path that does not exist, or the whole path."""
+    while not os.path.exists(parent := os.path.dirname(path)) and parent != path:
+        path = parent
+    return path
+
+
+def _broken_link(path: str) -> str:
+    target = os.readlink(path)
+    try:
+        os.stat(path)
+    except OSError as error:
+        if error.errno == errno.ELOOP:
+            return f"a symbolic link to {quoted(target)} that leads round in a circle"
+    return f"a symbolic link to {quoted(target)}, which does not exist"
+
+
+def _with_end(path: str, end: str, replacement: str) -> str:
+    """The path with its end replaced; the replacement alone if the path does not end so."""
+    return path.removesuffix(end) + replacement if path.endswith(end) else replacement
+
+
+def _last_names(path: str, count: int) -> str:
+    return "/".join(path.split("/")[-count:])

@@ -1,0 +1,89 @@
+"""Paths that differ from the names on disk in nothing but case."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from pxr import Ar
+
+from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
+from usdvol_lint.facts.files.corrections import correct_case
+from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.origins import SampleLayers
+from usdvol_lint.facts.files.paths import count_names, split_path
+from usdvol_lint.facts.files.states import ON_DISK
+
+
+class Recased(NamedTuple):
+    """Samples whose paths differ by case from the names on disk; `path` corrects the first."""
+
+    affected: Affected
+    path: str
+
+
+def recased(paths: AssetSamples, disk: Disk) -> Recased | None:
+    """The samples whose file, or a folder that they name, has another case on disk.
+
+    Paths that resolve are looked at only where the file system ignores case.
+    """
+    folders = _Folders(paths, disk)
+    affected = paths.affected(filter(folders.have_another_case, paths.samples))
+    if affected is None:
+        return None
+    path = correct_case(disk, folders.absolute(affected.first), affected.first.path)
+    return Recased(affected, path or affected.first.path)
+
+
+class _Folder(NamedTuple):
+    """The names in a folder, as `Disk.names` gives them; those in a package begin with `prefix`.
+
+    `differs` is whether the folder's own path has another case on disk.
+    """
+
+    names: Mapping[str, str]
+    prefix: str
+    differs: bool
+
+
+class _Folders:
+    """The folders of the samples' files, each looked at once, however many samples there are."""
+
+    def __init__(self, paths: AssetSamples, disk: Disk) -> None:
+        self._paths = paths
+        self._disk = disk
+        self._layers = SampleLayers(paths)
+        self._known: dict[tuple[str, str, float | None], _Folder | None] = {}
+
+    def have_another_case(self, sample: AssetSample) -> bool:
+        """Whether there is a file whose path differs from the sample's in nothing but case."""
+        if sample.state not in ON_DISK:
+            return False
+        folder_path, name = split_path(sample.path)
+        key = (folder_path, sample.resolved.rpartition("/")[0], self._layers.key(sample))
+        if key not in self._known:
+            self._known[key] = self._look(sample, folder_path)
+        folder = self._known[key]
+        if folder is None:
+            return False
+        name = folder.prefix + name
+        actual = folder.names.get(name) or folder.names.get(name.lower())
+        return actual is not None and (folder.differs or actual != name)
+
+    def absolute(self, sample: AssetSample) -> str:
+        """The absolute path of a sample."""
+        return sample.resolved or self._paths.anchored(sample)
+
+    def _look(self, sample: AssetSample, folder_path: str) -> _Folder | None:
+        """The folder of a sample, `folder_path` in its path; None where no case can differ."""
+        if sample.resolved and not self._disk.ignores_case(sample.resolved):
+            return None
+        path = self.absolute(sample)
+        if Ar.IsPackageRelativePath(path):
+            package, inner = Ar.SplitPackageRelativePathOuter(path)
+            folder, slash, _ = inner.rpartition("/")
+            return _Folder(self._disk.names(package), folder + slash, differs=False)
+        folder = os.path.dirname(path)
+        actual = self._disk.in_case(folder, count_names(folder_path))
+        return _Folder(self._disk.names(actual), "", actual != folder) if actual else None

@@ -1,0 +1,63 @@
+"""Asset paths: their parts as text, and the absolute path of each."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import Any
+
+from pxr import Ar, Sdf
+
+from usdvol_lint.facts.usd.opinions import strongest_opinion
+
+FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
+"""Stands between a path and the arguments for the file format plugin that reads it."""
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
+
+
+def split_path(path: str) -> tuple[str, str]:
+    """The folder of a path and the name of the file, without a slash between, and no arguments."""
+    folder, _, name = path.partition(FORMAT_ARGUMENTS)[0].rpartition("/")
+    return folder, name
+
+
+def extension_of(path: str) -> str:
+    """The extension in lower case with its dot, or empty; in a package that of the inner file."""
+    name = path.partition(FORMAT_ARGUMENTS)[0].rstrip("]").rpartition("/")[2]
+    _, dot, extension = name.rpartition(".")
+    return f".{extension}".lower() if dot else ""
+
+
+def count_names(path: str) -> int:
+    """How many names a path has that folders list, so without `.` and `..`."""
+    names = os.path.normpath(path).replace(os.sep, "/").split("/")
+    return sum(name not in ("", ".", "..") for name in names)
+
+
+def is_packaged(path: str) -> bool:
+    """Whether a path names a file in a package, `package.usdz[inner]`."""
+    return path.endswith("]") and bool(Ar.IsPackageRelativePath(path))
+
+
+def is_uri(path: str) -> bool:
+    """Whether a path has a scheme that no installed resolver answers for."""
+    if ":" not in path:
+        return False
+    scheme = _SCHEME.match(Sdf.Layer.SplitIdentifier(path)[0])
+    return scheme is not None and scheme[1].lower() not in Ar.GetRegisteredURISchemes()
+
+
+def anchored(attribute: Any, time: float | None, path: str) -> str:
+    """The absolute path of a value, without arguments, whether or not anything is there.
+
+    It is anchored at the layer that holds the strongest opinion at a time; None is the default.
+    """
+    bare = str(Sdf.Layer.SplitIdentifier(path)[0])
+    strongest = strongest_opinion(attribute, time)
+    if strongest is None:
+        return bare
+    layer = strongest.spec.layer
+    absolute = str(layer.ComputeAbsolutePath(bare))
+    # USD leaves a bare name that it does not find as it is, for the resolver's search path.
+    searched = absolute == bare and not (os.path.isabs(bare) or is_uri(bare))
+    return str(layer.ComputeAbsolutePath(f"./{bare}")) if searched else absolute
