@@ -25,7 +25,7 @@ class Enclosure:
         self._tables = tables
         self._prims = prims
         self._files = files
-        self._grids = grids
+        self._timelines = grids.timelines
         self._boxes = GridBoxes()
         self._hulls = Hulls(self._boxes)
 
@@ -60,7 +60,7 @@ class Enclosure:
                 for target, _, timeline in self._with_grids(fields.bindings)
                 for _, placement in read_placements(volume, target.prim)
             ]
-        timelines = self._grids.timelines
+        timelines = self._timelines
         placed = []
         for slot in fields.slots:
             table, row = self._tables.find_at(slot)
@@ -76,6 +76,6 @@ class Enclosure:
         """The fields in some of whose files the named grid was found: target, prim and files."""
         for _, target in bindings.with_files():
             field = in_prototype(target.prim)
-            timeline = self._grids.timelines(field)
+            timeline = self._timelines(field)
             if timeline.selects_grids:
                 yield target, field, timeline
