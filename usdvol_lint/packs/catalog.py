@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import redirect_stdout, suppress
-from importlib import import_module
+from importlib import import_module, invalidate_caches
 from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -183,7 +183,18 @@ def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[s
         if folder in known:
             continue
         # By its place: two packs in one process may both have a module `checks`.
-        yield _mount(f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}", folder), folder
+        name = f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}"
+        _forget(name)
+        yield _mount(name, folder), folder
+
+
+def _forget(name: str) -> None:
+    """Has a package imported anew: workers read it from disk, and it may have been edited."""
+    loaded = [module for module in sys.modules if f"{module}.".startswith(f"{name}.")]
+    for module in loaded:
+        del sys.modules[module]
+    if loaded:
+        invalidate_caches()
 
 
 def _mount(name: str, folder: str) -> str:
