@@ -183,22 +183,6 @@ def test_an_edited_pack_is_read_anew(show: Path, tmp_path: Path) -> None:
     assert found == [("info", "one is 4"), ("error", "second is 4")]
 
 
-def test_a_condition_on_no_fact(tmp_path: Path) -> None:
-    rule = """
-from usdvol_lint.rule import INFO, When, rule
-
-@rule("STU009", on="Volume", when=When("extent", bool), severity=INFO, since="1")
-def odd(volume, facts):
-    yield from ()
-"""
-    (tmp_path / "odd.py").write_text(rule, encoding="utf-8")
-    with pytest.raises(
-        PackError,
-        match=r"odd\.py: .*STU009: `when` names no column or summary",
-    ):
-        load([str(tmp_path)])
-
-
 def test_a_page_that_can_not_be_read(tmp_path: Path) -> None:
     shutil.copytree(STUDIO, tmp_path / "pack")
     page = tmp_path / "pack" / "house" / "volume_name.md"

@@ -94,7 +94,8 @@ class _RulesByKey:
         if keys is None:
             yield from self._one_by_one(table)
             return
-        chosen = {key: self._rules_for(key) for key in set(keys)}
+        # In order, so that of several keys that a precondition fails on, the same one is reported.
+        chosen = {key: self._rules_for(key) for key in dict.fromkeys(keys)}
         if any(chosen.values()):
             for prim, key in zip(table.prims, keys, strict=True):
                 for rule in chosen[key]:

@@ -90,6 +90,7 @@ class Failures:
                 else "a bug of the rule, not of the stage; --verbose shows the traceback",
                 help=help_for(code),
                 detail=failure.traceback,
+                faulty_rule=failure.rule.code if failure.of_precondition else None,
             )
             yield Found(finding, key)
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Protocol
 
 from usdvol_lint import __version__
 from usdvol_lint.config import Config
-from usdvol_lint.model import Report
+from usdvol_lint.model import Report, StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.run.discovery import discover
@@ -66,7 +66,7 @@ def lint(
         shown.begin(len(futures))
         setup = Setup(active, settled.packs, settled.depth)
         pool.run(setup, settled.jobs or os.cpu_count() or 1, settled.timeout, shown.advance)
-        stages = tuple(future.result() for future in futures)
+        stages = tuple(without_repeated_faults(future.result() for future in futures))
         return Report(
             version=__version__,
             usd_version=pool.usd_version,
@@ -76,6 +76,17 @@ def lint(
         )
     finally:
         pool.close()
+
+
+def without_repeated_faults(stages: Iterable[StageReport]) -> Iterator[StageReport]:
+    """What is wrong with a rule, and no stage, stays in the report of the first that shows it."""
+    reported: set[str] = set()
+    for stage in stages:
+        faulty = {finding.faulty_rule for finding in stage.findings if finding.faulty_rule}
+        yield stage._replace(
+            findings=tuple(each for each in stage.findings if each.faulty_rule not in reported)
+        )
+        reported |= faulty
 
 
 def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
