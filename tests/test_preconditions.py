@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,11 @@ from process import ROOT, run, volume, write
 
 from usdvol_lint import lint
 from usdvol_lint.config import Config
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import PackError
-from usdvol_lint.packs.catalog import load
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog, load
+from usdvol_lint.run.testing import STAGE, cases, pages, write_example
 
 WORDS = (
     "from usdvol_lint.rule import ERROR, INFO, BindingMark, Grids, Prims, Problem, When, rule\n"
@@ -144,3 +148,23 @@ def test_a_precondition_that_can_not_work_is_refused(when: str, said: str, tmp_p
     folder = pack(tmp_path / "pack", when, options=", *, longest: int = 3")
     with pytest.raises(PackError, match=rf"seen\.py: .*{said}"):
         load([str(folder)])
+
+
+CASES = [case for page in pages(ROOT / "rules") for case in cases(page)]
+
+
+def test_rules_find_the_same_without_their_preconditions(
+    catalog: Catalog, assets: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On every example of a page: `when` saves time, and takes away no finding."""
+    active = activate(Config(select=("ALL",)), catalog)
+    rules = {code: replace(rule, when=None) for code, rule in catalog.rules.items()}
+    assert [rule for rule in catalog.rules.values() if rule.when]
+    narrowed, handed_all = Engine(catalog.rules, active), Engine(rules, active)
+    monkeypatch.chdir(tmp_path)
+    for number, case in enumerate(CASES):
+        folder = tmp_path / str(number)
+        write_example(case, folder, assets)
+        path = f"{number}/{STAGE}"
+        place = f"{case.page.path}:{case.example.line}"
+        assert narrowed.lint(path).findings == handed_all.lint(path).findings, place
