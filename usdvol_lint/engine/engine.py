@@ -13,7 +13,7 @@ from usdvol_lint.config import Depth
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Found, Stamp
-from usdvol_lint.engine.trouble import Unreadable, report_trouble
+from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import Walk
 from usdvol_lint.facts import Context, Facts
@@ -60,9 +60,9 @@ class Engine:
         try:
             session = Sdf.Layer.CreateAnonymous() if self._depth.selections else None
             stage = open_stage(path, self._depth.load, session)
-        except Unreadable as trouble:
+        except UnreadableStageError as error:
             clock.lap("open")
-            return report_trouble(path, trouble, seconds=clock.seconds)
+            return report_trouble(path, error.trouble, seconds=clock.seconds)
         clock.lap("open")
         context = Context.of(stage, self._depth, self._volume_files, self._advance)
         return self._report(path, context, clock)

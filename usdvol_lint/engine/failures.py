@@ -8,8 +8,8 @@ from typing import Any
 
 from pxr import Tf
 
+from usdvol_lint.engine.messages import messages
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.engine.stage import messages
 from usdvol_lint.engine.stamp import Found
 from usdvol_lint.engine.variants import Identity
 from usdvol_lint.facts.usd.diagnostics import without_parser_rule

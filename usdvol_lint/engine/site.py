@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Ar, Usd
 
+from usdvol_lint.engine.diagnosis import TEXT_SIGNATURES
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import opinion
 from usdvol_lint.model import Site
@@ -14,8 +15,6 @@ from usdvol_lint.rule import NotChecked, Problem
 
 if TYPE_CHECKING:
     from usdvol_lint.engine.lines import TextLayer
-
-_TEXT_SIGNATURES = (b"#usda", b"#sdf", b"#usd ")
 
 
 class Located(NamedTuple):
@@ -61,7 +60,7 @@ class Sites:
         key = layer.identifier
         if key not in self._texts:
             data = _read(layer)
-            self._texts[key] = TextLayer(data) if data.startswith(_TEXT_SIGNATURES) else None
+            self._texts[key] = TextLayer(data) if data.startswith(TEXT_SIGNATURES) else None
         return self._texts[key]
 
 
@@ -114,7 +113,7 @@ def _read(layer: Any) -> bytes:
     try:
         with open(path, "rb") as file:
             head = file.read(8)
-            return head + file.read() if head.startswith(_TEXT_SIGNATURES) else b""
+            return head + file.read() if head.startswith(TEXT_SIGNATURES) else b""
     except OSError:
         return b""
 

@@ -14,7 +14,7 @@ from contextlib import suppress
 from typing import IO, TYPE_CHECKING, Any
 
 from usdvol_lint.child import start_child
-from usdvol_lint.engine.trouble import Unreadable, report_trouble
+from usdvol_lint.engine.trouble import Trouble, report_trouble
 from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.run.protocol import Advance, Found, Ready, Refusal, Setup
 
@@ -126,21 +126,21 @@ class Worker:
         assert self._process.stdout
         return self._process.stdout
 
-    def _timed_out(self, limit: float) -> Unreadable:
-        return Unreadable(
+    def _timed_out(self, limit: float) -> Trouble:
+        return Trouble(
             f"not done after {limit:g} s, ended there",
             "look for a layer that is a pipe or a corrupt file, or give it more with --timeout",
         )
 
-    def _crashed(self) -> Unreadable:
+    def _crashed(self) -> Trouble:
         code = self._process.wait()
         if 0 <= code < 256:
-            return Unreadable(
+            return Trouble(
                 f"the process that checked it ended early ({_cause(code)})",
                 "a bug of usdvol-lint, a rule pack or a USD plugin; --verbose shows what it said",
                 detail=self._last_words(),
             )
-        return Unreadable(
+        return Trouble(
             f"the USD library crashed while reading it ({_cause(code)})",
             "the file or a layer it names is probably corrupt: open it with usdcat to see which",
             detail=self._last_words(),
