@@ -11,9 +11,10 @@ from pxr import Tf
 from usdvol_lint import schema
 from usdvol_lint.engine.assign import Options, assign
 from usdvol_lint.engine.failures import Failures
+from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.stamp import Found, Stamp
 from usdvol_lint.engine.usd_version import usd_version
-from usdvol_lint.engine.variants import Identity, OtherSelections
+from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import Walk, walk
 from usdvol_lint.facts import Context, Facts
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD

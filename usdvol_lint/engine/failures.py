@@ -8,10 +8,10 @@ from typing import Any
 
 from pxr import Tf
 
+from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.messages import messages
 from usdvol_lint.engine.site import Sites
 from usdvol_lint.engine.stamp import Found
-from usdvol_lint.engine.variants import Identity
 from usdvol_lint.facts.usd.diagnostics import without_parser_rule
 from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for

@@ -18,9 +18,10 @@ if TYPE_CHECKING:
 
 
 class Located(NamedTuple):
-    """A site, and by how many instances the stage shows it."""
+    """A site, the spec to blame if there is one, and how many instances show it on the stage."""
 
     site: Site
+    spec: Any | None
     instances: int
 
 
@@ -34,7 +35,7 @@ class Sites:
         """Where a problem is, on the stage and in the layer."""
         prim = problem.at.GetPrim()
         is_property = isinstance(problem.at, Usd.Property)
-        spec, time = (problem.spec, None) if problem.spec else blamed_spec(problem)
+        spec, time = (problem.spec, None) if problem.spec else _blamed_spec(problem)
         layer = spec.layer if spec else prim.GetStage().GetRootLayer()
         path = spec.path if spec else "/"
         text = self._text(layer)
@@ -50,7 +51,7 @@ class Sites:
             times=problem.times,
             at_default=problem.at_default,
         )
-        return Located(site, where.instances)
+        return Located(site, spec, where.instances)
 
     def _text(self, layer: Any) -> TextLayer | None:
         from usdvol_lint.engine.lines import (
@@ -64,7 +65,7 @@ class Sites:
         return self._texts[key]
 
 
-def blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
+def _blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
     """The spec whose opinion counts, and the first time as its layer has it."""
     if not isinstance(problem.at, Usd.Property):
         return _blamed_prim_spec(problem.at), None

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
+from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.engine.variants import Identity, identity
 from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.catalog import NOT_CHECKED, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
@@ -41,7 +41,7 @@ class Stamp:
         severity = self._severities.get(reported_as.code)
         if severity is None:
             return
-        site, instances = self.sites.locate(said)
+        site, spec, instances = self.sites.locate(said)
         shown = f" (shown by {instances} instances)" if instances > 1 else ""
         finding = Finding(
             code=reported_as.code,
@@ -52,7 +52,7 @@ class Stamp:
             suggestion=said.suggestion,
             help=help_for(reported_as),
         )
-        known_by = identity(rule, said) if self._several_selections else ()
+        known_by = identity(rule, said, spec) if self._several_selections else ()
         yield Found(finding, known_by, said.holds if isinstance(said, Problem) else None)
 
 
