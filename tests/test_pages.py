@@ -9,20 +9,19 @@ import pytest
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.packs.catalog import load
-from usdvol_lint.packs.page import Page
-from usdvol_lint.run.testing import (
+from usdvol_lint.packs.examples import (
     STAGE,
     Case,
     cases,
     mark,
     marks,
     pages,
-    portable,
     read_words,
     said,
     words_file,
-    write_example,
 )
+from usdvol_lint.packs.page import Page
+from usdvol_lint.run.testing import portable, write_example
 
 ROOT = Path(__file__).parent.parent
 RULES = ROOT / "rules"

@@ -15,7 +15,8 @@ from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import PackError
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog, load
-from usdvol_lint.run.testing import STAGE, cases, pages, write_example
+from usdvol_lint.packs.examples import STAGE, cases, pages
+from usdvol_lint.run.testing import write_example
 
 WORDS = (
     "from usdvol_lint.rule import ERROR, INFO, BindingMark, Grids, Prims, Problem, When, rule\n"

@@ -12,16 +12,9 @@ from process import ROOT, ROUGH, STUDIO, Ran, run
 
 from usdvol_lint.model import Finding, Severity, Site
 from usdvol_lint.packs.catalog import load
+from usdvol_lint.packs.examples import cases, pages, said, words_file
 from usdvol_lint.packs.page import read_page
-from usdvol_lint.run.testing import (
-    all_words,
-    cases,
-    pages,
-    portable,
-    said,
-    words_file,
-    write_example,
-)
+from usdvol_lint.run.testing import all_words, portable, write_example
 
 PASSED = "examples: 2, pages: 1; all report what they should\n"
 WITHOUT_CACHES = shutil.ignore_patterns("__pycache__")
