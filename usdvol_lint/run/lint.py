@@ -27,7 +27,7 @@ _SHAPING = (
 
 
 class Progress(Protocol):
-    """Whoever shows how far a run is."""
+    """Shows how far a run is."""
 
     def begin(self, stages: int) -> None: ...
     def advance(self, samples: int) -> None: ...
@@ -54,19 +54,11 @@ def lint(
     report.
     """
     began = time.perf_counter()
-    shown = progress or _Silent()
     pool = Pool(child)
     try:
         settled = config() if callable(config) else config or Config()
-        catalog = load(settled.packs)
-        active = activate(settled, catalog)
-        futures = [pool.submit(path) for path in discover(paths)]
-        for future in futures:
-            future.add_done_callback(lambda _: shown.stage_done())
-        shown.begin(len(futures))
-        setup = Setup(active, settled.packs, settled.depth)
-        pool.run(setup, settled.jobs or os.cpu_count() or 1, settled.timeout, shown.advance)
-        stages = tuple(without_repeated_faults(future.result() for future in futures))
+        active = activate(settled, load(settled.packs))
+        stages = _run(pool, discover(paths), settled, active, progress or _Silent())
         return Report(
             version=__version__,
             usd_version=pool.usd_version,
@@ -78,7 +70,20 @@ def lint(
         pool.close()
 
 
-def without_repeated_faults(stages: Iterable[StageReport]) -> Iterator[StageReport]:
+def _run(
+    pool: Pool, paths: Iterable[str], config: Config, active: ActiveRules, progress: Progress
+) -> tuple[StageReport, ...]:
+    """The reports on stages, in their order."""
+    futures = [pool.submit(path) for path in paths]
+    for future in futures:
+        future.add_done_callback(lambda _: progress.stage_done())
+    progress.begin(len(futures))
+    setup = Setup(active, config.packs, config.depth)
+    pool.run(setup, config.jobs or os.cpu_count() or 1, config.timeout, progress.advance)
+    return tuple(_without_repeated_faults(future.result() for future in futures))
+
+
+def _without_repeated_faults(stages: Iterable[StageReport]) -> Iterator[StageReport]:
     """What is wrong with a rule, and no stage, stays in the report of the first that shows it."""
     reported: set[str] = set()
     for stage in stages:
