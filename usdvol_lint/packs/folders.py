@@ -1,0 +1,140 @@
+"""Finds the folders of rule packs, and imports the modules in them."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import redirect_stdout, suppress
+from importlib import import_module, invalidate_caches
+from types import ModuleType
+
+from usdvol_lint.model import PackError
+from usdvol_lint.rule import Rule
+
+ENTRY_POINT_GROUP = "usdvol_lint.packs"
+_BUILT_IN = "usdvol_lint.rules"
+_CODE = re.compile(r"[A-Z]{3}\d{3}")
+
+
+def find_packs(folders: Sequence[str]) -> list[tuple[str, str]]:
+    """The package and the folder of each pack: the built-in one, installed ones, those named.
+
+    The packages can be imported.  Raises PackError for a pack that is not there.
+    """
+    built_in = _built_in_folder()
+    found = [(_mount(_BUILT_IN, built_in), built_in), *_installed_packs()]
+    return found + list(_named_packs(folders, [os.path.realpath(folder) for _, folder in found]))
+
+
+def _built_in_folder() -> str:
+    """Beside the engine in a checkout, inside it in a wheel."""
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    inside = os.path.join(package, "rules")
+    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "rules")
+
+
+def _installed_packs() -> Iterator[tuple[str, str]]:
+    # To import what reads entry points takes ten times as long as to see that there are none.
+    if not any(map(_names_packs, sys.path)):
+        return
+    from importlib.metadata import entry_points
+    from importlib.util import find_spec
+
+    for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
+        try:
+            spec = find_spec(entry.value)
+        except (ImportError, ValueError):
+            spec = None
+        places = list(spec.submodule_search_locations or ()) if spec else []
+        if not places:
+            raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
+        yield entry.value, places[0]
+
+
+def _names_packs(folder: str) -> bool:
+    """Whether some distribution in a folder of `sys.path` declares a rule pack."""
+    with suppress(OSError):
+        for name in os.listdir(folder or "."):
+            if name.endswith("-info"):
+                declared = os.path.join(folder, name, "entry_points.txt")
+                with suppress(OSError), open(declared, "rb") as file:
+                    if ENTRY_POINT_GROUP.encode() in file.read():
+                        return True
+    return False
+
+
+def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """The folders named, but for those that are known as a pack already."""
+    from zlib import crc32
+
+    for pack in packs:
+        folder = os.path.realpath(pack)
+        if not os.path.isdir(folder):
+            raise PackError(f"rule pack {pack!r}: no such folder")
+        if folder in known:
+            continue
+        # By its place: two packs in one process may both have a module `checks`.
+        name = f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}"
+        _forget(name)
+        yield _mount(name, folder), folder
+
+
+def _forget(name: str) -> None:
+    """Has a package imported anew: workers read it from disk, and it may have been edited."""
+    loaded = [module for module in list(sys.modules) if f"{module}.".startswith(f"{name}.")]
+    for module in loaded:
+        del sys.modules[module]
+    if loaded:
+        invalidate_caches()
+
+
+def _mount(name: str, folder: str) -> str:
+    """Makes a folder importable as a package of that name, wherever it lies."""
+    package = ModuleType(name)
+    package.__path__ = [folder]
+    sys.modules[name] = package
+    return name
+
+
+def import_rules(package: str, folder: str) -> list[Rule]:
+    """The rules of every module below the folder that holds one; a pack without any is broken."""
+    rules: list[Rule] = []
+    with redirect_stdout(sys.stderr):  # what a module prints stays out of the report
+        for name, path in _modules(package, folder):
+            module = _import(name, path)
+            rules += [value for value in vars(module).values() if isinstance(value, Rule)]
+    if not rules:
+        raise PackError(f"rule pack {folder!r} holds no rule")
+    for rule in rules:
+        if not _CODE.fullmatch(rule.code):
+            raise PackError(
+                f"rule pack {folder!r}: a code is three capitals and three digits, "
+                f"not {rule.code!r} ({rule.name})"
+            )
+    return rules
+
+
+def _modules(package: str, folder: str) -> Iterator[tuple[str, str]]:
+    """Name and path of each module below a folder, but of none that `_` or `.` hides."""
+    try:
+        entries = sorted(os.scandir(folder), key=lambda entry: entry.name)
+    except OSError as error:
+        raise PackError(f"{folder}: {error.strerror}") from error
+    for entry in entries:
+        stem, suffix = os.path.splitext(entry.name)
+        if stem.startswith(("_", ".")):
+            continue
+        if entry.is_dir(follow_symlinks=False):
+            yield from _modules(f"{package}.{entry.name}", entry.path)
+        elif suffix == ".py":
+            yield f"{package}.{stem}", entry.path
+
+
+def _import(name: str, path: str) -> ModuleType:
+    try:
+        return import_module(name)
+    except (Exception, SystemExit) as error:
+        said = " ".join(f"{type(error).__name__}: {error}".split())
+        raise PackError(f"{path}: {said}") from error
