@@ -57,36 +57,36 @@ class Pool:
         `limit` are the seconds that one stage may take; a future holds what its stage came to.
         Raises UsageError if the first worker can't work.
         """
-        ready_limit = max(limit, _SHORTEST_READY_LIMIT)
-        self._first.prepare(setup, ready_limit)
-
-        def work_off(worker: Worker) -> None:
-            while not self._closed:
-                try:
-                    path, future = self._waiting.get_nowait()
-                except queue.Empty:
-                    return
-                try:
-                    future.set_result(worker.lint(path, limit, advance))
-                except Exception as error:  # whoever asks for the result gets it
-                    future.set_exception(error)
-
-        def start_later(number: int) -> None:
-            time.sleep(_START_DELAY * number)
-            if self._waiting.empty() or self._closed:
-                return
-            worker = Worker()
-            self._workers.append(worker)
-            try:
-                worker.prepare(setup, ready_limit)
-            except UsageError:  # the others do its work, or did it and ended the run
-                return
-            work_off(worker)
-
+        self._first.prepare(setup, _ready_limit(limit))
         workers = min(jobs, self._waiting.qsize())
-        threading.Thread(target=work_off, args=(self._first,), daemon=True).start()
+        _in_a_thread(self._work_off, self._first, limit, advance)
         for number in range(1, workers):
-            threading.Thread(target=start_later, args=(number,), daemon=True).start()
+            _in_a_thread(self._join_later, number, setup, limit, advance)
+
+    def _join_later(
+        self, number: int, setup: Setup, limit: float, advance: Callable[[int], None]
+    ) -> None:
+        time.sleep(_START_DELAY * number)
+        if self._waiting.empty() or self._closed:
+            return
+        worker = Worker()
+        self._workers.append(worker)
+        try:
+            worker.prepare(setup, _ready_limit(limit))
+        except UsageError:  # the others do its work, or did it and ended the run
+            return
+        self._work_off(worker, limit, advance)
+
+    def _work_off(self, worker: Worker, limit: float, advance: Callable[[int], None]) -> None:
+        while not self._closed:
+            try:
+                path, future = self._waiting.get_nowait()
+            except queue.Empty:
+                return
+            try:
+                future.set_result(worker.lint(path, limit, advance))
+            except Exception as error:  # raised again where the result is asked for
+                future.set_exception(error)
 
     def close(self) -> None:
         """Ends all workers."""
@@ -95,3 +95,11 @@ class Pool:
             worker.kill()
         for worker in self._workers:
             worker.stop()
+
+
+def _in_a_thread(call: Callable[..., None], *arguments: object) -> None:
+    threading.Thread(target=call, args=arguments, daemon=True).start()
+
+
+def _ready_limit(limit: float) -> float:
+    return max(limit, _SHORTEST_READY_LIMIT)
