@@ -17,8 +17,8 @@ from usdvol_lint.packs.examples import (
     marks,
     pages,
     read_words,
-    said,
     words_file,
+    words_of,
 )
 from usdvol_lint.packs.page import Page
 from usdvol_lint.run.testing import portable, write_example
@@ -41,9 +41,11 @@ def test_example_reports_its_marks_and_says_its_words(
     monkeypatch.chdir(tmp_path)
     findings = portable(engine.lint(STAGE).findings, tmp_path)
     place = f"{case.page.path}:{case.example.line}"
-    assert Counter(map(mark, findings)) == marks(case, load().rules), f"{place}\n{said(findings)}"
+    assert Counter(map(mark, findings)) == marks(case, load().rules), (
+        f"{place}\n{words_of(findings)}"
+    )
     agreed = (read_words(case.page) or {}).get(case.title, "")
-    assert said(findings) == agreed, f"{place}: `make generate` writes the words"
+    assert words_of(findings) == agreed, f"{place}: `make generate` writes the words"
 
 
 def test_words_are_those_of_examples() -> None:

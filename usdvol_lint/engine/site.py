@@ -1,4 +1,4 @@
-"""Where a problem is: the layer that holds the opinion, its line there, the prim on the stage."""
+"""Finds the site of a problem: the layer with the opinion, its line, and the prim on the stage."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class Located(NamedTuple):
 
 
 class Sites:
-    """Finds sites; each text layer is read once, and only if something is wrong in it."""
+    """Finds the sites of problems; a text layer is read once, and only if a problem is in it."""
 
     def __init__(self) -> None:
         self._texts: dict[str, TextLayer | None] = {}
 
     def locate(self, problem: Problem | NotChecked) -> Located:
-        """Where a problem is, on the stage and in the layer."""
+        """The site of a problem, the spec to blame for it, and how many instances show it."""
         prim = problem.at.GetPrim()
         is_property = isinstance(problem.at, Usd.Property)
         spec, time = (problem.spec, None) if problem.spec else _blamed_spec(problem)
@@ -40,10 +40,10 @@ class Sites:
         path = spec.path if spec else "/"
         text = self._text(layer)
         position = text.find(str(path), time=time, asset=problem.asset) if text else None
-        where = shown(prim)
+        on_stage = shown(prim)
         site = Site(
             layer=display(layer.realPath or layer.identifier),
-            prim=None if prim.IsPseudoRoot() else where.path,
+            prim=None if prim.IsPseudoRoot() else on_stage.path,
             property=problem.at.GetName() if is_property else None,
             variant=_variants(spec.path) if spec else None,
             line=position.line if position else None,
@@ -51,7 +51,7 @@ class Sites:
             times=problem.times,
             at_default=problem.at_default,
         )
-        return Located(site, spec, where.instances)
+        return Located(site, spec, on_stage.instances)
 
     def _text(self, layer: Any) -> TextLayer | None:
         from usdvol_lint.engine.lines import (
@@ -66,13 +66,13 @@ class Sites:
 
 
 def _blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
-    """The spec whose opinion counts, and the first time as its layer has it."""
+    """The spec whose opinion counts, and the first time of the problem in the time of its layer."""
     if not isinstance(problem.at, Usd.Property):
         return _blamed_prim_spec(problem.at), None
     if isinstance(problem.at, Usd.Attribute) and (problem.at_default or problem.times):
         time = None if problem.at_default else problem.times[0]
-        if held := opinion(problem.at, time):
-            spec, offset = held
+        if strongest := opinion(problem.at, time):
+            spec, offset = strongest
             return spec, None if time is None else offset.GetInverse() * time
     specs = problem.at.GetPropertyStack()
     spec = next((spec for spec in specs if _has_value(spec)), specs[0] if specs else None)

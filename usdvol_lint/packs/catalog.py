@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from usdvol_lint.packs.page import Page
 
 
-def _from_engine(prim: object, facts: object) -> Problems:
+def _never_run(prim: object, facts: object) -> Problems:
     yield from ()
 
 
 def _engine_rule(code: str, name: str, severity: Severity) -> Rule:
-    return Rule(code, name, (), severity, "0.1", _from_engine, {})
+    return Rule(code, name, (), severity, "0.1", _never_run, {})
 
 
 STAGE_UNREADABLE = _engine_rule("LNT001", "stage-unreadable", Severity.ERROR)
@@ -27,7 +27,7 @@ RULE_FAILED = _engine_rule("LNT002", "rule-failed", Severity.ERROR)
 USD_TOO_OLD = _engine_rule("LNT004", "usd-too-old", Severity.WARNING)
 NOT_CHECKED = _engine_rule("LNT005", "not-checked", Severity.INFO)
 ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, USD_TOO_OLD, NOT_CHECKED)
-"""What the engine itself reports; `rules/lint/` holds only the pages."""
+"""The codes that the engine itself reports; `rules/lint/` holds only their pages."""
 NOT_IGNORABLE = frozenset({STAGE_UNREADABLE.code, RULE_FAILED.code})
 """They say that the job was not done, so nobody can switch them off."""
 
@@ -58,7 +58,7 @@ class Catalog(NamedTuple):
         return None
 
     def find(self, code_or_name: str) -> Rule:
-        """The rule of that code or name."""
+        """The rule of that code or name; raises UsageError if there is none."""
         wanted = code_or_name.strip()
         by_name = {rule.name: rule for rule in self.rules.values()}
         rule = self.rules.get(wanted.upper()) or by_name.get(wanted.lower())
@@ -67,7 +67,10 @@ class Catalog(NamedTuple):
         return rule
 
     def expand(self, selector: str) -> frozenset[str]:
-        """The codes that a code, a prefix of codes, or ALL stands for."""
+        """The codes that a selector matches: a code, a prefix of codes, or ALL.
+
+        Raises UsageError if it matches none.
+        """
         wanted = selector.strip().upper()
         codes = self.rules if wanted == "ALL" else [c for c in self.rules if c.startswith(wanted)]
         if not codes or not wanted:
@@ -75,7 +78,7 @@ class Catalog(NamedTuple):
         return frozenset(codes)
 
     def select(self, select: Sequence[str], ignore: Sequence[str]) -> frozenset[str]:
-        """The codes switched on; where `select` and `ignore` both match, the longer one wins."""
+        """The codes of active rules; where `select` and `ignore` both match, the longer one wins."""
         chosen = self._lengths(select)
         dropped = self._lengths(ignore)
         for code in NOT_IGNORABLE & dropped.keys():
@@ -101,13 +104,16 @@ class Catalog(NamedTuple):
 
 
 def length(selector: str) -> int:
-    """How much a selector says: the longer of two that match a code wins; ALL says least."""
+    """How specific a selector is: the longer of two that match a code wins; ALL counts as 0."""
     stripped = selector.strip()
     return 0 if stripped.upper() == "ALL" else len(stripped)
 
 
 def load(packs: Sequence[str] = ()) -> Catalog:
-    """The built-in rules, those of installed packs, and those of the folders named."""
+    """The built-in rules, those of installed packs, and those of the folders `packs`.
+
+    Raises PackError for a pack that can't be loaded, or two rules of the same code or name.
+    """
     found = find_packs(packs)
     rules = {rule.code: rule for rule in ENGINE_RULES}
     names = {rule.name: rule for rule in ENGINE_RULES}

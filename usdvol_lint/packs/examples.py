@@ -1,4 +1,4 @@
-"""The examples on the pages of a pack, and what they are to report: their marks and words."""
+"""The examples on the pages of a pack, and what they have to report: marks and words."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Case(NamedTuple):
 
 
 class Mark(NamedTuple):
-    """That a rule reports a line of a layer."""
+    """The report of a line of a layer, as a mark demands it or a finding makes it."""
 
     code: str
     level: str
@@ -46,7 +46,7 @@ class Mark(NamedTuple):
 def pages(folder: Path) -> list[Page]:
     """The pages of a pack, in order: every `.md` file but those named in capitals (README.md).
 
-    As with modules, what `_` or `.` hides is none.
+    As with modules, names with `_` or `.` first are hidden.
     """
     return [
         read_page(path)
@@ -95,12 +95,12 @@ def mark(finding: Finding) -> Mark:
 
 
 def words_file(page: Page) -> Path:
-    """The file that says what the examples of a page say."""
+    """The file beside a page that has the text of the findings in its examples."""
     return page.path.with_suffix(".words.txt")
 
 
-def said(findings: Iterable[Finding]) -> str:
-    """What is said of one example, each finding with its place, its message and its advice."""
+def words_of(findings: Iterable[Finding]) -> str:
+    """The text of the findings in one example: layer and line, message and advice of each."""
     return "".join(f"  {line}\n" for finding in findings for line in _entry(finding))
 
 
@@ -119,17 +119,17 @@ def _entry(finding: Finding) -> Iterator[str]:
 
 
 def words(page: Page, found: Iterable[tuple[Case, Iterable[Finding]]]) -> str:
-    """The text of a page's words file; empty if its examples say nothing."""
-    blocks = [f"\n{case.title}\n{text}" for case, findings in found if (text := said(findings))]
+    """The text of a page's words file; empty if its examples have no findings."""
+    blocks = [f"\n{case.title}\n{text}" for case, findings in found if (text := words_of(findings))]
     head = f"# What is said of the examples in {page.path.name}.\n"
     return head + "".join(blocks) if blocks else ""
 
 
 def read_words(page: Page) -> dict[str, str] | None:
-    """What is to be said of each example, by its title; None where there is no words file."""
+    """The agreed text of the findings in each example, by title; None without a words file."""
     try:
         text = words_file(page).read_text(encoding="utf-8")
     except FileNotFoundError:
         return None
     blocks = (block.partition("\n") for block in text.split("\n\n")[1:])
-    return {title: said.rstrip("\n") + "\n" for title, _, said in blocks}
+    return {title: text.rstrip("\n") + "\n" for title, _, text in blocks}

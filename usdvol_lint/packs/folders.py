@@ -19,9 +19,10 @@ _CODE = re.compile(r"[A-Z]{3}\d{3}")
 
 
 def find_packs(folders: Sequence[str]) -> list[tuple[str, str]]:
-    """The package and the folder of each pack: the built-in one, installed ones, those named.
+    """The name of an importable package and the folder of each pack.
 
-    The packages can be imported.  Raises PackError for a pack that is not there.
+    First the built-in pack, then installed ones, then `folders`.
+    Raises PackError for a pack that is not there.
     """
     built_in = _built_in_folder()
     found = [(_mount(_BUILT_IN, built_in), built_in), *_installed_packs()]
@@ -29,14 +30,14 @@ def find_packs(folders: Sequence[str]) -> list[tuple[str, str]]:
 
 
 def _built_in_folder() -> str:
-    """Beside the engine in a checkout, inside it in a wheel."""
+    """`rules` is beside `usdvol_lint` in a checkout, and inside it in a wheel."""
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     inside = os.path.join(package, "rules")
     return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "rules")
 
 
 def _installed_packs() -> Iterator[tuple[str, str]]:
-    # To import what reads entry points takes ten times as long as to see that there are none.
+    # Importing importlib.metadata takes ten times as long as seeing that there are no packs.
     if not any(map(_names_packs, sys.path)):
         return
     from importlib.metadata import entry_points
@@ -47,10 +48,10 @@ def _installed_packs() -> Iterator[tuple[str, str]]:
             spec = find_spec(entry.value)
         except (ImportError, ValueError):
             spec = None
-        places = list(spec.submodule_search_locations or ()) if spec else []
-        if not places:
+        folders = list(spec.submodule_search_locations or ()) if spec else []
+        if not folders:
             raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
-        yield entry.value, places[0]
+        yield entry.value, folders[0]
 
 
 def _names_packs(folder: str) -> bool:
@@ -66,7 +67,7 @@ def _names_packs(folder: str) -> bool:
 
 
 def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """The folders named, but for those that are known as a pack already."""
+    """The folders named, without those that are mounted already."""
     from zlib import crc32
 
     for pack in packs:
@@ -75,14 +76,14 @@ def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[s
             raise PackError(f"rule pack {pack!r}: no such folder")
         if folder in known:
             continue
-        # By its place: two packs in one process may both have a module `checks`.
+        # Named after its path: two packs in one process may both have a module `checks`.
         name = f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}"
         _forget(name)
         yield _mount(name, folder), folder
 
 
 def _forget(name: str) -> None:
-    """Has a package imported anew: workers read it from disk, and it may have been edited."""
+    """Has a package imported anew: it may have been edited, and new workers read it from disk."""
     loaded = [module for module in list(sys.modules) if f"{module}.".startswith(f"{name}.")]
     for module in loaded:
         del sys.modules[module]
@@ -99,7 +100,10 @@ def _mount(name: str, folder: str) -> str:
 
 
 def import_rules(package: str, folder: str) -> list[Rule]:
-    """The rules of every module below the folder that holds one; a pack without any is broken."""
+    """The rules in all modules below a folder.
+
+    Raises PackError for a module that can't be imported, a malformed code, or no rule at all.
+    """
     rules: list[Rule] = []
     with redirect_stdout(sys.stderr):  # what a module prints stays out of the report
         for name, path in _modules(package, folder):
@@ -117,7 +121,7 @@ def import_rules(package: str, folder: str) -> list[Rule]:
 
 
 def _modules(package: str, folder: str) -> Iterator[tuple[str, str]]:
-    """Name and path of each module below a folder, but of none that `_` or `.` hides."""
+    """Name and path of each module below a folder; names with `_` or `.` first are hidden."""
     try:
         entries = sorted(os.scandir(folder), key=lambda entry: entry.name)
     except OSError as error:
@@ -135,6 +139,6 @@ def _modules(package: str, folder: str) -> Iterator[tuple[str, str]]:
 def _import(name: str, path: str) -> ModuleType:
     try:
         return import_module(name)
-    except (Exception, SystemExit) as error:
+    except (Exception, SystemExit) as error:  # a pack is code of others, and may raise anything
         said = " ".join(f"{type(error).__name__}: {error}".split())
         raise PackError(f"{path}: {said}") from error

@@ -1,4 +1,4 @@
-"""Paths and a Config become a Report."""
+"""Lints the stages at some paths in worker processes, and makes one report of theirs."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _run(
 
 
 def _without_repeated_faults(stages: Iterable[StageReport]) -> Iterator[StageReport]:
-    """What is wrong with a rule, and no stage, stays in the report of the first that shows it."""
+    """A fault of a rule itself stays only in the report of the first stage that shows it."""
     reported: set[str] = set()
     for stage in stages:
         faulty = {finding.faulty_rule for finding in stage.findings if finding.faulty_rule}

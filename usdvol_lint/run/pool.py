@@ -1,4 +1,4 @@
-"""Worker processes share a queue of stages."""
+"""Worker processes that share a queue of stages."""
 
 from __future__ import annotations
 

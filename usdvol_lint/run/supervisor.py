@@ -14,7 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 from usdvol_lint.child import start_child
 from usdvol_lint.engine.trouble import Trouble, report_trouble
 from usdvol_lint.model import Finding, StageReport, Status, UsageError
-from usdvol_lint.run.protocol import Advance, Found, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import Advance, NewFindings, Ready, Refusal, Setup
 
 if TYPE_CHECKING:
     import subprocess
@@ -32,10 +32,10 @@ class Worker:
 
     def _adopt(self, child: subprocess.Popen[bytes]) -> None:
         self._process = child
-        self._gone = False
-        self._said: deque[bytes] = deque(maxlen=20)
+        self._is_gone = False
+        self._stderr: deque[bytes] = deque(maxlen=20)
         self._listener = threading.Thread(
-            target=_drain, args=(child.stderr, self._said), daemon=True
+            target=_drain, args=(child.stderr, self._stderr), daemon=True
         )
         self._listener.start()
 
@@ -45,7 +45,7 @@ class Worker:
         It is a UsageError too if the child can't load the rules, or can't import USD.
         """
         self._setup, self._ready_limit = setup, limit
-        reply, expired = self._ask(setup, limit, lambda said: None)
+        reply, expired = self._ask(setup, limit, lambda message: None)
         if isinstance(reply, Refusal):
             raise UsageError(" ".join(reply.reason.split()))
         if not isinstance(reply, Ready):
@@ -59,21 +59,21 @@ class Worker:
 
         `advance` is told of progress in long sequences.
         """
-        if self._gone:
+        if self._is_gone:
             self.stop()
             self._adopt(start_child())
             self.prepare(self._setup, self._ready_limit)
         began = time.perf_counter()
         found: list[Finding] = []
 
-        def hear(said: Advance | Found) -> None:
-            if isinstance(said, Found):
-                found.extend(said.findings)
+        def hear(message: Advance | NewFindings) -> None:
+            if isinstance(message, NewFindings):
+                found.extend(message.findings)
             else:
-                advance(said.samples)
+                advance(message.samples)
 
         reply, timed_out = self._ask(path, limit, hear)
-        self._gone = timed_out or not isinstance(reply, StageReport)
+        self._is_gone = timed_out or not isinstance(reply, StageReport)
         if isinstance(reply, StageReport):
             return reply
         seconds = {"total": time.perf_counter() - began}
@@ -94,7 +94,7 @@ class Worker:
                 stream.close()
 
     def _ask(
-        self, message: Setup | str, limit: float, hear: Callable[[Advance | Found], None]
+        self, message: Setup | str, limit: float, hear: Callable[[Advance | NewFindings], None]
     ) -> tuple[Any, bool]:
         """The child's reply, or None if it died or was ended; and whether the limit ended it.
 
@@ -108,7 +108,7 @@ class Worker:
             with suppress(OSError):  # a child that has gone may have said why
                 pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
                 self._stdin.flush()
-            while isinstance(reply := pickle.load(self._stdout), Advance | Found):
+            while isinstance(reply := pickle.load(self._stdout), Advance | NewFindings):
                 hear(reply)
             return reply, expired.is_set()
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
@@ -153,7 +153,7 @@ class Worker:
     def _last_words(self) -> str:
         self._process.wait()
         self._listener.join(timeout=1)
-        return b"".join(self._said).decode("utf-8", "replace").strip()
+        return b"".join(self._stderr).decode("utf-8", "replace").strip()
 
 
 def _drain(stream: IO[bytes], lines: deque[bytes]) -> None:

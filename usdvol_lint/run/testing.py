@@ -25,9 +25,9 @@ from usdvol_lint.packs.examples import (
     marks,
     pages,
     read_words,
-    said,
     words,
     words_file,
+    words_of,
 )
 from usdvol_lint.packs.page import Page
 from usdvol_lint.paths import display
@@ -35,7 +35,7 @@ from usdvol_lint.rule import Rule
 from usdvol_lint.run.lint import lint
 
 _PACKED = "cloud.vdb"
-"""The one of a pack's assets that is put into each package of an example."""
+"""The asset of a pack that is put into each package of an example."""
 
 
 def write_example(case: Case, folder: Path, assets: Path) -> None:
@@ -57,7 +57,7 @@ def write_example(case: Case, folder: Path, assets: Path) -> None:
 
 
 def _link(source: str, target: str) -> None:
-    """The same file once more, which takes a tenth of the time of a copy."""
+    """Links a file, which takes a tenth of the time of a copy."""
     try:
         os.link(source, target)
     except OSError:  # another disk, or one without links
@@ -74,7 +74,7 @@ def _pack(file: Path, text: str, asset: Path) -> None:
 def run(
     examples: Sequence[Case], assets: Path, packs: Iterable[str] = ()
 ) -> list[tuple[Finding, ...]]:
-    """What is found in each example under all rules, those that are off by default too."""
+    """The findings in each example under all rules, those that are off by default too."""
     config = Config(select=("ALL",), packs=tuple(map(os.path.realpath, packs)))
     assets = assets.resolve()
     with TemporaryDirectory() as temporary, chdir(temporary):
@@ -92,9 +92,9 @@ def run(
 
 
 def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
-    """The findings in an example as they are everywhere, whatever folder it was written to.
+    """The findings in an example, independent of the folder that it was written to.
 
-    What is said of an old USD, and not of the example, is left out.
+    LNT004, which is about an old USD and not about the example, is left out.
     """
 
     def anywhere(text: str) -> str:
@@ -152,7 +152,7 @@ def _faults(page: Page, rules: Mapping[str, Rule]) -> Iterator[str]:
 
 
 def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]) -> Iterator[str]:
-    """One line that says what is other than marks and words have it, if something is."""
+    """One line on how findings differ from the marks, or else from the words, if they do."""
     place = f"{display(str(case.page.path))}:{case.example.line}: {case.title}"
     expected, found = marks(case, rules), Counter(map(mark, findings))
     if expected != found:
@@ -166,7 +166,9 @@ def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]
         yield f"{place}: expected {_list(missing, expected)}, found {_list(surplus, found)}"
         return
     agreed = read_words(case.page)
-    if agreed is not None and (text := said(findings)) != (wanted := agreed.get(case.title, "")):
+    if agreed is not None and (text := words_of(findings)) != (
+        wanted := agreed.get(case.title, "")
+    ):
         yield f"{place}: expected the words {_first(wanted, text)}, found {_first(text, wanted)}"
 
 
@@ -175,7 +177,7 @@ def _list(differing: list[str], every: Counter[Mark]) -> str:
 
 
 def _first(text: str, other: str) -> str:
-    """The first line of a text that is another one in the other."""
+    """The first line of a text that differs from the other text."""
     lines, others = text.splitlines(), other.splitlines()
     differing = (line for n, line in enumerate(lines) if others[n : n + 1] != [line])
     return repr(next(differing, "nothing more").strip())
