@@ -78,7 +78,7 @@ class Catalog(NamedTuple):
         return frozenset(codes)
 
     def select(self, select: Sequence[str], ignore: Sequence[str]) -> frozenset[str]:
-        """The codes of active rules; where `select` and `ignore` both match, the longer one wins."""
+        """The codes of active rules; where `select` and `ignore` both match, the longer wins."""
         chosen = self._lengths(select)
         dropped = self._lengths(ignore)
         for code in NOT_IGNORABLE & dropped.keys():

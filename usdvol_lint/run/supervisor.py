@@ -55,9 +55,9 @@ class Worker:
         self.usd_version = reply.usd_version
 
     def lint(self, path: str, limit: float, advance: Callable[[int], None]) -> StageReport:
-        """The report on a stage; if USD crashes, or hangs for `limit` seconds, that is the report.
+        """The report on a stage, also where the child crashes or takes more than `limit` seconds.
 
-        `advance` is told of progress in long sequences.
+        `advance` is called with numbers of samples, as those of a long sequence are read.
         """
         if self._is_gone:
             self.stop()

@@ -166,9 +166,10 @@ def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]
         yield f"{place}: expected {_list(missing, expected)}, found {_list(surplus, found)}"
         return
     agreed = read_words(case.page)
-    if agreed is not None and (text := words_of(findings)) != (
-        wanted := agreed.get(case.title, "")
-    ):
+    if agreed is None:
+        return
+    wanted, text = agreed.get(case.title, ""), words_of(findings)
+    if text != wanted:
         yield f"{place}: expected the words {_first(wanted, text)}, found {_first(text, wanted)}"
 
 
