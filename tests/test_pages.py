@@ -41,11 +41,10 @@ def test_example_reports_its_marks_and_says_its_words(
     monkeypatch.chdir(tmp_path)
     findings = portable(engine.lint(STAGE).findings, tmp_path)
     place = f"{case.page.path}:{case.example.line}"
-    assert Counter(map(mark, findings)) == marks(case, load().rules), (
-        f"{place}\n{words_of(findings)}"
-    )
+    words = words_of(findings)
+    assert Counter(map(mark, findings)) == marks(case, load().rules), f"{place}\n{words}"
     agreed = (read_words(case.page) or {}).get(case.title, "")
-    assert words_of(findings) == agreed, f"{place}: `make generate` writes the words"
+    assert words == agreed, f"{place}: `make generate` writes the words"
 
 
 def test_words_are_those_of_examples() -> None:

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import gc
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from process import ROOT, run, volume, write
+from pxr import Sdf
 
 from usdvol_lint import lint
 from usdvol_lint.config import Config
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.model import PackError
-from usdvol_lint.packs.activation import activate
+from usdvol_lint.facts import Facts
+from usdvol_lint.facts.found import Wing, summary
+from usdvol_lint.facts.prims.tables import Table
+from usdvol_lint.model import PackError, Severity
+from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import Catalog, load
 from usdvol_lint.packs.examples import STAGE, cases, pages
+from usdvol_lint.rule import Problem, Problems, Rule, When
 from usdvol_lint.run.testing import write_example
 
 WORDS = (
@@ -111,6 +117,38 @@ def test_preconditions_of_two_rules_are_two_findings(tmp_path: Path) -> None:
         [("LNT002", "WHN002"), ("WHN001", None), ("WHN002", None)],
         [("WHN001", None), ("WHN002", None)],
     ]
+
+
+def test_keys_that_can_not_be_computed_fail_every_rule_that_looks_at_them(tmp_path: Path) -> None:
+    """Each with the whole traceback; and no frame of it keeps the stage."""
+
+    class Broken(Wing):
+        @summary
+        def keys(self, table: Table) -> list[str]:
+            raise KeyError("lost")
+
+    def seen(prim: Any, facts: Facts) -> Problems:
+        yield Problem("seen", at=prim)
+
+    when = When(Broken.keys, bool)
+    rules = {
+        code: Rule(code, "seen", ("Volume",), Severity.INFO, "1", seen, {}, when=when)
+        for code in ("WHN001", "WHN002")
+    }
+    stage = write(tmp_path.resolve(), stage=volume("a")) / "stage.usda"
+    engine = Engine(rules, ActiveRules(dict.fromkeys(rules, Severity.INFO), {}))
+    gc.disable()
+    try:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Facts, "wing", lambda facts, wing: wing(facts.tables))
+            report = engine.lint(str(stage))
+        assert Sdf.Layer.Find(str(stage)) is None
+    finally:
+        gc.enable()
+    details = {each.faulty_rule: each.detail for each in report.findings if each.faulty_rule}
+    assert details.keys() == rules.keys()
+    for detail in details.values():
+        assert 'raise KeyError("lost")' in str(detail)
 
 
 @pytest.mark.parametrize("options", ["", ", *, longest: int = 3"])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from operator import itemgetter
 from typing import Any, TypeAlias
 
@@ -17,8 +17,8 @@ from usdvol_lint.rule import Rule, When
 
 Options: TypeAlias = Mapping[str, Mapping[str, Any]]
 """The options of rules, by code."""
-Failed: TypeAlias = Callable[[Rule, Exception], None]
-"""Called with a rule whose precondition raised; the rule is handed the prims all the same."""
+Failed: TypeAlias = Callable[[Sequence[Rule], Exception], None]
+"""Called with rules whose precondition raised; they are handed the prims all the same."""
 
 
 def assign(
@@ -116,8 +116,7 @@ class _RulesByKey:
             pass  # the rules meet the same error, and report it
         except Exception as error:  # a rule pack's code: reported once it fails on one prim alone
             if len(table.prims) == 1:
-                for rule, _ in self._rules:
-                    self._failed(rule, error)
+                self._failed([rule for rule, _ in self._rules], error)
         return None
 
     def _rules_for(self, key: Any) -> list[Rule]:
@@ -130,7 +129,7 @@ class _RulesByKey:
         try:
             return when.holds(key, **{name: given[name] for name in when.options})
         except Exception as error:  # a rule pack's code: reported
-            self._failed(rule, error)
+            self._failed([rule], error)
             return True
 
 

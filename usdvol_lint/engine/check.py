@@ -97,8 +97,8 @@ class StageCheck:
         """Each rule with each prim that it is handed; rules on the stage get the pseudo-root."""
         root = facts.stage.GetPseudoRoot()
 
-        def failed(rule: Rule, error: Exception) -> None:
-            failures.add_precondition(rule, root, error)
+        def failed(rules: Sequence[Rule], error: Exception) -> None:
+            failures.add_precondition(rules, root, error)
 
         yield from assign(walked, self._rules, facts, self._options, failed)
         for rule in self._rules:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,10 +69,13 @@ class Failures:
         self._failures[key].count += 1
         error.__traceback__ = None  # its frames hold the stage, and one of them holds this
 
-    def add_precondition(self, rule: Rule, root: Any, error: Exception) -> None:
-        """Records what the precondition of a rule raised: once for each rule."""
-        failure = _Failure(rule, root, error, _traceback(error), of_precondition=True)
-        self._failures.setdefault((rule.code, "when"), failure)
+    def add_precondition(self, rules: Iterable[Rule], root: Any, error: Exception) -> None:
+        """Records what the precondition of these rules raised: once for each rule."""
+        new = {(rule.code, "when"): rule for rule in rules}
+        new = {key: rule for key, rule in new.items() if key not in self._failures}
+        text = _traceback(error) if new else ""
+        for key, rule in new.items():
+            self._failures[key] = _Failure(rule, root, error, text, of_precondition=True)
         error.__traceback__ = None
 
     def findings(self, sites: Sites) -> Iterator[Stamped]:
