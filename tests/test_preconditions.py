@@ -123,6 +123,10 @@ def test_keys_that_can_not_be_computed_fail_every_rule_that_looks_at_them(tmp_pa
     """Each with the whole traceback; and no frame of it keeps the stage."""
 
     class Broken(Wing):
+        def __init__(self, facts: Facts) -> None:
+            super().__init__(facts.tables)
+            self.stage = facts.stage
+
         @summary
         def keys(self, table: Table) -> list[str]:
             raise KeyError("lost")
@@ -140,7 +144,7 @@ def test_keys_that_can_not_be_computed_fail_every_rule_that_looks_at_them(tmp_pa
     gc.disable()
     try:
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(Facts, "wing", lambda facts, wing: wing(facts.tables))
+            patch.setattr(Facts, "wing", lambda facts, wing: wing(facts))
             report = engine.lint(str(stage))
         assert Sdf.Layer.Find(str(stage)) is None
     finally:

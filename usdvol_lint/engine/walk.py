@@ -15,7 +15,7 @@ from usdvol_lint.facts.usd.kinds import Key, Kinds
 from usdvol_lint.rule import Rule
 
 _BATCH = 256
-"""Prims that are held at once: all 200,000 of a stage take 50 MB, and no less time.
+"""Prims in memory at once: all 200,000 prims of a stage take 50 MB, and no less time.
 
 From 64 to 4,096 the time is the same.
 """

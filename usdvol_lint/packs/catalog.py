@@ -1,4 +1,4 @@
-"""All rules, the engine's own too: found by code or name, and selected by codes and prefixes."""
+"""The catalog of all rules, in which they are found and selected by codes and names."""
 
 from __future__ import annotations
 

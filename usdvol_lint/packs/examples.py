@@ -109,10 +109,10 @@ def _entry(finding: Finding) -> Iterator[str]:
     about = f"{site.prim or ''}.{site.property}" if site.property else site.prim
     frames = f" [{site.frames}]" if site.frames else ""
     variant = f" (variant {site.variant})" if site.variant else ""
-    place = f"{site.layer}:{site.line}" if site.line else site.layer
+    location = f"{site.layer}:{site.line}" if site.line else site.layer
     level = finding.severity.label
     on = f" <{about}>" if about else ""
-    yield printable(f"{place}: {finding.code} {level}{on}{frames}{variant}")
+    yield printable(f"{location}: {finding.code} {level}{on}{frames}{variant}")
     yield f"  {printable(finding.message)}"
     if finding.suggestion:
         yield f"  help: {printable(finding.suggestion)}"

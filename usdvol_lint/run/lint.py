@@ -1,4 +1,4 @@
-"""Lints the stages at some paths in worker processes, and makes one report of theirs."""
+"""Lints stages in worker processes, and makes one report on all of them."""
 
 from __future__ import annotations
 

@@ -153,7 +153,7 @@ def _faults(page: Page, rules: Mapping[str, Rule]) -> Iterator[str]:
 
 def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]) -> Iterator[str]:
     """One line on how findings differ from the marks, or else from the words, if they do."""
-    place = f"{display(str(case.page.path))}:{case.example.line}: {case.title}"
+    location = f"{display(str(case.page.path))}:{case.example.line}: {case.title}"
     expected, found = marks(case, rules), Counter(map(mark, findings))
     if expected != found:
         unexpected = found - expected
@@ -163,14 +163,14 @@ def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]
             if mark(each) in unexpected
         ]
         missing = list(map(str, (expected - found).elements()))
-        yield f"{place}: expected {_list(missing, expected)}, found {_list(surplus, found)}"
+        yield f"{location}: expected {_list(missing, expected)}, found {_list(surplus, found)}"
         return
     agreed = read_words(case.page)
     if agreed is None:
         return
     wanted, text = agreed.get(case.title, ""), words_of(findings)
     if text != wanted:
-        yield f"{place}: expected the words {_first(wanted, text)}, found {_first(text, wanted)}"
+        yield f"{location}: expected the words {_first(wanted, text)}, found {_first(text, wanted)}"
 
 
 def _list(differing: list[str], every: Counter[Mark]) -> str:
