@@ -19,8 +19,8 @@ from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import UsageError
 from usdvol_lint.paths import display
 from usdvol_lint.run.discovery import discover
-from usdvol_lint.run.pool import Worker
 from usdvol_lint.run.protocol import Setup
+from usdvol_lint.run.supervisor import Worker
 
 ZIP_WRITER: Any = getattr(Sdf, "ZipFileWriter", None) or Usd.ZipFileWriter
 """Where USD's own writer of packages is depends on its version."""

@@ -1,4 +1,7 @@
-"""The entry point of `usdvol-lint` and `python -m usdvol_lint`: first what takes longest."""
+"""The entry point of `usdvol-lint` and `python -m usdvol_lint`.
+
+It starts the slowest step, importing USD, first.
+"""
 
 from __future__ import annotations
 
@@ -14,13 +17,13 @@ _STARTS_NO_CHILD = {
 
 
 def main() -> None:
-    """PrimBatch what needs no more than this, or has the command line do it."""
+    """Answers `--version` and `--help` itself; all else goes to the command line."""
     arguments = sys.argv[1:]
     if arguments == ["--version"]:
-        _say(f"usdvol-lint {__version__}\n")
+        _print(f"usdvol-lint {__version__}\n")
     elif arguments in (["-h"], ["--help"]):
         with open(os.path.join(os.path.dirname(__file__), "help.txt"), encoding="utf-8") as file:
-            _say(file.read())
+            _print(file.read())
     elif not arguments or not _STARTS_NO_CHILD.isdisjoint(arguments):
         from usdvol_lint.command.cli import main as run_command
 
@@ -29,7 +32,7 @@ def main() -> None:
         _lint(arguments)
 
 
-def _say(text: str) -> None:
+def _print(text: str) -> None:
     try:
         print(text, end="", flush=True)
     except OSError:  # a reader that left, as `head` does, or a full disk
@@ -43,7 +46,7 @@ def _lint(arguments: list[str]) -> None:
     child = start_child()
     import signal
 
-    # Whoever ends this process, such as a CI host, means the workers too.
+    # A signal that ends this process, as a CI host sends it, has to end the workers too.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         from usdvol_lint.command.cli import main as run_command
@@ -55,7 +58,7 @@ def _lint(arguments: list[str]) -> None:
 
 
 def _leave(code: int) -> None:
-    """Ends the process at once: to take down all that was imported would only cost time."""
+    """Ends the process at once: tearing down all that was imported would only cost time."""
     try:
         for stream in (sys.stdout, sys.stderr):
             if stream is not None:

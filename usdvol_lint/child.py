@@ -1,4 +1,4 @@
-"""Starts a child process; in a module of its own, because that is the first thing a run does."""
+"""Starts a worker process; imports little, because a run does this before anything else."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 _PROGRAM = "import sys; sys.path[:] = {path!r}; from usdvol_lint.run.worker import main; main()"
-"""A worker imports from where its parent does, and nothing else from the working directory."""
+"""A worker has the `sys.path` of its parent: `-c` would put the working directory first."""
 
 
 def start_child() -> subprocess.Popen[bytes]:

@@ -109,6 +109,8 @@ class Finding:
     detail: str | None = None
     """What `--verbose` may add, such as a traceback."""
     fingerprint: str = ""
+    faulty_rule: str | None = None
+    """The code of a rule, where this is about that rule and no stage: reported once in a run."""
 
 
 class ParticleFieldStats(NamedTuple):

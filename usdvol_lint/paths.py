@@ -1,4 +1,4 @@
-"""Paths as users read them, and the names that USD's own layers have."""
+"""Paths as users read them, and the suffixes of USD's own layers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import os
 import re
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
-"""What USD's own layers end in."""
+"""The suffixes of USD's own file formats."""
 _IN_PACKAGE = r"(?is)(?P<package>.+?\.usdz)(?P<inside>\[.+\])"
 
 

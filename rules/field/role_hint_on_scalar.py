@@ -9,6 +9,8 @@ _ROLE, _DATA_TYPE = "vectorDataRoleHint", "fieldDataType"
 @rule("FLD003", on="FieldAsset", when=authored(_ROLE), severity=INFO, since="0.1")
 def role_hint_on_scalar(field: Prim, facts: Facts) -> Problems:
     declared = facts.prims.authored(field).declared
+    if _ROLE not in declared:
+        return
     types = list(facts.prims.values(field, _DATA_TYPE))
     if not all(isinstance(name, str) and name in SCALAR_DATA_TYPES for name in types):
         return

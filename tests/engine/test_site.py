@@ -263,9 +263,9 @@ def test_instances_are_shown_at_the_first(locate: Locate) -> None:
     locate("/a", layers)
     stage = Usd.Stage.Open("stage.usda")
     prim = stage.GetPrototypes()[0].GetChild("density")
-    site, instances = Sites().locate(Problem("", at=prim.GetAttribute("filePath")))
-    assert instances == 2
-    assert site == Site("lib.usda", "/a/density", "filePath", line=6, column=5)
+    found = Sites().locate(Problem("", at=prim.GetAttribute("filePath")))
+    assert found.instances == 2
+    assert found.site == Site("lib.usda", "/a/density", "filePath", line=6, column=5)
 
 
 def test_columns_count_characters_and_lines_end_as_on_windows(

@@ -35,7 +35,7 @@ def write_stage(folder: Path, text: str, **layers: str) -> str:
 def assigned(stage: Usd.Stage, found: Walk, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
     """Each rule with each prim that it is handed; no precondition fails."""
     facts = Facts(Context.of(stage), found.kept, found.clipped)
-    failed: list[tuple[Rule, Exception]] = []
+    failed: list[object] = []
     pairs = list(assign(found, rules, facts, {}, lambda *failure: failed.append(failure)))
     assert failed == []
     return pairs

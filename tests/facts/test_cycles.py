@@ -21,7 +21,8 @@ from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog, load
-from usdvol_lint.run.testing import STAGE, Case, cases, pages, write_example
+from usdvol_lint.packs.examples import STAGE, Case, cases, pages
+from usdvol_lint.run.testing import write_example
 
 EXAMPLES = ROOT / "docs" / "examples"
 STAGES = sorted(path.relative_to(EXAMPLES).as_posix() for path in EXAMPLES.rglob("*.usd*"))

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from process import ROOT, STUDIO, Ran, environment, run, volume, write
 
+from usdvol_lint import lint
 from usdvol_lint.config import Config
 from usdvol_lint.model import PackError, UsageError
 from usdvol_lint.packs.activation import activate
@@ -164,20 +165,22 @@ def test_packs_with_modules_of_the_same_name(tmp_path: Path) -> None:
         assert [rule.since for rule in rules] == expected
 
 
-def test_a_condition_on_no_fact(tmp_path: Path) -> None:
-    rule = """
-from usdvol_lint.rule import INFO, When, rule
-
-@rule("STU009", on="Volume", when=When("extent", bool), severity=INFO, since="1")
-def odd(volume, facts):
-    yield from ()
-"""
-    (tmp_path / "odd.py").write_text(rule, encoding="utf-8")
-    with pytest.raises(
-        PackError,
-        match=r"odd\.py: .*STU009: `when` names no column or summary",
-    ):
-        load([str(tmp_path)])
+def test_an_edited_pack_is_read_anew(show: Path, tmp_path: Path) -> None:
+    """By the process that calls `lint` too, which says severities and knows options."""
+    module = write(tmp_path / "pack") / "edited.py"
+    found = []
+    for level, option in (("INFO", "one"), ("ERROR", "second")):
+        module.write_text(
+            f"from usdvol_lint.rule import {level}, Problem, rule\n"
+            f"@rule('EDT001', on='Volume', severity={level}, since='1')\n"
+            f"def edited(volume, facts, *, {option}: int = 3):\n"
+            f"    yield Problem(f'{option} is {{{option}}}', at=volume)\n"
+        )
+        options = {"EDT001": {option: 4}}
+        config = Config(select=("EDT",), packs=(str(module.parent),), jobs=1, options=options)
+        (stage,) = lint([str(show)], config).stages
+        found += [(finding.severity.label, finding.message) for finding in stage.findings]
+    assert found == [("info", "one is 4"), ("error", "second is 4")]
 
 
 def test_a_page_that_can_not_be_read(tmp_path: Path) -> None:

@@ -12,16 +12,9 @@ from process import ROOT, ROUGH, STUDIO, Ran, run
 
 from usdvol_lint.model import Finding, Severity, Site
 from usdvol_lint.packs.catalog import load
+from usdvol_lint.packs.examples import cases, pages, words_file, words_of
 from usdvol_lint.packs.page import read_page
-from usdvol_lint.run.testing import (
-    all_words,
-    cases,
-    pages,
-    portable,
-    said,
-    words_file,
-    write_example,
-)
+from usdvol_lint.run.testing import all_words, portable, write_example
 
 PASSED = "examples: 2, pages: 1; all report what they should\n"
 WITHOUT_CACHES = shutil.ignore_patterns("__pycache__")
@@ -236,7 +229,7 @@ def test_the_folder_of_an_example_is_not_in_its_words(tmp_path: Path) -> None:
     )
     old = Finding("LNT004", "usd-too-old", Severity.WARNING, "old", Site("a.usda"))
     bare = Finding("LNT005", "not-checked", Severity.INFO, "two\nlines", Site("a.usdc"))
-    assert said(portable([finding, old, bare], folder)) == (
+    assert words_of(portable([finding, old, bare], folder)) == (
         "  example.usda:3: AST002 error </a.b> [default, 1-2] (variant look=thin)\n"
         "    no file at <folder>/a.vdb or <folder>/b.vdb, c.usda\n"
         "    help: look at <folder>\n"

@@ -10,20 +10,19 @@ from process import ROOT
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.packs.catalog import load
-from usdvol_lint.packs.page import Page
-from usdvol_lint.run.testing import (
+from usdvol_lint.packs.examples import (
     STAGE,
     Case,
     cases,
     mark,
     marks,
     pages,
-    portable,
     read_words,
-    said,
     words_file,
-    write_example,
+    words_of,
 )
+from usdvol_lint.packs.page import Page
+from usdvol_lint.run.testing import portable, write_example
 
 RULES = ROOT / "rules"
 
@@ -42,9 +41,10 @@ def test_example_reports_its_marks_and_says_its_words(
     monkeypatch.chdir(tmp_path)
     findings = portable(engine.lint(STAGE).findings, tmp_path)
     place = f"{case.page.path}:{case.example.line}"
-    assert Counter(map(mark, findings)) == marks(case, load().rules), f"{place}\n{said(findings)}"
+    words = words_of(findings)
+    assert Counter(map(mark, findings)) == marks(case, load().rules), f"{place}\n{words}"
     agreed = (read_words(case.page) or {}).get(case.title, "")
-    assert said(findings) == agreed, f"{place}: `make generate` writes the words"
+    assert words == agreed, f"{place}: `make generate` writes the words"
 
 
 def test_words_are_those_of_examples() -> None:

@@ -1,1 +1,1 @@
-"""A stage becomes findings."""
+"""Opens a stage, runs the rules on it, and makes findings of what they yield."""

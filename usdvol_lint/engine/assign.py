@@ -1,9 +1,9 @@
-"""Each rule with the prims that it is handed: those it asked for, as far as its `when` holds."""
+"""Which prims each rule is handed: those of its schemas that pass its precondition."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from operator import itemgetter
 from typing import Any, TypeAlias
 
@@ -12,40 +12,39 @@ from usdvol_lint.engine.walk import Walk
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.prims.tables import Chunk, Table
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
-from usdvol_lint.facts.usd.kinds import KindKey
 from usdvol_lint.rule import Rule, When
 
 Options: TypeAlias = Mapping[str, Mapping[str, Any]]
 """The options of rules, by code."""
-Failed: TypeAlias = Callable[[Rule, Exception], None]
-"""Is told of a rule whose precondition raised: the rule is handed the prims all the same."""
+Failed: TypeAlias = Callable[[Sequence[Rule], Exception], None]
+"""Called with rules whose precondition raised; they are handed the prims all the same."""
 
 
 def assign(
     walked: Walk, rules: Iterable[Rule], facts: Facts, options: Options, failed: Failed
 ) -> Iterator[tuple[Rule, Any]]:
-    """Each rule with each kept prim that it asked for.
+    """Each rule with each kept prim of its schemas that passes its precondition.
 
-    A prim that nothing is remarkable about is handed to few: `Rule.when` is asked once for all
-    prims that share a key, and keys are found for those prims alone that some rule asks for.
+    `Rule.when` is evaluated once for all prims that share a key, and keys are computed only for
+    prims that some rule with a precondition asks for.
     """
     rules = list(rules)
-    subscribed = {
+    subscriptions = {
         key: _Subscription(facts.kinds.names(key), rules, facts, options, failed)
         for key in walked.kept
     }
     for key, chunk in _fields_first(walked, facts):
         for prim in chunk.prims:
-            for rule in subscribed[key].always:
+            for rule in subscriptions[key].always:
                 yield rule, prim
-        if subscribed[key].by_keys:
+        if subscriptions[key].by_keys:
             for table in facts.tables.tables(chunk):
-                for rules_by_key in subscribed[key].by_keys:
+                for rules_by_key in subscriptions[key].by_keys:
                     yield from rules_by_key.chosen(table)
 
 
 class _Subscription:
-    """The rules that ask for prims of a kind: `always`, or those chosen by the prims' keys."""
+    """The rules for prims of one kind: without a precondition, and the others by their keys."""
 
     def __init__(
         self,
@@ -71,7 +70,7 @@ class _Subscription:
 
 
 class _RulesByKey:
-    """The rules whose preconditions look at one thing, chosen once for each key that it gives."""
+    """The rules whose preconditions look at one column of keys, evaluated once for each key."""
 
     def __init__(
         self,
@@ -86,22 +85,23 @@ class _RulesByKey:
         self._rules = rules
         self._options = options
         self._failed = failed
-        self._known: dict[Any, list[Rule]] = {}
+        self._chosen: dict[Any, list[Rule]] = {}
 
     def chosen(self, table: Table) -> Iterator[tuple[Rule, Any]]:
-        """The prims, each with its rules."""
+        """The prims of a table, each with every rule that its key passes."""
         keys = self._keys(table)
         if keys is None:
             yield from self._one_by_one(table)
             return
-        chosen = {key: self._rules_for(key) for key in set(keys)}
-        if any(chosen.values()):
+        # In the order of the prims: if a precondition fails on several keys, it reports the first.
+        rules = {key: self._rules_for(key) for key in dict.fromkeys(keys)}
+        if any(rules.values()):
             for prim, key in zip(table.prims, keys, strict=True):
-                for rule in chosen[key]:
+                for rule in rules[key]:
                     yield rule, prim
 
     def _one_by_one(self, table: Table) -> Iterator[tuple[Rule, Any]]:
-        """The same where some key can't be found; who has none is handed to all of the rules."""
+        """The same, prim by prim; a prim whose key can't be computed is handed to all rules."""
         if len(table.prims) == 1:
             yield from ((rule, table.prims[0]) for rule, _ in self._rules)
             return
@@ -112,32 +112,31 @@ class _RulesByKey:
         try:
             return list(self._declared.keys(self._wing, table))
         except UNREADABLE:
-            pass  # the rules find that out by themselves
-        except Exception as error:
+            pass  # the rules meet the same error, and report it
+        except Exception as error:  # a rule pack's code: reported once it fails on one prim alone
             if len(table.prims) == 1:
-                for rule, _ in self._rules:
-                    self._failed(rule, error)
+                self._failed([rule for rule, _ in self._rules], error)
         return None
 
     def _rules_for(self, key: Any) -> list[Rule]:
-        if key not in self._known:
-            self._known[key] = [rule for rule, when in self._rules if self._holds(rule, when, key)]
-        return self._known[key]
+        if key not in self._chosen:
+            self._chosen[key] = [rule for rule, when in self._rules if self._holds(rule, when, key)]
+        return self._chosen[key]
 
     def _holds(self, rule: Rule, when: When, key: Any) -> bool:
         given = {**rule.options, **self._options.get(rule.code, {})}
         try:
             return when.holds(key, **{name: given[name] for name in when.options})
-        except Exception as error:
-            self._failed(rule, error)
+        except Exception as error:  # a rule pack's code: reported
+            self._failed([rule], error)
             return True
 
 
 def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[KindKey, Chunk]]:
-    """The kept prims by kind, some at a time, roughly in the order of the walk.
+    """The kept prims in chunks of one kind, roughly in the order of the walk.
 
-    What Volumes are asked needs what their fields hold: of prims that the walk met together,
-    fields come first, while what USD said of them is still in the processor's cache.
+    Facts about Volumes need facts about their fields: of prims that the walk met together, fields
+    come first, and their facts are still in the processor's cache when the Volumes follow.
     """
     order = []
     for key in walked.kept:

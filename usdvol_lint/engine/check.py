@@ -1,4 +1,4 @@
-"""One stage under its variant selections: walked, handed to the rules, and what they find."""
+"""Checks one stage: walks it, runs the rules, and does so again for other variant selections."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from pxr import Tf
 from usdvol_lint import schema
 from usdvol_lint.engine.assign import Options, assign
 from usdvol_lint.engine.failures import Failures
-from usdvol_lint.engine.stamp import Found, Stamp
+from usdvol_lint.engine.identity import Identity
+from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.usd_version import usd_version
-from usdvol_lint.engine.variants import Identity, OtherSelections
+from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import Walk, walk
 from usdvol_lint.facts import Context, Facts
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
@@ -21,7 +22,7 @@ from usdvol_lint.rule import STAGE, Problem, Rule
 
 
 class StageCheck:
-    """Checks one stage; iterating is checking, so that findings can be told as they come."""
+    """Checks one stage; findings come from generators, so that they can be sent as they come."""
 
     def __init__(
         self, context: Context, rules: Sequence[Rule], options: Options, stamp: Stamp
@@ -32,15 +33,15 @@ class StageCheck:
         self._stamp = stamp
 
     def walk(self) -> Walk:
-        """The prims that the rules ask for, under the selection that is composed now."""
+        """The prims that the rules ask for, under the variant selection composed now."""
         return walk(self._context.stage, self._rules, self._context.kinds)
 
     def facts(self, walked: Walk) -> Facts:
-        """The facts under the selection that is composed now."""
+        """The facts under the variant selection composed now."""
         return Facts(self._context, walked.kept, walked.clipped)
 
-    def usd(self, facts: Facts) -> Iterator[Found]:
-        """Whether the installed USD knows what the stage uses."""
+    def usd_version(self, facts: Facts) -> Iterator[Stamped]:
+        """Reports a stage with particle fields under a USD that does not know them."""
         if not facts.kinds.knows_particle_fields and facts.prims.of(schema.PARTICLE_FIELD):
             since = ".".join(map(str, schema.PARTICLE_FIELD_SINCE[1:]))
             too_old = Problem(
@@ -51,33 +52,33 @@ class StageCheck:
             )
             yield from self._stamp.stamp(USD_TOO_OLD, too_old)
 
-    def selection(self, walked: Walk, facts: Facts) -> Iterator[Found]:
-        """What the rules find under one selection, and where they failed."""
+    def selection(self, walked: Walk, facts: Facts) -> Iterator[Stamped]:
+        """What the rules find under the selection composed now, and where they failed."""
         failures = Failures()
-        for rule, prim in self._work(walked, facts, failures):
+        for rule, prim in self._assigned(walked, facts, failures):
             options = self._options.get(rule.code, {})
             try:
-                for said in rule.check(prim, facts, **options):
-                    yield from self._stamp.stamp(rule, said)
-            except Exception as error:
+                for problem in rule.check(prim, facts, **options):
+                    yield from self._stamp.stamp(rule, problem)
+            except Exception as error:  # whatever a rule raises is reported, and the others go on
                 failures.add(rule, prim, error)
         for prim, fault in facts.tables.unreadable:
             failures.add(NOT_CHECKED, prim, fault)
-        yield from failures.found(self._stamp.sites)
+        yield from failures.findings(self._stamp.sites)
 
-    def others(self, selections: OtherSelections, known: set[Identity]) -> Iterator[Found]:
-        """What only other variant selections show, each with the first that does."""
+    def others(self, selections: OtherSelections, known: set[Identity]) -> Iterator[Stamped]:
+        """What only other variant selections show, each with the first selection that shows it."""
         for selection, error in selections:
-            for found in self._other(error):
-                if found.identity not in known:
-                    known.add(found.identity)
-                    site = replace(found.finding.site, variant=selection)
-                    yield found._replace(finding=replace(found.finding, site=site))
+            for stamped in self._other(error):
+                if stamped.identity not in known:
+                    known.add(stamped.identity)
+                    site = replace(stamped.finding.site, variant=selection)
+                    yield stamped._replace(finding=replace(stamped.finding, site=site))
         for left_out in selections.not_checked():
             yield from self._stamp.stamp(NOT_CHECKED, left_out)
 
-    def _other(self, fault: Tf.ErrorException | None) -> Iterator[Found]:
-        """What one selection shows, or why it can't be told."""
+    def _other(self, fault: Tf.ErrorException | None) -> Iterator[Stamped]:
+        """What the selection composed now shows, or `fault`, which kept USD from composing it."""
         if not fault:
             try:
                 walked = self.walk()
@@ -88,14 +89,16 @@ class StageCheck:
         if fault:
             failures = Failures()
             failures.add(NOT_CHECKED, self._context.stage.GetPseudoRoot(), fault)
-            yield from failures.found(self._stamp.sites)
+            yield from failures.findings(self._stamp.sites)
 
-    def _work(self, walked: Walk, facts: Facts, failures: Failures) -> Iterator[tuple[Rule, Any]]:
-        """Each rule with each prim it asked for."""
+    def _assigned(
+        self, walked: Walk, facts: Facts, failures: Failures
+    ) -> Iterator[tuple[Rule, Any]]:
+        """Each rule with each prim that it is handed; rules on the stage get the pseudo-root."""
         root = facts.stage.GetPseudoRoot()
 
-        def failed(rule: Rule, error: Exception) -> None:
-            failures.add_precondition(rule, root, error)
+        def failed(rules: Sequence[Rule], error: Exception) -> None:
+            failures.add_precondition(rules, root, error)
 
         yield from assign(walked, self._rules, facts, self._options, failed)
         for rule in self._rules:

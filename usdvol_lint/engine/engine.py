@@ -1,4 +1,4 @@
-"""A path and rules become a report on one stage, whatever the stage holds and a rule does."""
+"""Lints one stage: opens it, checks it, and reports on it whatever happens."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from usdvol_lint import schema
 from usdvol_lint.config import Depth
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.stage import open_stage
-from usdvol_lint.engine.stamp import Found, Stamp
-from usdvol_lint.engine.trouble import Unreadable, report_trouble
+from usdvol_lint.engine.stamp import Stamp, Stamped
+from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import Walk
 from usdvol_lint.facts import Context, Facts
@@ -23,20 +23,21 @@ from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
 from usdvol_lint.volumefile.cache import VolumeFiles
 
-_TOLD_AT_ONCE = 100
+_SENT_AT_ONCE = 100
+"""From this many findings on they are sent in batches."""
 
 
-def _ignore(told: object) -> None:
+def _ignore(message: object) -> None:
     pass
 
 
 class Engine:
     """Lints stages, one after the other, with the same rules.
 
-    `depth` says how much of each stage is looked at.
-    `advance` is told how many samples of a long sequence were read since it was last told, `tell`
-    what was found meanwhile, so that it is not lost whatever becomes of the stage.
-    USD's own warnings go to standard error, which in a worker process is the parent's to read.
+    `depth` says how much of each stage is checked.
+    `advance` is called with the number of samples of a long sequence that were read since the last
+    call, `send` with new findings, so that they are not lost if the process dies.
+    USD's own warnings go to standard error, which in a worker process is a pipe to its parent.
     """
 
     def __init__(
@@ -45,24 +46,24 @@ class Engine:
         active: ActiveRules,
         depth: Depth | None = None,
         advance: Callable[[int], None] = _ignore,
-        tell: Callable[[list[Finding]], None] = _ignore,
+        send: Callable[[list[Finding]], None] = _ignore,
     ) -> None:
         self._rules = [rules[code] for code in active.severities]
         self._active = active
         self._depth = depth or Depth()
         self._advance = advance
-        self._tell = tell
+        self._send = send
         self._volume_files = VolumeFiles()
 
     def lint(self, path: str) -> StageReport:
-        """Everything there is to say of one stage; never raises for what the stage holds."""
+        """The report on one stage; never raises for what the stage holds or a rule does."""
         clock = _Stopwatch()
         try:
             session = Sdf.Layer.CreateAnonymous() if self._depth.selections else None
             stage = open_stage(path, self._depth.load, session)
-        except Unreadable as trouble:
+        except UnreadableStageError as error:
             clock.lap("open")
-            return report_trouble(path, trouble, seconds=clock.seconds)
+            return report_trouble(path, error.trouble, seconds=clock.seconds)
         clock.lap("open")
         context = Context.of(stage, self._depth, self._volume_files, self._advance)
         return self._report(path, context, clock)
@@ -74,38 +75,38 @@ class Engine:
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)
-        found = list(self._told(check.usd(facts)))
-        found += self._told(check.selection(walked, facts))
+        found = list(self._sent(check.usd_version(facts)))
+        found += self._sent(check.selection(walked, facts))
         stats = _stats(walked, facts, context.disk.checked)
         particle_fields = facts.particles.statistics() if depth.statistics else None
         if depth.selections:
             clock.lap("check")
             others = OtherSelections(context.stage, context.kinds, depth.selections)
-            found += self._told(check.others(others, {each.identity for each in found}))
+            found += self._sent(check.others(others, {stamped.identity for stamped in found}))
             stats["variant_selections"] = others.composed
             clock.lap("variants")
         findings = with_fingerprints(
-            each.finding for each in found if not each.holds or each.holds()
+            stamped.finding for stamped in found if not stamped.holds or stamped.holds()
         )
         clock.lap("check")
         return StageReport(
             display(path), Status.CHECKED, stats, findings, clock.seconds, particle_fields
         )
 
-    def _told(self, found: Iterable[Found]) -> Iterator[Found]:
-        """Tells findings in batches: one message each is slow.
+    def _sent(self, found: Iterable[Stamped]) -> Iterator[Stamped]:
+        """Sends findings in batches, because a message for each is slow, and passes them on.
 
-        If the process dies, up to a tenth of many may be untold.
+        At most a tenth of many is ever unsent, and so lost if the process dies.
         """
-        untold: list[Finding] = []
-        for number, each in enumerate(found):
-            untold.append(each.finding)
-            if number < _TOLD_AT_ONCE or 10 * len(untold) > number:
-                self._tell(untold)
-                untold = []
-            yield each
-        if untold:
-            self._tell(untold)
+        unsent: list[Finding] = []
+        for number, stamped in enumerate(found):
+            unsent.append(stamped.finding)
+            if number < _SENT_AT_ONCE or 10 * len(unsent) > number:
+                self._send(unsent)
+                unsent = []
+            yield stamped
+        if unsent:
+            self._send(unsent)
 
 
 @dataclass(slots=True)

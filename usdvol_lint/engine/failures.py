@@ -1,17 +1,17 @@
-"""Rules that raised become findings, so that a report says what was not checked."""
+"""Makes findings of what rules raised, so that a report says what was not checked."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from pxr import Tf
 
+from usdvol_lint.engine.identity import Identity
+from usdvol_lint.engine.messages import messages
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.engine.stage import messages
-from usdvol_lint.engine.stamp import Found
-from usdvol_lint.engine.variants import Identity
+from usdvol_lint.engine.stamp import Stamped
 from usdvol_lint.facts.usd.diagnostics import without_parser_rule
 from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
@@ -22,7 +22,7 @@ _LONGEST_MESSAGE = 300
 
 @dataclass(slots=True)
 class _Failure:
-    """One kind of failure: the rule and the prim where it came first, and on how many it came."""
+    """One kind of failure: the rule and the prim that met it first, and how many prims met it."""
 
     rule: Rule
     prim: Any
@@ -32,12 +32,12 @@ class _Failure:
     of_precondition: bool = False
 
     @property
-    def is_usds(self) -> bool:
+    def is_by_usd(self) -> bool:
         return isinstance(self.error, Tf.ErrorException)
 
     @property
     def message(self) -> str:
-        if self.is_usds and not self.of_precondition:
+        if self.is_by_usd and not self.of_precondition:
             said = "; ".join(map(without_parser_rule, messages(self.error)))
             return f"USD can't read what is here: {said}"
         rule, error = self.rule, self.error
@@ -50,16 +50,17 @@ class _Failure:
 
 
 class Failures:
-    """Rules that raised, each kind of failure once, however many prims it hit.
+    """What rules raised on one stage; each kind of failure becomes one finding.
 
-    Where USD raised, the stage holds what USD can't read, whichever rule asks for it.
+    An exception of USD's is reported for the stage and not for the rule: the stage holds something
+    that USD can't read, whichever rule asks for it.
     """
 
     def __init__(self) -> None:
         self._failures: dict[Identity, _Failure] = {}
 
     def add(self, rule: Rule, prim: Any, error: Exception) -> None:
-        """Keeps what a rule raised on a prim."""
+        """Records what a rule raised on a prim."""
         key: Identity = (rule.code, type(error).__name__, str(_line(error)))
         if isinstance(error, Tf.ErrorException):
             key = (str(prim.GetPath()), *messages(error))
@@ -68,16 +69,19 @@ class Failures:
         self._failures[key].count += 1
         error.__traceback__ = None  # its frames hold the stage, and one of them holds this
 
-    def add_precondition(self, rule: Rule, root: Any, error: Exception) -> None:
-        """Keeps what the precondition of a rule raised, whatever prims it was asked of."""
-        failure = _Failure(rule, root, error, _traceback(error), of_precondition=True)
-        self._failures.setdefault((rule.code, "when"), failure)
+    def add_precondition(self, rules: Iterable[Rule], root: Any, error: Exception) -> None:
+        """Records what the precondition of these rules raised: once for each rule."""
+        new = {(rule.code, "when"): rule for rule in rules}
+        new = {key: rule for key, rule in new.items() if key not in self._failures}
+        text = _traceback(error) if new else ""
+        for key, rule in new.items():
+            self._failures[key] = _Failure(rule, root, error, text, of_precondition=True)
         error.__traceback__ = None
 
-    def found(self, sites: Sites) -> Iterator[Found]:
-        """What to report of them."""
+    def findings(self, sites: Sites) -> Iterator[Stamped]:
+        """One finding for each kind of failure."""
         for key, failure in self._failures.items():
-            by_usd = failure.is_usds and not failure.of_precondition
+            by_usd = failure.is_by_usd and not failure.of_precondition
             code = STAGE_UNREADABLE if by_usd else RULE_FAILED
             finding = Finding(
                 code=code.code,
@@ -90,16 +94,17 @@ class Failures:
                 else "a bug of the rule, not of the stage; --verbose shows the traceback",
                 help=help_for(code),
                 detail=failure.traceback,
+                faulty_rule=failure.rule.code if failure.of_precondition else None,
             )
-            yield Found(finding, key)
+            yield Stamped(finding, key)
 
 
 def _line(error: Exception) -> int:
-    """Where it was raised: what it says may name the prim, and so differ on each."""
-    place = error.__traceback__
-    while place and place.tb_next:
-        place = place.tb_next
-    return place.tb_lineno if place else 0
+    """The line that raised it; the message would not do, as it may name the prim."""
+    entry = error.__traceback__
+    while entry and entry.tb_next:
+        entry = entry.tb_next
+    return entry.tb_lineno if entry else 0
 
 
 def _traceback(error: Exception) -> str:

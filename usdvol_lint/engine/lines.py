@@ -12,9 +12,9 @@ from itertools import islice
 from operator import le
 from typing import NamedTuple
 
-# The lexical elements in which brackets and separators mean nothing.  None of them can fail to
-# match once it has begun (the closing mark is optional) and none backtracks, so that time stays
-# linear whatever the text.
+# The lexical elements in which brackets and separators have no meaning.  None of them can fail to
+# match once it has begun (the closing mark is optional) and none backtracks, so that the time is
+# linear for any text.
 _BLOCK_COMMENT = rb"/\*[^*]*+(?:\*(?!/)[^*]*+)*+(?:\*/)?+"
 _COMMENTS = (rb"#[^\n]*+", rb"//[^\n]*+", _BLOCK_COMMENT)
 _STRINGS = (
@@ -43,10 +43,10 @@ _BRACE_VALUE = b"=" + _SPACE + rb"*+\{"
 
 
 def _tokens(*marked: bytes, plain: Iterable[bytes] = ()) -> re.Pattern[bytes]:
-    """A pattern to search with; `lastindex` says which of `marked` it found, counting from 1.
+    """A pattern to search with; `lastindex` of a match is which of `marked` it is, from 1.
 
-    Alternatives must begin with a literal and so have their (empty) group at the end: only then
-    does `re` pass over the bytes between two tokens by table look-up.
+    The alternatives have to begin with a literal, so that `re` skips the bytes between two tokens
+    by table look-up: hence their (empty) groups at the end.
     """
     return re.compile(b"|".join([*(pattern + b"()" for pattern in marked), *plain]))
 
@@ -93,7 +93,7 @@ _BLOCK_SIZE = 1 << 16
 
 
 class Position(NamedTuple):
-    """A place in a text, 1-based; the column counts characters."""
+    """A position in a text, 1-based; the column counts characters."""
 
     line: int
     column: int
@@ -105,7 +105,7 @@ class _Span(NamedTuple):
 
 
 class _Statement(NamedTuple):
-    """One statement about a property; `value` is where the declaration ends."""
+    """One statement about a property; `value` is the offset at which the declaration ends."""
 
     span: _Span
     value: int
@@ -114,7 +114,7 @@ class _Statement(NamedTuple):
 
 
 class TextLayer:
-    """The text of a `.usda` layer, in which specs are found by their paths."""
+    """The text of a `.usda` layer, UTF-8; finds specs by their paths."""
 
     def __init__(self, data: bytes) -> None:
         self._data = data
@@ -124,12 +124,12 @@ class TextLayer:
     def find(
         self, path: str, *, time: float | None = None, asset: str | None = None
     ) -> Position | None:
-        """Where the spec at `path` is authored, or None if it is not in this text.
+        """The position of the spec at `path`, or None if it is not in this text.
 
-        A prim is found at its specifier, a variant at its name, a property at its first
-        statement, a target at its property and `/` at the top.  `time` asks for the key of that
-        time sample, else for the time samples; `asset` for the first `@asset@` in the spec (and
-        in that sample).  What is not there falls back to the next larger thing that is.
+        That of a prim is its specifier, of a variant its name, of a property its first statement,
+        of a target its property, and of `/` the top.  `time` asks for the key of the time sample,
+        or for `timeSamples` where the text has no such key; `asset` asks for the first `@asset@`
+        in the spec, or in that sample.  What is not found is replaced by what encloses it.
         """
         spec = self._spec(path)
         if spec is None:
@@ -179,10 +179,11 @@ class TextLayer:
 
 
 class _Outline:
-    """Where the prims, variant sets and variants of a text are: scopes, numbered in order.
+    """The offsets of the prims, variant sets and variants of a text: scopes, numbered in order.
 
-    Scope 0 is the layer.  Arrays, and names read only when asked for, keep the outline of a
-    layer of a million prims small.
+    Scope 0 is the layer.  `start` and `stop` enclose a scope, `body` is after its `{`.
+    The offsets are in arrays and names are read on demand, so that the outline of a layer of a
+    million prims stays small.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -191,7 +192,7 @@ class _Outline:
         self.body = array("q", [0])
         self.stop = array("q", [len(data)])
         self.after = array("q", [0])
-        """The number that follows those of everything inside the scope."""
+        """The number of the first scope that follows and is not inside."""
         self._read()
 
     def _read(self) -> None:
@@ -250,14 +251,14 @@ class _Outline:
         return literal[marks:-marks].decode("utf-8", "replace")
 
     def inside(self, number: int) -> Iterator[int]:
-        """The scopes directly inside a scope."""
+        """The numbers of the scopes directly inside a scope."""
         inner = number + 1
         while inner < self.after[number]:
             yield inner
             inner = self.after[inner]
 
     def own(self, number: int, start: int) -> Iterator[_Span]:
-        """What of the scope, from `start` on, is in none of the scopes inside it."""
+        """The spans of a scope from `start` on that are outside of the scopes inside it."""
         for inner in self.inside(number):
             yield _Span(start, self.start[inner])
             start = self.stop[inner]
@@ -265,7 +266,7 @@ class _Outline:
 
 
 class _Property:
-    """A property in one scope."""
+    """The statements about one property in one scope."""
 
     def __init__(self, data: bytes) -> None:
         self._data = data
@@ -286,7 +287,7 @@ class _Property:
         return _assets(self._data, self._spans)
 
     def sample(self, time: float) -> _Span | None:
-        """The time sample with that key."""
+        """The span of the time sample with that key, within rounding; None if there is none."""
         times, offsets = self._keys
         at = bisect_left(times, time)
         for i in sorted(
@@ -332,7 +333,7 @@ class _Scope:
 
     @cached_property
     def children(self) -> dict[str, int]:
-        """The numbers of the scopes inside by their elements of a path: `prim`, `{set=variant}`."""
+        """The numbers of the scopes inside, by element of a path: `prim`, `{set=variant}`."""
         outline = self._outline
         found: dict[str, int] = {}
         for inner in outline.inside(self._number):
@@ -356,7 +357,7 @@ class _Scope:
 
 
 def _statements(data: bytes, span: _Span) -> Iterator[_Statement]:
-    """The statements about properties in a piece of a body that holds no prims."""
+    """The statements about properties in a span of a body that holds no prims."""
     position = span.start
     while position < span.stop:
         head = _STATEMENT.match(data, position, span.stop)
@@ -398,7 +399,7 @@ def _bracket_stop(data: bytes, position: int, stop: int) -> int:
 
 
 def _assets(data: bytes, spans: Iterable[_Span]) -> dict[str, int]:
-    """Where each asset path is first."""
+    """The offset of the first occurrence of each asset path."""
     found: dict[str, int] = {}
     for span in spans:
         for token in _ASSET.finditer(data, *span):

@@ -1,4 +1,4 @@
-"""Where a problem is: the layer that holds the opinion, its line there, the prim on the stage."""
+"""Finds the site of a problem: the layer with the opinion, its line, and the prim on the stage."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Ar, Usd
 
+from usdvol_lint.engine.diagnosis import TEXT_SIGNATURES
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.model import Site
@@ -15,35 +16,34 @@ from usdvol_lint.rule import NotChecked, Problem
 if TYPE_CHECKING:
     from usdvol_lint.engine.lines import TextLayer
 
-_TEXT_SIGNATURES = (b"#usda", b"#sdf", b"#usd ")
-
 
 class Located(NamedTuple):
-    """A site, and by how many instances the stage shows it."""
+    """A site, the spec to blame if there is one, and how many instances show it on the stage."""
 
     site: Site
+    spec: Any | None
     instances: int
 
 
 class Sites:
-    """Finds sites; each text layer is read once, and only if something is wrong in it."""
+    """Finds the sites of problems; a text layer is read once, and only if a problem is in it."""
 
     def __init__(self) -> None:
         self._texts: dict[str, TextLayer | None] = {}
 
     def locate(self, problem: Problem | NotChecked) -> Located:
-        """Where a problem is, on the stage and in the layer."""
+        """The site of a problem, the spec to blame for it, and how many instances show it."""
         prim = problem.at.GetPrim()
         is_property = isinstance(problem.at, Usd.Property)
-        spec, time = (problem.spec, None) if problem.spec else blamed_spec(problem)
+        spec, time = (problem.spec, None) if problem.spec else _blamed_spec(problem)
         layer = spec.layer if spec else prim.GetStage().GetRootLayer()
         path = spec.path if spec else "/"
         text = self._text(layer)
         position = text.find(str(path), time=time, asset=problem.asset) if text else None
-        where = shown(prim)
+        on_stage = shown(prim)
         site = Site(
             layer=display(layer.realPath or layer.identifier),
-            prim=None if prim.IsPseudoRoot() else where.path,
+            prim=None if prim.IsPseudoRoot() else on_stage.path,
             property=problem.at.GetName() if is_property else None,
             variant=_variants(spec.path) if spec else None,
             line=position.line if position else None,
@@ -51,7 +51,7 @@ class Sites:
             times=problem.times,
             at_default=problem.at_default,
         )
-        return Located(site, where.instances)
+        return Located(site, spec, on_stage.instances)
 
     def _text(self, layer: Any) -> TextLayer | None:
         from usdvol_lint.engine.lines import (
@@ -61,18 +61,18 @@ class Sites:
         key = layer.identifier
         if key not in self._texts:
             data = _read(layer)
-            self._texts[key] = TextLayer(data) if data.startswith(_TEXT_SIGNATURES) else None
+            self._texts[key] = TextLayer(data) if data.startswith(TEXT_SIGNATURES) else None
         return self._texts[key]
 
 
-def blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
-    """The spec whose opinion counts, and the first time as its layer has it."""
+def _blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
+    """The spec whose opinion counts, and the first time of the problem in the time of its layer."""
     if not isinstance(problem.at, Usd.Property):
         return _blamed_prim_spec(problem.at), None
     if isinstance(problem.at, Usd.Attribute) and (problem.at_default or problem.times):
         time = None if problem.at_default else problem.times[0]
-        if held := strongest_opinion(problem.at, time):
-            spec, offset = held
+        if strongest := strongest_opinion(problem.at, time):
+            spec, offset = strongest
             return spec, None if time is None else offset.GetInverse() * time
     specs = problem.at.GetPropertyStack()
     spec = next((spec for spec in specs if _has_value(spec)), specs[0] if specs else None)
@@ -114,7 +114,7 @@ def _read(layer: Any) -> bytes:
     try:
         with open(path, "rb") as file:
             head = file.read(8)
-            return head + file.read() if head.startswith(_TEXT_SIGNATURES) else b""
+            return head + file.read() if head.startswith(TEXT_SIGNATURES) else b""
     except OSError:
         return b""
 

@@ -1,21 +1,21 @@
-"""What rules yield becomes findings: with code, severity, and the place in its layer."""
+"""Makes findings of what rules yield: with code, severity, layer, line and frames."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
+from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.engine.variants import Identity, identity
 from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.catalog import NOT_CHECKED, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
 
 
-class Found(NamedTuple):
-    """A finding, with what tells it from others under every variant selection.
+class Stamped(NamedTuple):
+    """A finding, and its identity, which is the same under every variant selection.
 
-    `holds` is asked when all selections were looked at.
+    `holds` is called when all selections were checked; if it returns False, there is no finding.
     """
 
     finding: Finding
@@ -26,8 +26,8 @@ class Found(NamedTuple):
 class Stamp:
     """Makes findings of the problems of one stage.
 
-    `severities` are those of the rules in force; `several_selections` says whether findings have
-    to be told apart under more than one.
+    `severities` are those of the active rules, by code; `several_selections` says whether
+    findings need an identity, because more than one variant selection is checked.
     """
 
     def __init__(self, severities: Mapping[str, Severity], several_selections: bool) -> None:
@@ -35,29 +35,29 @@ class Stamp:
         self._severities = severities
         self._several_selections = several_selections
 
-    def stamp(self, rule: Rule, said: Problem | NotChecked) -> Iterator[Found]:
+    def stamp(self, rule: Rule, problem: Problem | NotChecked) -> Iterator[Stamped]:
         """The finding; none if LNT005, which reports what was not checked, is switched off."""
-        reported_as = NOT_CHECKED if isinstance(said, NotChecked) else rule
+        reported_as = NOT_CHECKED if isinstance(problem, NotChecked) else rule
         severity = self._severities.get(reported_as.code)
         if severity is None:
             return
-        site, instances = self.sites.locate(said)
+        site, spec, instances = self.sites.locate(problem)
         shown = f" (shown by {instances} instances)" if instances > 1 else ""
         finding = Finding(
             code=reported_as.code,
             name=reported_as.name,
-            severity=_lowered(severity, rule, said),
-            message=said.message + shown,
+            severity=_lowered(severity, rule, problem),
+            message=problem.message + shown,
             site=site,
-            suggestion=said.suggestion,
+            suggestion=problem.suggestion,
             help=help_for(reported_as),
         )
-        known_by = identity(rule, said) if self._several_selections else ()
-        yield Found(finding, known_by, said.holds if isinstance(said, Problem) else None)
+        same = identity(rule, problem, spec) if self._several_selections else ()
+        yield Stamped(finding, same, problem.holds if isinstance(problem, Problem) else None)
 
 
-def _lowered(severity: Severity, rule: Rule, said: Problem | NotChecked) -> Severity:
+def _lowered(severity: Severity, rule: Rule, problem: Problem | NotChecked) -> Severity:
     """The severity of a milder case, unless the user chose one for the rule."""
-    if isinstance(said, Problem) and said.severity is not None and severity == rule.severity:
-        return min(severity, said.severity)
+    if isinstance(problem, Problem) and problem.severity is not None and severity == rule.severity:
+        return min(severity, problem.severity)
     return severity

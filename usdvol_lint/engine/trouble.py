@@ -1,43 +1,45 @@
-"""What stands in a report for a stage that could not be checked, or not to its end."""
+"""The LNT001 report of a stage that was not, or only partly, checked."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from usdvol_lint.model import Finding, Severity, Site, StageReport, Status, with_fingerprints
 from usdvol_lint.packs.catalog import STAGE_UNREADABLE, help_for
 from usdvol_lint.paths import display
 
 
-class Unreadable(Exception):  # noqa: N818  (it says what a path is, like a status)
-    """Why a path is not a stage; the place is where text does not parse."""
+class Trouble(NamedTuple):
+    """Why a stage was not checked; `layer`, `line` and `column` are where text does not parse.
 
-    def __init__(
-        self,
-        message: str,
-        suggestion: str | None = None,
-        layer: str | None = None,
-        line: int | None = None,
-        column: int | None = None,
-        detail: str | None = None,
-    ) -> None:
-        super().__init__(message)
-        self.message = message
-        self.suggestion = suggestion
-        self.layer = layer
-        self.line = line
-        self.column = column
-        self.detail = detail
+    `layer` is None if that is the stage's root layer, `detail` is what `--verbose` adds.
+    """
+
+    message: str
+    suggestion: str | None = None
+    layer: str | None = None
+    line: int | None = None
+    column: int | None = None
+    detail: str | None = None
+
+
+class UnreadableStageError(Exception):
+    """A path that can't be opened as a stage."""
+
+    def __init__(self, trouble: Trouble) -> None:
+        super().__init__(trouble.message)
+        self.trouble = trouble
 
 
 def report_trouble(
     path: str,
-    trouble: Unreadable,
+    trouble: Trouble,
     status: Status = Status.UNREADABLE,
     seconds: dict[str, float] | None = None,
     found: Iterable[Finding] = (),
 ) -> StageReport:
-    """A stage's report that holds one LNT001 finding, and what was found before."""
+    """A stage's report: one LNT001 finding, and those `found` before the trouble."""
     finding = Finding(
         code=STAGE_UNREADABLE.code,
         name=STAGE_UNREADABLE.name,

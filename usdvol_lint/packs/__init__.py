@@ -1,1 +1,1 @@
-"""Folders of rules and their pages become what is in force."""
+"""Loads folders of rules and their pages, and selects the active rules."""

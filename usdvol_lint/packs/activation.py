@@ -1,4 +1,4 @@
-"""What of a catalog a configuration switches on: severities and options by code."""
+"""Selects the active rules of a catalog, as a configuration says."""
 
 from __future__ import annotations
 
@@ -14,14 +14,17 @@ _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: 
 
 
 class ActiveRules(NamedTuple):
-    """What of the catalog is switched on: severity and options by code."""
+    """The severities of the active rules, and the options that were given, by code."""
 
     severities: Mapping[str, Severity]
     options: Mapping[str, Mapping[str, Any]]
 
 
 def activate(config: Config, catalog: Catalog) -> ActiveRules:
-    """Resolves selection, severities and options against the catalog; unknown ones are errors."""
+    """Resolves selection, severities and options against the catalog.
+
+    Raises UsageError for unknown codes, names and options.
+    """
     codes = catalog.select(config.select, config.ignore)
     severities = {code: catalog.rules[code].severity for code in sorted(codes)}
     for selector, level in sorted(config.severity.items(), key=lambda item: length(item[0])):

@@ -1,34 +1,25 @@
-"""Rule packs: a folder of rules and their pages becomes a catalog that can be selected from."""
+"""The catalog of all rules, in which they are found and selected by codes and names."""
 
 from __future__ import annotations
 
-import os
-import re
-import sys
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import redirect_stdout, suppress
-from importlib import import_module
-from types import ModuleType
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from usdvol_lint.model import PackError, Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.packs.folders import find_packs, import_rules
 from usdvol_lint.rule import Problems, Rule
 
 if TYPE_CHECKING:
     from usdvol_lint.packs.page import Page
 
-ENTRY_POINT_GROUP = "usdvol_lint.packs"
-_BUILT_IN = "usdvol_lint.rules"
-_CODE = re.compile(r"[A-Z]{3}\d{3}")
 
-
-def _from_engine(prim: object, facts: object) -> Problems:
+def _never_run(prim: object, facts: object) -> Problems:
     yield from ()
 
 
 def _engine_rule(code: str, name: str, severity: Severity) -> Rule:
-    return Rule(code, name, (), severity, "0.1", _from_engine, {})
+    return Rule(code, name, (), severity, "0.1", _never_run, {})
 
 
 STAGE_UNREADABLE = _engine_rule("LNT001", "stage-unreadable", Severity.ERROR)
@@ -36,7 +27,7 @@ RULE_FAILED = _engine_rule("LNT002", "rule-failed", Severity.ERROR)
 USD_TOO_OLD = _engine_rule("LNT004", "usd-too-old", Severity.WARNING)
 NOT_CHECKED = _engine_rule("LNT005", "not-checked", Severity.INFO)
 ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, USD_TOO_OLD, NOT_CHECKED)
-"""What the engine itself reports; `rules/lint/` holds only the pages."""
+"""The codes that the engine itself reports; `rules/lint/` holds only their pages."""
 NOT_IGNORABLE = frozenset({STAGE_UNREADABLE.code, RULE_FAILED.code})
 """They say that the job was not done, so nobody can switch them off."""
 
@@ -67,7 +58,7 @@ class Catalog(NamedTuple):
         return None
 
     def find(self, code_or_name: str) -> Rule:
-        """The rule of that code or name."""
+        """The rule of that code or name; raises UsageError if there is none."""
         wanted = code_or_name.strip()
         by_name = {rule.name: rule for rule in self.rules.values()}
         rule = self.rules.get(wanted.upper()) or by_name.get(wanted.lower())
@@ -76,7 +67,10 @@ class Catalog(NamedTuple):
         return rule
 
     def expand(self, selector: str) -> frozenset[str]:
-        """The codes that a code, a prefix of codes, or ALL stands for."""
+        """The codes that a selector matches: a code, a prefix of codes, or ALL.
+
+        Raises UsageError if it matches none.
+        """
         wanted = selector.strip().upper()
         codes = self.rules if wanted == "ALL" else [c for c in self.rules if c.startswith(wanted)]
         if not codes or not wanted:
@@ -84,7 +78,7 @@ class Catalog(NamedTuple):
         return frozenset(codes)
 
     def select(self, select: Sequence[str], ignore: Sequence[str]) -> frozenset[str]:
-        """The codes switched on; where `select` and `ignore` both match, the longer one wins."""
+        """The codes of active rules; where `select` and `ignore` both match, the longer wins."""
         chosen = self._lengths(select)
         dropped = self._lengths(ignore)
         for code in NOT_IGNORABLE & dropped.keys():
@@ -110,20 +104,21 @@ class Catalog(NamedTuple):
 
 
 def length(selector: str) -> int:
-    """How much a selector says: the longer of two that match a code wins; ALL says least."""
+    """How specific a selector is: the longer of two that match a code wins; ALL counts as 0."""
     stripped = selector.strip()
     return 0 if stripped.upper() == "ALL" else len(stripped)
 
 
 def load(packs: Sequence[str] = ()) -> Catalog:
-    """The built-in rules, those of installed packs, and those of the folders named."""
-    built_in = _built_in_folder()
-    mounted = [(_mount(_BUILT_IN, built_in), built_in), *_installed_packs()]
-    mounted += _named_packs(packs, [os.path.realpath(folder) for _, folder in mounted])
+    """The built-in rules, those of installed packs, and those of the folders `packs`.
+
+    Raises PackError for a pack that can't be loaded, or two rules of the same code or name.
+    """
+    found = find_packs(packs)
     rules = {rule.code: rule for rule in ENGINE_RULES}
     names = {rule.name: rule for rule in ENGINE_RULES}
-    for package, folder in mounted:
-        for rule in _collect(package, folder):
+    for package, folder in found:
+        for rule in import_rules(package, folder):
             same_code = rules.setdefault(rule.code, rule)
             same_name = names.setdefault(rule.name, rule)
             for other in (same_code, same_name):
@@ -132,105 +127,4 @@ def load(packs: Sequence[str] = ()) -> Catalog:
                         f"rule pack {folder!r}: {rule.code} ({rule.name}) takes the code or "
                         f"name of another rule, {other.code} ({other.name})"
                     )
-    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in mounted))
-
-
-def _built_in_folder() -> str:
-    """Beside the engine in a checkout, inside it in a wheel."""
-    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    inside = os.path.join(package, "rules")
-    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "rules")
-
-
-def _installed_packs() -> Iterator[tuple[str, str]]:
-    # To import what reads entry points takes ten times as long as to see that there are none.
-    if not any(map(_names_packs, sys.path)):
-        return
-    from importlib.metadata import entry_points
-    from importlib.util import find_spec
-
-    for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
-        try:
-            spec = find_spec(entry.value)
-        except (ImportError, ValueError):
-            spec = None
-        places = list(spec.submodule_search_locations or ()) if spec else []
-        if not places:
-            raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
-        yield entry.value, places[0]
-
-
-def _names_packs(folder: str) -> bool:
-    """Whether some distribution in a folder of `sys.path` declares a rule pack."""
-    with suppress(OSError):
-        for name in os.listdir(folder or "."):
-            if name.endswith("-info"):
-                declared = os.path.join(folder, name, "entry_points.txt")
-                with suppress(OSError), open(declared, "rb") as file:
-                    if ENTRY_POINT_GROUP.encode() in file.read():
-                        return True
-    return False
-
-
-def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """The folders named, but for those that are known as a pack already."""
-    from zlib import crc32
-
-    for pack in packs:
-        folder = os.path.realpath(pack)
-        if not os.path.isdir(folder):
-            raise PackError(f"rule pack {pack!r}: no such folder")
-        if folder in known:
-            continue
-        # By its place: two packs in one process may both have a module `checks`.
-        yield _mount(f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}", folder), folder
-
-
-def _mount(name: str, folder: str) -> str:
-    """Makes a folder importable as a package of that name, wherever it lies."""
-    package = ModuleType(name)
-    package.__path__ = [folder]
-    sys.modules[name] = package
-    return name
-
-
-def _collect(package: str, folder: str) -> list[Rule]:
-    """The rules of every module below the folder that holds one; a pack without any is broken."""
-    rules: list[Rule] = []
-    with redirect_stdout(sys.stderr):  # what a module prints stays out of the report
-        for name, path in _modules(package, folder):
-            module = _import(name, path)
-            rules += [value for value in vars(module).values() if isinstance(value, Rule)]
-    if not rules:
-        raise PackError(f"rule pack {folder!r} holds no rule")
-    for rule in rules:
-        if not _CODE.fullmatch(rule.code):
-            raise PackError(
-                f"rule pack {folder!r}: a code is three capitals and three digits, "
-                f"not {rule.code!r} ({rule.name})"
-            )
-    return rules
-
-
-def _modules(package: str, folder: str) -> Iterator[tuple[str, str]]:
-    """Name and path of each module below a folder, but of none that `_` or `.` hides."""
-    try:
-        entries = sorted(os.scandir(folder), key=lambda entry: entry.name)
-    except OSError as error:
-        raise PackError(f"{folder}: {error.strerror}") from error
-    for entry in entries:
-        stem, suffix = os.path.splitext(entry.name)
-        if stem.startswith(("_", ".")):
-            continue
-        if entry.is_dir(follow_symlinks=False):
-            yield from _modules(f"{package}.{entry.name}", entry.path)
-        elif suffix == ".py":
-            yield f"{package}.{stem}", entry.path
-
-
-def _import(name: str, path: str) -> ModuleType:
-    try:
-        return import_module(name)
-    except (Exception, SystemExit) as error:
-        said = " ".join(f"{type(error).__name__}: {error}".split())
-        raise PackError(f"{path}: {said}") from error
+    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in found))

@@ -17,7 +17,10 @@ _HEADING = re.compile(r"^## (?P<title>.+)$", re.MULTILINE)
 
 
 class Example(NamedTuple):
-    """One example of a page: stages in their order, and files that are written beside them."""
+    """One example of a page: the text of a stage, and files that are written beside it.
+
+    `heading` is the one that it stands under, `line` its first line on the page.
+    """
 
     heading: str
     text: str
@@ -49,7 +52,10 @@ class Page(NamedTuple):
 
 
 def read_page(path: Path) -> Page:
-    """Parses a page: its title names the rule, the next paragraph says what is wrong."""
+    """Parses a page: its title names the rule, the next paragraph says what is wrong.
+
+    Raises PackError for a page that can't be read, or has no such title.
+    """
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

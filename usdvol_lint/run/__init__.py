@@ -1,1 +1,1 @@
-"""Paths become a report, in processes that may die."""
+"""Runs the engine in worker processes, which may die, and collects their reports."""

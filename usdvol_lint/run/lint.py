@@ -1,15 +1,15 @@
-"""Paths and a Config become a Report."""
+"""Lints stages in worker processes, and makes one report on all of them."""
 
 from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Protocol
 
 from usdvol_lint import __version__
 from usdvol_lint.config import Config
-from usdvol_lint.model import Report
+from usdvol_lint.model import Report, StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.run.discovery import discover
@@ -27,7 +27,7 @@ _SHAPING = (
 
 
 class Progress(Protocol):
-    """Whoever shows how far a run is."""
+    """Shows how far a run is."""
 
     def begin(self, stages: int) -> None: ...
     def advance(self, samples: int) -> None: ...
@@ -54,19 +54,11 @@ def lint(
     report.
     """
     began = time.perf_counter()
-    shown = progress or _Silent()
     pool = Pool(child)
     try:
         settled = config() if callable(config) else config or Config()
-        catalog = load(settled.packs)
-        active = activate(settled, catalog)
-        futures = [pool.submit(path) for path in discover(paths)]
-        for future in futures:
-            future.add_done_callback(lambda _: shown.stage_done())
-        shown.begin(len(futures))
-        setup = Setup(active, settled.packs, settled.depth)
-        pool.run(setup, settled.jobs or os.cpu_count() or 1, settled.timeout, shown.advance)
-        stages = tuple(future.result() for future in futures)
+        active = activate(settled, load(settled.packs))
+        stages = _run(pool, discover(paths), settled, active, progress or _Silent())
         return Report(
             version=__version__,
             usd_version=pool.usd_version,
@@ -76,6 +68,30 @@ def lint(
         )
     finally:
         pool.close()
+
+
+def _run(
+    pool: Pool, paths: Iterable[str], config: Config, active: ActiveRules, progress: Progress
+) -> tuple[StageReport, ...]:
+    """The reports on stages, in their order."""
+    futures = [pool.submit(path) for path in paths]
+    for future in futures:
+        future.add_done_callback(lambda _: progress.stage_done())
+    progress.begin(len(futures))
+    setup = Setup(active, config.packs, config.depth)
+    pool.run(setup, config.jobs or os.cpu_count() or 1, config.timeout, progress.advance)
+    return tuple(_without_repeated_faults(future.result() for future in futures))
+
+
+def _without_repeated_faults(stages: Iterable[StageReport]) -> Iterator[StageReport]:
+    """A fault of a rule itself stays only in the report of the first stage that shows it."""
+    reported: set[str] = set()
+    for stage in stages:
+        faulty = {finding.faulty_rule for finding in stage.findings if finding.faulty_rule}
+        yield stage._replace(
+            findings=tuple(each for each in stage.findings if each.faulty_rule not in reported)
+        )
+        reported |= faulty
 
 
 def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:

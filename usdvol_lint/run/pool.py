@@ -1,161 +1,31 @@
-"""Supervised worker processes: a stage goes in, a report comes out, whatever USD does with it."""
+"""Worker processes that share a queue of stages."""
 
 from __future__ import annotations
 
-import pickle
 import queue
-import signal
 import threading
 import time
-from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
-from contextlib import suppress
-from typing import IO, TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from usdvol_lint.child import start_child
-from usdvol_lint.engine.trouble import Unreadable, report_trouble
-from usdvol_lint.model import Finding, StageReport, Status, UsageError
-from usdvol_lint.run.protocol import Advance, Found, Ready, Refusal, Setup
+from usdvol_lint.model import StageReport, UsageError
+from usdvol_lint.run.protocol import Setup
+from usdvol_lint.run.supervisor import Worker
 
 if TYPE_CHECKING:
     import subprocess
 
-_PATIENCE = 0.3
-"""A further worker pays about so many seconds for importing USD: it starts only if work is left."""
-
-
-class Worker:
-    """One child process, the given one or a new one, which imports USD meanwhile."""
-
-    def __init__(self, child: subprocess.Popen[bytes] | None = None) -> None:
-        self.usd_version = ""
-        self._adopt(child or start_child())
-
-    def _adopt(self, child: subprocess.Popen[bytes]) -> None:
-        self._process = child
-        self._gone = False
-        self._said: deque[bytes] = deque(maxlen=20)
-        self._listener = threading.Thread(
-            target=_drain, args=(child.stderr, self._said), daemon=True
-        )
-        self._listener.start()
-
-    def prepare(self, setup: Setup, limit: float) -> None:
-        """Hands over the rules; raises UsageError if the worker can't work with them."""
-        self._setup, self._patience = setup, limit
-        reply, expired = self._ask(setup, limit, lambda said: None)
-        if isinstance(reply, Refusal):
-            raise UsageError(" ".join(reply.reason.split()))
-        if not isinstance(reply, Ready):
-            how = f"not ready after {limit:g} s" if expired else _cause(self._process.wait())
-            words = self._last_words().splitlines() or ["it said nothing"]
-            raise UsageError(f"the process that loads USD does not start ({how}): {words[-1]}")
-        self.usd_version = reply.usd_version
-
-    def lint(self, path: str, limit: float, advance: Callable[[int], None]) -> StageReport:
-        """The report on a stage; a crash or a hang of USD becomes the report, and a new child."""
-        if self._gone:
-            self.stop()
-            self._adopt(start_child())
-            self.prepare(self._setup, self._patience)
-        began = time.perf_counter()
-        found: list[Finding] = []
-
-        def hear(said: Advance | Found) -> None:
-            if isinstance(said, Found):
-                found.extend(said.findings)
-            else:
-                advance(said.samples)
-
-        reply, timed_out = self._ask(path, limit, hear)
-        self._gone = timed_out or not isinstance(reply, StageReport)
-        if isinstance(reply, StageReport):
-            return reply
-        seconds = {"total": time.perf_counter() - began}
-        trouble = self._timed_out(limit) if timed_out else self._crashed()
-        status = Status.TIMED_OUT if timed_out else Status.CRASHED
-        return report_trouble(path, trouble, status, seconds, found)
-
-    def kill(self) -> None:
-        """Has the child end without ceremony."""
-        self._process.kill()
-
-    def stop(self) -> None:
-        """Ends the child, and is back when it has gone."""
-        self.kill()
-        self._process.wait()
-        for stream in (self._stdin, self._stdout):
-            with suppress(OSError):
-                stream.close()
-
-    def _ask(
-        self, message: Setup | str, limit: float, hear: Callable[[Advance | Found], None]
-    ) -> tuple[Any, bool]:
-        """The child's answer, or None if it died or was stopped; and whether the limit ended it.
-
-        `hear` is told what the child says before that.
-        """
-        expired = threading.Event()
-        timer = threading.Timer(limit, self._expire, (expired,))
-        timer.daemon = True
-        timer.start()
-        try:
-            with suppress(OSError):  # a child that has gone may have said why
-                pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
-                self._stdin.flush()
-            while isinstance(reply := pickle.load(self._stdout), Advance | Found):
-                hear(reply)
-            return reply, expired.is_set()
-        except (EOFError, OSError, ValueError, pickle.UnpicklingError):
-            return None, expired.is_set()
-        finally:
-            timer.cancel()
-
-    def _expire(self, expired: threading.Event) -> None:
-        expired.set()
-        self._process.kill()
-
-    @property
-    def _stdin(self) -> IO[bytes]:
-        assert self._process.stdin
-        return self._process.stdin
-
-    @property
-    def _stdout(self) -> IO[bytes]:
-        assert self._process.stdout
-        return self._process.stdout
-
-    def _timed_out(self, limit: float) -> Unreadable:
-        return Unreadable(
-            f"not done after {limit:g} s, ended there",
-            "look for a layer that is a pipe or a corrupt file, or give it more with --timeout",
-        )
-
-    def _crashed(self) -> Unreadable:
-        code = self._process.wait()
-        if 0 <= code < 256:
-            return Unreadable(
-                f"the process that checked it ended early ({_cause(code)})",
-                "a bug of usdvol-lint, a rule pack or a USD plugin; --verbose shows what it said",
-                detail=self._last_words(),
-            )
-        return Unreadable(
-            f"the USD library crashed while reading it ({_cause(code)})",
-            "the file or a layer it names is probably corrupt: open it with usdcat to see which",
-            detail=self._last_words(),
-        )
-
-    def _last_words(self) -> str:
-        self._process.wait()
-        self._listener.join(timeout=1)
-        return b"".join(self._said).decode("utf-8", "replace").strip()
+_START_DELAY = 0.3
+"""Seconds before each further worker starts: about what it spends on importing USD."""
+_SHORTEST_READY_LIMIT = 60.0
+"""Seconds that a worker has at least to import USD and load the rules."""
 
 
 class Pool:
     """Workers behind the interface of an executor: `submit` gives a Future of a StageReport.
 
-    The first worker starts at once, unless its child process is given; others follow only while
+    The first worker starts at once, unless its child process is given; others start only while
     stages are waiting.
     """
 
@@ -182,35 +52,41 @@ class Pool:
         limit: float,
         advance: Callable[[int], None] = lambda samples: None,
     ) -> None:
-        """Works the queue off with at most `jobs` workers; raises UsageError if none can work."""
-        patience = max(limit, 60.0)
-        self._first.prepare(setup, patience)
+        """Starts to work the queue off with at most `jobs` workers, in threads; does not wait.
 
-        def work(number: int) -> None:
-            if number:
-                time.sleep(_PATIENCE * number)
-                if self._waiting.empty() or self._closed:
-                    return
-                worker = Worker()
-                self._workers.append(worker)
-                try:
-                    worker.prepare(setup, patience)
-                except UsageError:  # the others do its work, or did it and ended the run
-                    return
-            else:
-                worker = self._first
-            while not self._closed:
-                try:
-                    path, future = self._waiting.get_nowait()
-                except queue.Empty:
-                    return
-                try:
-                    future.set_result(worker.lint(path, limit, advance))
-                except Exception as error:
-                    future.set_exception(error)
+        `limit` are the seconds that one stage may take; a future holds what its stage came to.
+        Raises UsageError if the first worker can't work.
+        """
+        self._first.prepare(setup, _ready_limit(limit))
+        workers = min(jobs, self._waiting.qsize())
+        _in_a_thread(self._work_off, self._first, limit, advance)
+        for number in range(1, workers):
+            _in_a_thread(self._join_later, number, setup, limit, advance)
 
-        for number in range(max(1, min(jobs, self._waiting.qsize()))):
-            threading.Thread(target=work, args=(number,), daemon=True).start()
+    def _join_later(
+        self, number: int, setup: Setup, limit: float, advance: Callable[[int], None]
+    ) -> None:
+        time.sleep(_START_DELAY * number)
+        if self._waiting.empty() or self._closed:
+            return
+        worker = Worker()
+        self._workers.append(worker)
+        try:
+            worker.prepare(setup, _ready_limit(limit))
+        except UsageError:  # the others do its work, or did it and ended the run
+            return
+        self._work_off(worker, limit, advance)
+
+    def _work_off(self, worker: Worker, limit: float, advance: Callable[[int], None]) -> None:
+        while not self._closed:
+            try:
+                path, future = self._waiting.get_nowait()
+            except queue.Empty:
+                return
+            try:
+                future.set_result(worker.lint(path, limit, advance))
+            except Exception as error:  # raised again where the result is asked for
+                future.set_exception(error)
 
     def close(self) -> None:
         """Ends all workers."""
@@ -221,15 +97,9 @@ class Pool:
             worker.stop()
 
 
-def _drain(stream: IO[bytes], lines: deque[bytes]) -> None:
-    with stream:
-        lines.extend(stream)
+def _in_a_thread(call: Callable[..., None], *arguments: object) -> None:
+    threading.Thread(target=call, args=arguments, daemon=True).start()
 
 
-def _cause(code: int) -> str:
-    if code >= 0:
-        return f"exit code {code if code < 256 else hex(code)}"
-    try:
-        return signal.Signals(-code).name
-    except ValueError:
-        return f"signal {-code}"
+def _ready_limit(limit: float) -> float:
+    return max(limit, _SHORTEST_READY_LIMIT)

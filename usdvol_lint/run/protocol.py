@@ -1,4 +1,7 @@
-"""What parent and worker process say to each other, pickled over two pipes."""
+"""The messages between the parent and a worker process, pickled over two pipes.
+
+After `Setup` the parent sends paths, and the worker answers each with a StageReport.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ from usdvol_lint.packs.activation import ActiveRules
 
 
 class Setup(NamedTuple):
-    """The parent's first message: what a worker has to know before its first stage."""
+    """The parent's first message: the rules to run, and how much of a stage to check."""
 
     active: ActiveRules
     packs: tuple[str, ...]
@@ -18,24 +21,24 @@ class Setup(NamedTuple):
 
 
 class Ready(NamedTuple):
-    """The worker's first message."""
+    """The worker's answer to Setup."""
 
     usd_version: str
 
 
 class Refusal(NamedTuple):
-    """The worker's only message, where it can't work at all."""
+    """The worker's answer to Setup if it can't load USD or the rules."""
 
     reason: str
 
 
-class Found(NamedTuple):
-    """What was found of a stage since the worker last told; then comes more."""
+class NewFindings(NamedTuple):
+    """Findings on a stage since the last such message; more messages about the stage follow."""
 
     findings: list[Finding]
 
 
 class Advance(NamedTuple):
-    """So many samples of a long sequence were read; then comes more."""
+    """Samples of a long sequence read since the last such message; more messages follow."""
 
     samples: int

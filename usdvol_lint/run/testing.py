@@ -1,9 +1,8 @@
-"""Pages as tests: their examples are linted, and held against their marks and words."""
+"""Runs the examples of pages, and compares the findings with their marks and words."""
 
 from __future__ import annotations
 
 import os
-import re
 import shutil
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -12,72 +11,31 @@ from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import NamedTuple
 from zipfile import ZipFile
 
 from usdvol_lint.config import Config
 from usdvol_lint.model import Finding, PackError, printable
 from usdvol_lint.packs.catalog import USD_TOO_OLD, load
-from usdvol_lint.packs.page import Example, Page, read_page
+from usdvol_lint.packs.examples import (
+    STAGE,
+    Case,
+    Mark,
+    cases,
+    mark,
+    marks,
+    pages,
+    read_words,
+    words,
+    words_file,
+    words_of,
+)
+from usdvol_lint.packs.page import Page
 from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.lint import lint
 
-STAGE = "example.usda"
-"""What the stage of every example is called."""
 _PACKED = "cloud.vdb"
-"""The one of a pack's assets that is put into each package of an example."""
-_MARK = re.compile(r"#((?:\s+[A-Z]{3}\d{3}(?:=(?:error|warning|info))?)+)\s*$")
-
-
-class Case(NamedTuple):
-    """An example that is to be run; `title` is its heading and its number under it: `Wrong 2`."""
-
-    page: Page
-    example: Example
-    title: str
-
-    @property
-    def texts(self) -> dict[str, str]:
-        """The stage and the files beside it."""
-        return {**self.example.files, STAGE: self.example.text}
-
-
-class Mark(NamedTuple):
-    """That a rule reports a line of a layer."""
-
-    code: str
-    level: str
-    layer: str
-    line: int
-
-    def __str__(self) -> str:
-        line = f":{self.line}" if self.line else ""
-        return f"{self.code} {self.level} at {self.layer}{line}"
-
-
-def pages(folder: Path) -> list[Page]:
-    """The pages of a pack, in order: every `.md` file but those named in capitals (README.md).
-
-    As with modules, what `_` or `.` hides is none.
-    """
-    return [
-        read_page(path)
-        for path in sorted(folder.rglob("*.md"))
-        if path.stem != path.stem.upper()
-        and not any(part.startswith(("_", ".")) for part in path.relative_to(folder).parts)
-    ]
-
-
-def cases(page: Page) -> Iterator[Case]:
-    """The examples of a page, numbered under each heading."""
-    numbers: Counter[str] = Counter()
-    for example in page.examples():
-        numbers[example.heading] += 1
-        yield Case(page, example, f"{example.heading} {numbers[example.heading]}".strip())
-
-
-# --- running --------------------------------------------------------------------------------------
+"""The asset of a pack that is put into each package of an example."""
 
 
 def write_example(case: Case, folder: Path, assets: Path) -> None:
@@ -99,7 +57,7 @@ def write_example(case: Case, folder: Path, assets: Path) -> None:
 
 
 def _link(source: str, target: str) -> None:
-    """The same file once more, which takes a tenth of the time of a copy."""
+    """Links a file, which takes a tenth of the time of a copy."""
     try:
         os.link(source, target)
     except OSError:  # another disk, or one without links
@@ -116,7 +74,7 @@ def _pack(file: Path, text: str, asset: Path) -> None:
 def run(
     examples: Sequence[Case], assets: Path, packs: Iterable[str] = ()
 ) -> list[tuple[Finding, ...]]:
-    """What is found in each example under all rules, those that are off by default too."""
+    """The findings in each example under all rules, those that are off by default too."""
     config = Config(select=("ALL",), packs=tuple(map(os.path.realpath, packs)))
     assets = assets.resolve()
     with TemporaryDirectory() as temporary, chdir(temporary):
@@ -134,9 +92,9 @@ def run(
 
 
 def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
-    """The findings in an example as they are everywhere, whatever folder it was written to.
+    """The findings in an example, independent of the folder that it was written to.
 
-    What is said of an old USD, and not of the example, is left out.
+    LNT004, which is about an old USD and not about the example, is left out.
     """
 
     def anywhere(text: str) -> str:
@@ -154,77 +112,6 @@ def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
         for finding in findings
         if finding.code != USD_TOO_OLD.code
     )
-
-
-# --- marks ----------------------------------------------------------------------------------------
-
-
-def marks(case: Case, rules: Mapping[str, Rule]) -> Counter[Mark]:
-    """Each `# CODE` or `# CODE=level` at the end of a line of an example.
-
-    `# CODE` alone means the severity that the rule has.
-    """
-    return Counter(
-        Mark(code, level or _level(rules.get(code)), layer, number)
-        for layer, text in case.texts.items()
-        for number, line in enumerate(text.splitlines(), start=1)
-        if (found := _MARK.search(line))
-        for code, _, level in (mark.partition("=") for mark in found[1].split())
-    )
-
-
-def _level(rule: Rule | None) -> str:
-    return rule.severity.label if rule else "(no such rule)"
-
-
-def mark(finding: Finding) -> Mark:
-    """The mark that an example should have for a finding."""
-    site = finding.site
-    return Mark(finding.code, finding.severity.label, site.layer, site.line or 0)
-
-
-# --- words ----------------------------------------------------------------------------------------
-
-
-def words_file(page: Page) -> Path:
-    """The file that says what the examples of a page say."""
-    return page.path.with_suffix(".words.txt")
-
-
-def said(findings: Iterable[Finding]) -> str:
-    """What is said of one example, each finding with its place, its message and its advice."""
-    return "".join(f"  {line}\n" for finding in findings for line in _entry(finding))
-
-
-def _entry(finding: Finding) -> Iterator[str]:
-    site = finding.site
-    about = f"{site.prim or ''}.{site.property}" if site.property else site.prim
-    frames = f" [{site.frames}]" if site.frames else ""
-    variant = f" (variant {site.variant})" if site.variant else ""
-    place = f"{site.layer}:{site.line}" if site.line else site.layer
-    level = finding.severity.label
-    on = f" <{about}>" if about else ""
-    yield printable(f"{place}: {finding.code} {level}{on}{frames}{variant}")
-    yield f"  {printable(finding.message)}"
-    if finding.suggestion:
-        yield f"  help: {printable(finding.suggestion)}"
-
-
-def words(page: Page, found: Iterable[tuple[Case, Iterable[Finding]]]) -> str:
-    """The text of a page's words file; empty if its examples say nothing."""
-    blocks = [f"\n{case.title}\n{text}" for case, findings in found if (text := said(findings))]
-    head = f"# What is said of the examples in {page.path.name}.\n"
-    return head + "".join(blocks) if blocks else ""
-
-
-def read_words(page: Page) -> dict[str, str] | None:
-    """What is to be said of each example, by its title; None where there is no words file."""
-    try:
-        text = words_file(page).read_text(encoding="utf-8")
-    except FileNotFoundError:
-        return None
-    blocks = (block.partition("\n") for block in text.split("\n\n")[1:])
-    return {title: said.rstrip("\n") + "\n" for title, _, said in blocks}
 
 
 def all_words(folder: Path, packs: Iterable[str] = ()) -> dict[Path, str]:
@@ -265,8 +152,8 @@ def _faults(page: Page, rules: Mapping[str, Rule]) -> Iterator[str]:
 
 
 def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]) -> Iterator[str]:
-    """One line that says what is other than marks and words have it, if something is."""
-    place = f"{display(str(case.page.path))}:{case.example.line}: {case.title}"
+    """One line on how findings differ from the marks, or else from the words, if they do."""
+    location = f"{display(str(case.page.path))}:{case.example.line}: {case.title}"
     expected, found = marks(case, rules), Counter(map(mark, findings))
     if expected != found:
         unexpected = found - expected
@@ -276,11 +163,14 @@ def _failures(case: Case, findings: Sequence[Finding], rules: Mapping[str, Rule]
             if mark(each) in unexpected
         ]
         missing = list(map(str, (expected - found).elements()))
-        yield f"{place}: expected {_list(missing, expected)}, found {_list(surplus, found)}"
+        yield f"{location}: expected {_list(missing, expected)}, found {_list(surplus, found)}"
         return
     agreed = read_words(case.page)
-    if agreed is not None and (text := said(findings)) != (wanted := agreed.get(case.title, "")):
-        yield f"{place}: expected the words {_first(wanted, text)}, found {_first(text, wanted)}"
+    if agreed is None:
+        return
+    wanted, text = agreed.get(case.title, ""), words_of(findings)
+    if text != wanted:
+        yield f"{location}: expected the words {_first(wanted, text)}, found {_first(text, wanted)}"
 
 
 def _list(differing: list[str], every: Counter[Mark]) -> str:
@@ -288,7 +178,7 @@ def _list(differing: list[str], every: Counter[Mark]) -> str:
 
 
 def _first(text: str, other: str) -> str:
-    """The first line of a text that is another one in the other."""
+    """The first line of a text that differs from the other text."""
     lines, others = text.splitlines(), other.splitlines()
     differing = (line for n, line in enumerate(lines) if others[n : n + 1] != [line])
     return repr(next(differing, "nothing more").strip())

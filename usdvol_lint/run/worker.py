@@ -1,4 +1,4 @@
-"""The process that holds USD: reads paths from a pipe, writes stage reports to another."""
+"""The process that loads USD: reads paths from one pipe, writes stage reports to another."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Any, BinaryIO
 
 from usdvol_lint.model import StageReport, UsageError
 from usdvol_lint.packs.catalog import load
-from usdvol_lint.run.protocol import Advance, Found, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import Advance, NewFindings, Ready, Refusal, Setup
 
 
 def main() -> None:
-    """PrimBatch each path with a report, until the pipe closes."""
-    # All that is imported stays, and facts are many and live as long as their stage: looking for
-    # garbage among them, again and again, takes a third of the time on a stage of 100,000 prims.
+    """Answers each path with a report, until the pipe closes."""
+    # Facts are many, live as long as their stage, and have no reference cycles: collecting garbage
+    # again and again takes a third of the time on a stage of 100,000 prims.
     gc.disable()
     requests, replies = _take_pipes()
     try:
@@ -37,7 +37,7 @@ def main() -> None:
         setup.active,
         setup.depth,
         lambda samples: _send(replies, Advance(samples)),
-        lambda findings: _send(replies, Found(findings)),
+        lambda findings: _send(replies, NewFindings(findings)),
     )
     _send(replies, Ready(usd_version()))
     while path := _next(requests):
@@ -56,7 +56,7 @@ def _next(requests: BinaryIO) -> Any:
 
 
 def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
-    """Keeps the pipes for messages, so that whatever prints cannot garble them."""
+    """Requests and replies; what anything prints goes to standard error instead."""
     replies = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     requests = os.fdopen(os.dup(0), "rb")
@@ -65,6 +65,8 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
     return requests, replies
 
 
-def _send(replies: BinaryIO, message: Ready | Refusal | Advance | Found | StageReport) -> None:
+def _send(
+    replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | StageReport
+) -> None:
     pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
     replies.flush()

@@ -18,8 +18,9 @@ from usdvol_lint.facts.grids import Grids
 from usdvol_lint.facts.grids.contents import Content, ContentClass
 from usdvol_lint.facts.grids.reader import ContentReader
 from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.packs.examples import STAGE, cases, pages
 from usdvol_lint.rule import Rule
-from usdvol_lint.run.testing import STAGE, cases, pages, write_example
+from usdvol_lint.run.testing import write_example
 from usdvol_lint.volumefile.cache import _kind as kind_of
 from usdvol_lint.volumefile.model import FileWarning, Grid, Metadatum, VolumeFile
 from usdvol_lint.volumefile.transform import Transform, scale_translate
