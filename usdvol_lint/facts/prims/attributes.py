@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Sdf
 
-from usdvol_lint import schema
+from usdvol_lint import schema, spelling
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
 from usdvol_lint.facts.usd.clips import Clips
@@ -145,7 +145,7 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
         if not attribute or not attribute.HasAuthoredValue():
             continue
         names_another = name.startswith("particleField:")
-        could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
+        could_hold = names_another or spelling.is_alike(str(attribute.GetTypeName()), wanted)
         if could_hold and not prim.GetAttribute(meant).HasAuthoredValue():
             yield Misspelt(attribute, meant)
 
@@ -195,7 +195,7 @@ def _compare(
         misspellings=tuple(
             (name, meant, candidates[meant].type_name)
             for name in sorted(undeclared)
-            if (meant := schema.misspelt_attribute(name, candidates))
+            if (meant := spelling.misspelt_attribute(name, candidates))
         ),
         is_layered=is_layered,
         is_clipped=is_clipped,
