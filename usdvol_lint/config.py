@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from os.path import isfile
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,13 +20,6 @@ OUTPUT_FORMATS = ("full", "concise", "json")
 LOADS = ("all", "none")
 CONTENTS = ("all", "first", "off")
 VARIANTS = ("selected", "all")
-_CHOICES = {
-    "fail-on": FAIL_ON,
-    "output-format": OUTPUT_FORMATS,
-    "load": LOADS,
-    "content": CONTENTS,
-    "variants": VARIANTS,
-}
 TIMES = ("all", "first", "ends")
 LEVELS = tuple(severity.label for severity in reversed(Severity))
 LONGEST_TIMEOUT = 1_000_000
@@ -95,7 +89,7 @@ def read_config(path: Path) -> Config:
     for key, value in _table(f"{path}: tool.{TABLE}", table).items():
         if key not in known:
             raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, known)}")
-        values[known[key]] = _checked(path, key, value)
+        values[known[key]] = CHECKS[key](f"{path}: {key}", value)
     config = Config(**values)
     packs = tuple(str(path.parent / pack) for pack in config.packs)
     return config._replace(packs=packs)
@@ -121,34 +115,60 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise UsageError(f"{path}: {error.strerror}") from error
 
 
-def _checked(path: Path, key: str, value: Any) -> Any:
-    where = f"{path}: {key}"
-    if key in ("select", "ignore", "packs"):
-        return tuple(strings(where, value))
-    if key in _CHOICES:
-        return one_of(where, value, _CHOICES[key])
-    if key == "severity":
-        return {
-            k: one_of(f"{where}.{k}", level, LEVELS) for k, level in _table(where, value).items()
-        }
-    if key == "options":
-        return {str(k): _table(f"{where}.{k}", v) for k, v in _table(where, value).items()}
-    if key == "timeout":
-        return timeout(where, value)
-    if key == "times":
-        return times(where, value)
-    if key == "statistics":
-        if not isinstance(value, bool):
-            raise UsageError(f"{where} must be true or false, not {value!r}")
-        return value
-    least = 1 if key == "variant-limit" else 0
+def strings(where: str, value: Any) -> list[str]:
+    """The value, if it is a list of strings."""
+    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
+        raise UsageError(f"{where} must be a list of strings, not {value!r}")
+    return value
+
+
+def one_of(where: str, value: Any, allowed: tuple[str, ...]) -> str:
+    """The value, if it is one of those allowed."""
+    if value in allowed:
+        return str(value)
+    hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
+    raise UsageError(f"{where} must be one of {', '.join(allowed)}, not {value!r}{hint}")
+
+
+def level(where: str, value: Any) -> str:
+    """The value, if it is the name of a severity."""
+    return one_of(where, value, LEVELS)
+
+
+def _strings(where: str, value: Any) -> tuple[str, ...]:
+    return tuple(strings(where, value))
+
+
+def _table(where: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise UsageError(f"{where} must be a table, not {value!r}")
+    return value
+
+
+def _levels(where: str, value: Any) -> dict[str, str]:
+    return {code: level(f"{where}.{code}", name) for code, name in _table(where, value).items()}
+
+
+def _tables(where: str, value: Any) -> dict[str, dict[str, Any]]:
+    return {
+        rule: _table(f"{where}.{rule}", options) for rule, options in _table(where, value).items()
+    }
+
+
+def _boolean(where: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise UsageError(f"{where} must be true or false, not {value!r}")
+    return value
+
+
+def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
     return value
 
 
-def timeout(where: str, value: Any) -> float:
-    """The value, if it is a time limit that a timer takes."""
+def _timeout(where: str, value: Any) -> float:
+    """The value, if it is a time limit, in seconds, that a timer takes."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if not is_number or not 0 < value <= LONGEST_TIMEOUT:
         wanted = f"a number of seconds above 0, at most {LONGEST_TIMEOUT:,}"
@@ -156,7 +176,7 @@ def timeout(where: str, value: Any) -> float:
     return float(value)
 
 
-def times(where: str, value: Any) -> str | int:
+def _times(where: str, value: Any) -> str | int:
     """The value, if it says which time samples of particles are looked at."""
     if isinstance(value, str) and value.isascii() and value.isdigit():
         value = int(value)
@@ -167,22 +187,22 @@ def times(where: str, value: Any) -> str | int:
     return value  # type: ignore[no-any-return]
 
 
-def strings(where: str, value: Any) -> list[str]:
-    """The value, if it is a list of strings."""
-    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
-        raise UsageError(f"{where} must be a list of strings, not {value!r}")
-    return value
-
-
-def _table(where: str, value: Any) -> dict[str, Any]:
-    if not isinstance(value, dict):
-        raise UsageError(f"{where} must be a table, not {value!r}")
-    return value
-
-
-def one_of(where: str, value: Any, allowed: tuple[str, ...]) -> str:
-    """The value, if it is allowed."""
-    if value in allowed:
-        return str(value)
-    hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
-    raise UsageError(f"{where} must be one of {', '.join(allowed)}, not {value!r}{hint}")
+CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
+    "select": _strings,
+    "ignore": _strings,
+    "severity": _levels,
+    "options": _tables,
+    "packs": _strings,
+    "fail-on": partial(one_of, allowed=FAIL_ON),
+    "output-format": partial(one_of, allowed=OUTPUT_FORMATS),
+    "jobs": partial(_whole_number, least=0),
+    "timeout": _timeout,
+    "load": partial(one_of, allowed=LOADS),
+    "content": partial(one_of, allowed=CONTENTS),
+    "variants": partial(one_of, allowed=VARIANTS),
+    "variant-limit": partial(_whole_number, least=1),
+    "times": _times,
+    "statistics": _boolean,
+}
+"""What each key of the configuration allows: from where it was written and its value to the value
+of the `Config`, or a UsageError that begins with where."""

@@ -11,7 +11,6 @@ from usdvol_lint import __version__
 from usdvol_lint.model import UsageError
 
 if TYPE_CHECKING:
-    from pathlib import Path
     from subprocess import Popen
 
     from usdvol_lint.command.output import Destination
@@ -152,12 +151,13 @@ def help_text() -> str:
 def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
     from usdvol_lint.command import output
     from usdvol_lint.command.progress import ProgressBar
+    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.run.lint import lint
 
     settled: list[tuple[Config, list[Destination]]] = []
 
     def settle() -> Config:
-        config, _ = _settle(given)
+        config, _ = read_settings(given)
         destinations = output.pair(given["output_format"], given["output"], config.output_format)
         output.check_writable(destinations)
         settled.append((config, destinations))
@@ -181,70 +181,6 @@ def _exit_code(report: Report, fail_on: str) -> int:
         return CLEAN
     threshold = Severity[fail_on.upper()]
     return FINDINGS if any(finding.severity >= threshold for finding in findings) else CLEAN
-
-
-def _settle(given: dict[str, Any]) -> tuple[Config, Path | None]:
-    """The configuration file, with the command line on top of it."""
-    from pathlib import Path
-
-    from usdvol_lint import config
-
-    try:
-        here = Path.cwd()
-    except OSError:
-        raise UsageError("the working directory is not there any more") from None
-    file = None
-    if given["config_file"] and given["isolated"]:
-        raise click.UsageError("--config and --isolated exclude each other")
-    if given["config_file"]:
-        file = Path(given["config_file"])
-    elif not given["isolated"]:
-        file = config.find_config_file(here)
-    base = config.read_config(file) if file else config.Config()
-    changes: dict[str, Any] = {"packs": base.packs + given["pack"]}
-    if given["jobs"] is not None:
-        changes["jobs"] = given["jobs"]
-    if given["timeout"] is not None:
-        changes["timeout"] = config.timeout("--timeout", given["timeout"])
-    if given["fail_on"] is not None:
-        changes["fail_on"] = config.one_of("--fail-on", given["fail_on"], config.FAIL_ON)
-    if given["load"] is not None:
-        changes["load"] = config.one_of("--load", given["load"], config.LOADS)
-    if given["content"] is not None:
-        changes["content"] = config.one_of("--content", given["content"], config.CONTENTS)
-    if given["variants"] is not None:
-        changes["variants"] = config.one_of("--variants", given["variants"], config.VARIANTS)
-    if given["times"] is not None:
-        changes["times"] = config.times("--times", given["times"])
-    if given["statistics"]:
-        changes["statistics"] = True
-    for name in given["output_format"]:
-        config.one_of("--output-format", name, config.OUTPUT_FORMATS)
-    select = _codes(given["select"])
-    if select:
-        changes["select"] = select
-    # What is selected here is not ignored for the file's sake.
-    again = {code.upper() for code in select}
-    kept = tuple(code for code in base.ignore if code.strip().upper() not in again)
-    changes["ignore"] = kept + _codes(given["ignore"])
-    changes["severity"] = {**base.severity, **_severities(given["severity"])}
-    return base._replace(**changes), file
-
-
-def _codes(lists: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(code.strip() for codes in lists for code in codes.split(",") if code.strip())
-
-
-def _severities(pairs: tuple[str, ...]) -> dict[str, str]:
-    from usdvol_lint.config import LEVELS, one_of
-
-    severities = {}
-    for pair in _codes(pairs):
-        code, equals, level = (part.strip() for part in pair.partition("="))
-        if not equals:
-            raise UsageError(f"--severity {pair}: write it as CODE=LEVEL, such as AST002=warning")
-        severities[code] = one_of(f"--severity {code}", level, LEVELS)
-    return severities
 
 
 def _options(given: dict[str, Any]) -> Options:
@@ -284,17 +220,20 @@ def _test(given: dict[str, Any]) -> int:
 
 def _show_settings(given: dict[str, Any]) -> int:
     from usdvol_lint.command import about, output
+    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.packs.activation import activate
     from usdvol_lint.packs.catalog import load
     from usdvol_lint.run.lint import settings_of
 
-    config, file = _settle(given)
+    config, file = read_settings(given)
     settings = settings_of(config, activate(config, load(config.packs)))
     output.print_text(about.show_settings(settings, str(file) if file else None))
     return CLEAN
 
 
 def _catalog(given: dict[str, Any]) -> Catalog:
+    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.packs.catalog import load
 
-    return load(_settle(given)[0].packs)
+    config, _ = read_settings(given)
+    return load(config.packs)
