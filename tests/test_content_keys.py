@@ -20,7 +20,7 @@ from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.testing import STAGE, cases, pages, write_example
 from usdvol_lint.volumefile.cache import _kind as kind_of
-from usdvol_lint.volumefile.model import FileWarning, Grid, Metadatum, VolumeFile
+from usdvol_lint.volumefile.model import Grid, Metadatum, VolumeFile
 from usdvol_lint.volumefile.transform import Transform, scale_translate
 
 Key: TypeAlias = Callable[[Content], Hashable | None]
@@ -157,7 +157,6 @@ OTHER = {
     "library": "11.0",
     "uuid": "another",
     "metadata": {"another": Metadatum("string", "value", 5)},
-    "warnings": (FileWarning("name-differs", "another name", 0),),
     "streamed": True,
     "index": 7,
     "index_bounds": ((-7, -7, -7), (7, 7, 7)),

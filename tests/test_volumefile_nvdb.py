@@ -104,7 +104,7 @@ def test_sample() -> None:
     """What nanovdb_print says of it."""
     file = read_volume_file(str(SAMPLE))
     assert (file.format, file.version, file.version_number) == ("nanovdb", "32.4.2", VERSION)
-    assert (file.grid_count, file.complete, file.warnings) == (6, True, ())
+    assert (file.grid_count, file.complete, file.newer) == (6, True, None)
     assert [(grid.name, grid.value_type, grid.index_bounds) for grid in file.grids] == [
         ("b", "bool", BOX),
         ("d", "double", BOX),
@@ -251,12 +251,10 @@ def test_versions(read: Reader) -> None:
         assert error.partial is not None
         assert error.partial.version == "31.0.0"
     file = read(segment(entry(), version=new))
-    assert (file.version, [warning.code for warning in file.warnings]) == (
-        "33.0.1",
-        ["version-newer"],
-    )
+    assert (file.version, file.newer) == ("33.0.1", "NanoVDB 33.0.1 is newer than 32")
     error = refusal(read, segment(entry(size=1), version=new))
     assert error.code == "version-unsupported"
+    assert error.message.startswith(f"{file.newer}: ")
 
 
 def test_a_few_odd_bytes_at_the_end_are_ignored(read: Reader) -> None:

@@ -84,12 +84,11 @@ def read_config(path: Path) -> Config:
     table = _own_table(path) if path.name == "pyproject.toml" else _read_toml(path)
     if table is None:
         raise UsageError(f"{path} has no table [tool.{TABLE}]")
-    known = {name.replace("_", "-"): name for name in Config._fields}
     values = {}
     for key, value in _table(f"{path}: tool.{TABLE}", table).items():
-        if key not in known:
-            raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, known)}")
-        values[known[key]] = CHECKS[key](f"{path}: {key}", value)
+        if key not in CHECKS:
+            raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
+        values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
     config = Config(**values)
     packs = tuple(str(path.parent / pack) for pack in config.packs)
     return config._replace(packs=packs)

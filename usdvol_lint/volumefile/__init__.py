@@ -7,14 +7,12 @@ from typing import TypeAlias
 
 from usdvol_lint.volumefile.model import (
     ErrorCode,
-    FileWarning,
     Format,
     Grid,
     IndexBounds,
     Metadatum,
     VolumeFile,
     VolumeFileError,
-    WarningCode,
 )
 from usdvol_lint.volumefile.signatures import HDF5, LFS_POINTER, NANOVDB, OGAWA, OPENVDB
 from usdvol_lint.volumefile.transform import Bounds, Frustum, Matrix, Point, Transform
@@ -24,7 +22,6 @@ __all__ = [
     "Bounds",
     "ErrorCode",
     "FileKey",
-    "FileWarning",
     "Format",
     "Frustum",
     "Grid",
@@ -35,7 +32,6 @@ __all__ = [
     "Transform",
     "VolumeFile",
     "VolumeFileError",
-    "WarningCode",
     "file_key",
     "read_volume_file",
     "read_window",

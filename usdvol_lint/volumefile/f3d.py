@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from usdvol_lint.volumefile.model import (
-    FileWarning,
     Grid,
     IndexBounds,
     MetadataValue,
@@ -61,18 +60,15 @@ def volume_file(root: Group) -> VolumeFile:
         raise VolumeFileError("not-a-volume-file", "the container holds no Field3D")
     major, minor, patch = map(int, version)
     grids: list[Grid] = []
-    warnings: list[FileWarning] = []
     ordinals: Counter[tuple[str, str]] = Counter()
     for partition in root.groups:
         if partition.value("is_field3d_partition") != "1":
             continue
         purpose = _purpose(partition.name)
-        mapping, warning = _mapping(partition)
+        mapping = _mapping(partition)
         for layer in partition.groups:
             if layer.value("class_type") != "field3d_layer":
                 continue
-            if warning is not None:
-                warnings.append(FileWarning(warning.code, warning.message, len(grids)))
             grids.append(_grid(layer, purpose, mapping, ordinals[purpose, layer.name]))
             ordinals[purpose, layer.name] += 1
     return VolumeFile(
@@ -80,7 +76,6 @@ def volume_file(root: Group) -> VolumeFile:
         version=f"{major}.{minor}.{patch}",
         version_number=major * 10_000 + minor * 100 + patch,
         grids=tuple(grids),
-        warnings=tuple(warnings),
         grid_count=len(grids),
     )
 
@@ -91,25 +86,22 @@ def _purpose(partition: str) -> str:
     return name if dot and number.isdigit() else partition
 
 
-def _mapping(partition: Group) -> tuple[tuple[str, Matrix] | None, FileWarning | None]:
-    """The map from the unit cube that a partition's extents span to the world."""
+def _mapping(partition: Group) -> tuple[str, Matrix] | None:
+    """The map from the unit cube that a partition's extents span to the world.
+
+    None for maps that are not matrices; of one that is animated it is the first sample.
+    """
     mapping = partition.group("mapping")
     kind = mapping.value("mapping_type") if mapping else None
     if mapping is None or kind == "NullFieldMapping":
-        return ("NullFieldMapping", _IDENTITY), None
+        return "NullFieldMapping", _IDENTITY
     numbers = mapping.value("matrix_0")
     if kind != "MatrixFieldMapping" or not isinstance(numbers, tuple) or len(numbers) != 16:
-        message = f"partition {quoted(partition.name)}: no {quoted(str(kind))} is read"
-        return None, FileWarning("mapping-unread", message)
+        return None
     if not finite(numbers):
         message = f"the mapping of partition {quoted(partition.name)} is not finite"
         raise VolumeFileError("not-a-volume-file", message)
-    samples = mapping.value("num_time_samples")
-    warning = None
-    if isinstance(samples, int) and samples > 1:
-        message = f"the mapping of partition {quoted(partition.name)} moves in {samples} samples"
-        warning = FileWarning("mapping-animated", message)
-    return ("MatrixFieldMapping", rows(numbers)), warning
+    return "MatrixFieldMapping", rows(numbers)
 
 
 def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None, index: int) -> Grid:

@@ -16,16 +16,6 @@ ErrorCode: TypeAlias = Literal[
     "version-unsupported",
     "needs-h5py",
 ]
-WarningCode: TypeAlias = Literal[
-    "version-newer",
-    "type-unregistered",
-    "name-differs",
-    "name-repeated",
-    "half-differs",
-    "instance-parent-missing",
-    "mapping-unread",
-    "mapping-animated",
-]
 MetadataValue: TypeAlias = bool | int | float | str | tuple[int, ...] | tuple[float, ...] | None
 Coordinate: TypeAlias = tuple[int, int, int]
 IndexBounds: TypeAlias = tuple[Coordinate, Coordinate]
@@ -42,14 +32,6 @@ class Metadatum(NamedTuple):
     type: str
     value: MetadataValue
     size: int
-
-
-class FileWarning(NamedTuple):
-    """Something odd that did not stop the reader; `grid` is a position in `VolumeFile.grids`."""
-
-    code: WarningCode
-    message: str
-    grid: int | None = None
 
 
 class Grid(NamedTuple):
@@ -110,6 +92,8 @@ class VolumeFile(NamedTuple):
 
     `version` is the file format's (OpenVDB's `224`, NanoVDB's `32.4.2`, Field3D's `1.7.3`), and
     `version_number` the same as one ordered number; `library` is the OpenVDB that wrote the file.
+    `newer` says what is newer than what, in words for a message, if the file's version is newer
+    than any that this reader knows.
     `grid_count` is what the header promises.
     `complete` is False where an error ended the reading, and where `grids` holds fewer: of a
     `streamed` file only the first grid can be found without decoding voxels.
@@ -122,7 +106,7 @@ class VolumeFile(NamedTuple):
     uuid: str | None = None
     metadata: Mapping[str, Metadatum] = {}
     grids: tuple[Grid, ...] = ()
-    warnings: tuple[FileWarning, ...] = ()
+    newer: str | None = None
     grid_count: int = 0
     streamed: bool = False
     complete: bool = True

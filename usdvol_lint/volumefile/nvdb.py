@@ -8,7 +8,6 @@ from struct import Struct
 from typing import Any, Final
 
 from usdvol_lint.volumefile.model import (
-    FileWarning,
     Grid,
     IndexBounds,
     Metadatum,
@@ -65,12 +64,12 @@ def read_nvdb(window: Window) -> VolumeFile:
             reader.read_segments()
     except VolumeFileError as error:
         partial = reader.result(finished=False) if reader.version is not None else None
-        if (reader.version or 0) >> 21 <= MAJOR_VERSION or error.code == "not-a-file":
+        if reader.newer is None or error.code == "not-a-file":
             error.partial = partial
             raise
         raise VolumeFileError(
             "version-unsupported",
-            f"NanoVDB {_dotted(reader.version)} is newer than {MAJOR_VERSION}: {error.message}",
+            f"{reader.newer}: {error.message}",
             error.offset,
             partial,
         ) from None
@@ -85,7 +84,7 @@ class _Reader:
         self.version: int | None = None
         self.grid_count = 0
         self.grids: list[Grid] = []
-        self.warnings: list[FileWarning] = []
+        self.newer: str | None = None
         self.ordinals: Counter[str] = Counter()
 
     def result(self, *, finished: bool) -> VolumeFile:
@@ -94,7 +93,7 @@ class _Reader:
             version=_dotted(self.version),
             version_number=self.version or 0,
             grids=tuple(self.grids),
-            warnings=tuple(self.warnings),
+            newer=self.newer,
             grid_count=self.grid_count,
             complete=finished,
         )
@@ -136,8 +135,7 @@ class _Reader:
                 at + len(_BARE),
             )
         if self.version is None and major > MAJOR_VERSION:
-            message = f"NanoVDB {_dotted(version)} is newer than {MAJOR_VERSION}"
-            self.warnings.append(FileWarning("version-newer", message))
+            self.newer = f"NanoVDB {_dotted(version)} is newer than {MAJOR_VERSION}"
         self.version = self.version or version
 
     def count_grids(self, count: int) -> None:

@@ -10,7 +10,6 @@ from struct import Struct
 from typing import Final
 
 from usdvol_lint.volumefile.model import (
-    FileWarning,
     Grid,
     IndexBounds,
     MetadataValue,
@@ -107,12 +106,12 @@ def read_vdb(window: Window) -> VolumeFile:
         reader.read()
     except VolumeFileError as error:
         partial = reader.result(finished=False) if reader.version else None
-        if reader.version <= NEWEST_VERSION or error.code == "not-a-file":
+        if reader.newer is None or error.code == "not-a-file":
             error.partial = partial
             raise
         raise VolumeFileError(
             "version-unsupported",
-            f"file version {reader.version} is newer than {NEWEST_VERSION}: {error.message}",
+            f"{reader.newer}: {error.message}",
             error.offset,
             partial,
         ) from None
@@ -131,14 +130,13 @@ class _Reader:
         self.metadata: dict[str, Metadatum] = {}
         self.grid_count = 0
         self.grids: list[Grid] = []
-        self.warnings: list[FileWarning] = []
+        self.newer: str | None = None
         self.parents: dict[str, int] = {}
         self.instances: dict[int, str] = {}
         self.ordinals: Counter[str] = Counter()
 
     def result(self, *, finished: bool) -> VolumeFile:
-        complete = finished and len(self.grids) == self.grid_count
-        self.share_bounds(complete=complete)
+        self.share_bounds()
         return VolumeFile(
             format="openvdb",
             version=str(self.version),
@@ -147,10 +145,10 @@ class _Reader:
             uuid=self.uuid,
             metadata=self.metadata,
             grids=tuple(self.grids),
-            warnings=tuple(self.warnings),
+            newer=self.newer,
             grid_count=self.grid_count,
             streamed=self.streamed,
-            complete=complete,
+            complete=finished and len(self.grids) == self.grid_count,
         )
 
     def read(self) -> None:
@@ -177,8 +175,7 @@ class _Reader:
                 len(OPENVDB),
             )
         if self.version > NEWEST_VERSION:
-            message = f"file version {self.version} is newer than {NEWEST_VERSION}"
-            self.warnings.append(FileWarning("version-newer", message))
+            self.newer = f"file version {self.version} is newer than {NEWEST_VERSION}"
         major, minor, has_offsets, uuid = window.unpack(_HEADER)
         window.note("uuid", len(uuid))
         self.library = f"{major}.{minor}"
@@ -260,7 +257,6 @@ class _Reader:
         )
         self.grids.append(grid)
         self.ordinals[unique_name] += 1
-        self.warn(grid, stored_type, repeated=full_name in self.parents)
         self.parents.setdefault(full_name, position)
         if parent:
             self.instances[position] = parent
@@ -310,33 +306,12 @@ class _Reader:
             raise _invalid(f"the {kind} holds numbers that are not finite", at)
         return matrix
 
-    def warn(self, grid: Grid, stored_type: str, *, repeated: bool) -> None:
-        position = len(self.grids) - 1
-        label = quoted(grid.label)
-        if not grid.registered:
-            message = f"grid {label} is of type {quoted(grid.tree_type)}, unknown to stock OpenVDB"
-            self.warnings.append(FileWarning("type-unregistered", message, position))
-        if grid.name != grid.unique_name:
-            message = f"grid {label} is named {quoted(grid.name)} in its metadata"
-            self.warnings.append(FileWarning("name-differs", message, position))
-        if repeated:
-            message = f"more than one grid is stored as {label}"
-            self.warnings.append(FileWarning("name-repeated", message, position))
-        if grid.half and not (grid.tree_type != stored_type and _saved_as_half(grid.metadata)):
-            message = f"type and metadata of grid {label} differ on whether it is saved as half"
-            self.warnings.append(FileWarning("half-differs", message, position))
-
-    def share_bounds(self, *, complete: bool) -> None:
+    def share_bounds(self) -> None:
         """Gives instances, which have no bounds of their own, those of the grid they show."""
         for position, parent_name in self.instances.items():
             parent = self.parents.get(parent_name)
             grid = self.grids[position]
-            if parent is None:
-                if complete:
-                    message = f"grid {quoted(grid.label)} is an instance of no grid here"
-                    warning = FileWarning("instance-parent-missing", message, position)
-                    self.warnings.append(warning)
-            elif grid.index_bounds is None and not grid.is_empty:
+            if parent is not None and grid.index_bounds is None and not grid.is_empty:
                 self.grids[position] = grid._replace(
                     index_bounds=self.grids[parent].index_bounds,
                     is_empty=self.grids[parent].is_empty,
