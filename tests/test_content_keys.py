@@ -158,9 +158,7 @@ OTHER = {
     "uuid": "another",
     "metadata": {"another": Metadatum("string", "value", 5)},
     "streamed": True,
-    "index": 7,
     "index_bounds": ((-7, -7, -7), (7, 7, 7)),
-    "instance_of": "another",
     "transform": Transform("UniformScaleMap", scale_translate((2, 3, 4), (5, 6, 7))),
 }
 

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from typing import TypeAlias
-
 from usdvol_lint.volumefile.model import (
     ErrorCode,
     Format,
@@ -21,7 +18,6 @@ from usdvol_lint.volumefile.window import Window, open_window
 __all__ = [
     "Bounds",
     "ErrorCode",
-    "FileKey",
     "Format",
     "Frustum",
     "Grid",
@@ -32,13 +28,9 @@ __all__ = [
     "Transform",
     "VolumeFile",
     "VolumeFileError",
-    "file_key",
     "read_volume_file",
     "read_window",
 ]
-
-FileKey: TypeAlias = tuple[int, int, int, int]
-"""Device, inode, size and time of change: a file with the same key has the same content."""
 
 _SIGNATURES = (OPENVDB, *NANOVDB, OGAWA, HDF5)
 _LONGEST_SIGNATURE = len(LFS_POINTER)
@@ -87,12 +79,3 @@ def read_window(window: Window) -> VolumeFile:
     raise VolumeFileError(
         "not-a-volume-file", "it begins like no OpenVDB, NanoVDB or Field3D file", 0
     )
-
-
-def file_key(path: str) -> FileKey:
-    """What tells one state of a file from another, to remember what was read by."""
-    try:
-        status = os.stat(path)
-    except (OSError, ValueError) as error:
-        raise VolumeFileError("not-a-file", str(error)) from None
-    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -60,7 +59,6 @@ def volume_file(root: Group) -> VolumeFile:
         raise VolumeFileError("not-a-volume-file", "the container holds no Field3D")
     major, minor, patch = map(int, version)
     grids: list[Grid] = []
-    ordinals: Counter[tuple[str, str]] = Counter()
     for partition in root.groups:
         if partition.value("is_field3d_partition") != "1":
             continue
@@ -69,8 +67,7 @@ def volume_file(root: Group) -> VolumeFile:
         for layer in partition.groups:
             if layer.value("class_type") != "field3d_layer":
                 continue
-            grids.append(_grid(layer, purpose, mapping, ordinals[purpose, layer.name]))
-            ordinals[purpose, layer.name] += 1
+            grids.append(_grid(layer, purpose, mapping))
     return VolumeFile(
         format="field3d",
         version=f"{major}.{minor}.{patch}",
@@ -104,14 +101,13 @@ def _mapping(partition: Group) -> tuple[str, Matrix] | None:
     return "MatrixFieldMapping", rows(numbers)
 
 
-def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None, index: int) -> Grid:
+def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None) -> Grid:
     components, bits = layer.value("components"), layer.value("bits_per_component")
     extents, window = _box(layer, "extents"), _box(layer, "data_window")
     user = layer.group("metadata")
     return Grid(
         name=layer.name,
         unique_name=layer.name,
-        index=index,
         purpose=purpose,
         value_type=_VALUE_TYPES.get((components, bits), "unknown"),
         tree_type=str(layer.value("class_name") or "unknown"),

@@ -27,6 +27,8 @@ class Metadatum(NamedTuple):
     """One entry of a file's or a grid's metadata.
 
     `value` is None for types that this reader does not know and for values too large to matter.
+    `size` is in bytes; no rule reads it, but the tests compare it with what OpenVDB's own tools
+    say, as proof that the reader advanced by the right number of bytes.
     """
 
     type: str
@@ -39,19 +41,17 @@ class Grid(NamedTuple):
 
     `name` is that of the metadata, `unique_name` that of the descriptor without its suffix, which
     is what files are searched by; in NanoVDB and Field3D they are the same.
-    `suffix` tells same-named grids apart on disk; `index` counts them in file order.
+    `suffix` tells same-named grids apart on disk.
     `purpose` is Field3D's partition, what `fieldPurpose` names.
     `value_type` is spelt as in OpenVDB, `tree_type` as in the file.
     `half` says that values are stored in half precision; `registered`, that stock OpenVDB knows
     the type.
-    `index_bounds` are inclusive, and None where the file holds none or the grid is empty.
-    `instance_of` is the label of the grid whose voxels an instance shares, and whose bounds it
-    is given here.
+    `index_bounds` are inclusive, and None where the file holds none or the grid is empty; an
+    instance has those of the grid whose voxels it shows.
     """
 
     name: str
     unique_name: str
-    index: int  # type: ignore[assignment]  # in the place of what tuples call so
     value_type: str
     tree_type: str
     suffix: str | None = None
@@ -64,7 +64,6 @@ class Grid(NamedTuple):
     is_empty: bool = False
     transform: Transform | None = None
     metadata: Mapping[str, Metadatum] = {}
-    instance_of: str | None = None
 
     @property
     def label(self) -> str:
@@ -97,6 +96,8 @@ class VolumeFile(NamedTuple):
     `grid_count` is what the header promises.
     `complete` is False where an error ended the reading, and where `grids` holds fewer: of a
     `streamed` file only the first grid can be found without decoding voxels.
+    No rule reads `library`, `uuid`, `streamed` and the metadata: the tests compare them with what
+    OpenVDB's own tools say, since a reader that misplaces one of them misplaces all that follows.
     """
 
     format: Format

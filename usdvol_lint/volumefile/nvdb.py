@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zlib
-from collections import Counter
 from struct import Struct
 from typing import Any, Final
 
@@ -85,7 +84,6 @@ class _Reader:
         self.grid_count = 0
         self.grids: list[Grid] = []
         self.newer: str | None = None
-        self.ordinals: Counter[str] = Counter()
 
     def result(self, *, finished: bool) -> VolumeFile:
         return VolumeFile(
@@ -223,7 +221,6 @@ class _Reader:
             Grid(
                 name=name,
                 unique_name=name,
-                index=self.ordinals[name],
                 value_type=value_type,
                 tree_type=_QUANTIZED.get(kind, value_type),
                 grid_class=_CLASSES.get(grid_class, "unknown"),
@@ -238,7 +235,6 @@ class _Reader:
                 },
             )
         )
-        self.ordinals[name] += 1
 
     def go_on(self, end: int) -> None:
         """Goes behind the voxels of the last grid, without reading them."""

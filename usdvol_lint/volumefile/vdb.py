@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Mapping
 from itertools import chain
 from operator import gt
@@ -133,7 +132,6 @@ class _Reader:
         self.newer: str | None = None
         self.parents: dict[str, int] = {}
         self.instances: dict[int, str] = {}
-        self.ordinals: Counter[str] = Counter()
 
     def result(self, *, finished: bool) -> VolumeFile:
         self.share_bounds()
@@ -242,7 +240,6 @@ class _Reader:
             name=_text(metadata, "name"),
             unique_name=unique_name,
             suffix=suffix if mark else None,
-            index=self.ordinals[unique_name],
             value_type=_value_type(tree_type),
             tree_type=tree_type,
             half=tree_type != stored_type or _saved_as_half(metadata),
@@ -253,10 +250,8 @@ class _Reader:
             is_empty=is_empty,
             transform=transform,
             metadata=metadata,
-            instance_of=_label(parent) if parent else None,
         )
         self.grids.append(grid)
-        self.ordinals[unique_name] += 1
         self.parents.setdefault(full_name, position)
         if parent:
             self.instances[position] = parent
@@ -320,11 +315,6 @@ class _Reader:
 
 def _invalid(message: str, offset: int) -> VolumeFileError:
     return VolumeFileError("not-a-volume-file", message, offset)
-
-
-def _label(full_name: str) -> str:
-    name, mark, suffix = full_name.partition(_SUFFIX_MARK)
-    return f"{name}[{suffix}]" if mark else name
 
 
 def _text(metadata: dict[str, Metadatum], name: str) -> str:
