@@ -20,12 +20,12 @@ from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
-from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement, read_placements
+from usdvol_lint.facts.volumes.placement import AT_REST, Placement, read_placements
 from usdvol_lint.model import Finding
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.volumefile import Grid, read_volume_file
-from usdvol_lint.volumefile.transform import Frustum, Transform, rows, scale_translate
+from usdvol_lint.volumefile.transform import IDENTITY, Frustum, Transform, rows, scale_translate
 
 ASSETS = Path(__file__).parent.parent / "rules" / "assets"
 SAMPLES = Path(__file__).parent / "samples"

@@ -7,22 +7,11 @@ from collections.abc import Hashable
 from typing import NamedTuple
 
 from usdvol_lint.volumefile import read_window
-from usdvol_lint.volumefile.model import VolumeFile, VolumeFileError
+from usdvol_lint.volumefile.model import Fault, VolumeFile, VolumeFileError
 from usdvol_lint.volumefile.recall import Recall
 from usdvol_lint.volumefile.window import Window, open_window
 
 _NUMBER = r"\d+"
-
-
-class Fault(NamedTuple):
-    """What is wrong with a file, or why it was not read; see `VolumeFileError`."""
-
-    code: str
-    message: str
-    offset: int | None = None
-
-    def __str__(self) -> str:
-        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
 
 
 class Reading(NamedTuple):
@@ -72,7 +61,7 @@ class VolumeFiles:
     def _failed(self, error: VolumeFileError) -> Reading:
         # The error itself would hold on to all that was at hand when it was raised.
         partial = error.partial and _without_metadata(error.partial)
-        return self._keep(partial, Fault(error.code, error.message, error.offset))
+        return self._keep(partial, error.fault)
 
     def _keep(self, file: VolumeFile | None, fault: Fault | None) -> Reading:
         # Frames that differ in nothing are recalled as one and the same.

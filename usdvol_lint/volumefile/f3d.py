@@ -15,6 +15,7 @@ from usdvol_lint.volumefile.model import (
     quoted,
 )
 from usdvol_lint.volumefile.transform import (
+    IDENTITY,
     Matrix,
     Transform,
     finite,
@@ -28,7 +29,6 @@ DEEPEST: Final = 4
 """Root, partition, layer, metadata: nothing below matters."""
 MOST: Final = 100_000
 
-_IDENTITY = scale_translate((1, 1, 1))
 _VALUE_TYPES: dict[tuple[MetadataValue, MetadataValue], str] = {
     (components, bits): name
     for components, names in ((1, ("half", "float", "double")), (3, ("vec3h", "vec3s", "vec3d")))
@@ -91,7 +91,7 @@ def _mapping(partition: Group) -> tuple[str, Matrix] | None:
     mapping = partition.group("mapping")
     kind = mapping.value("mapping_type") if mapping else None
     if mapping is None or kind == "NullFieldMapping":
-        return "NullFieldMapping", _IDENTITY
+        return "NullFieldMapping", IDENTITY
     numbers = mapping.value("matrix_0")
     if kind != "MatrixFieldMapping" or not isinstance(numbers, tuple) or len(numbers) != 16:
         return None

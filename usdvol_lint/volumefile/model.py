@@ -113,10 +113,24 @@ class VolumeFile(NamedTuple):
     complete: bool = True
 
 
-class VolumeFileError(Exception):
-    """Why a file can't be read, or not to its end.
+class Fault(NamedTuple):
+    """Why a file can't be read, or not to its end, or was not read.
 
+    `code` is an `ErrorCode` or a reason of the caller's own for not reading the file.
     `offset` counts from the start of the volume file, which may lie inside a package.
+    """
+
+    code: str
+    message: str
+    offset: int | None = None
+
+    def __str__(self) -> str:
+        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
+
+
+class VolumeFileError(Exception):
+    """Why a file can't be read, or not to its end; see `Fault`.
+
     `partial` is what was understood before, if anything was.
     """
 
@@ -133,8 +147,18 @@ class VolumeFileError(Exception):
         self.offset = offset
         self.partial = partial
 
+    @property
+    def fault(self) -> Fault:
+        """What may outlive the error, which holds on to its traceback."""
+        return Fault(self.code, self.message, self.offset)
+
     def __str__(self) -> str:
-        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
+        return str(self.fault)
+
+
+def invalid(message: str, offset: int) -> VolumeFileError:
+    """The error for bytes that no writer of the format writes."""
+    return VolumeFileError("not-a-volume-file", message, offset)
 
 
 def quoted(text: str) -> str:

@@ -12,6 +12,7 @@ from usdvol_lint.volumefile.model import (
     Metadatum,
     VolumeFile,
     VolumeFileError,
+    invalid,
     quoted,
 )
 from usdvol_lint.volumefile.signatures import NANOVDB
@@ -104,10 +105,10 @@ class _Reader:
             at = window.position
             segments += 1
             if segments > _MOST:
-                raise _invalid(f"more than {_MOST} segments", at)
+                raise invalid(f"more than {_MOST} segments", at)
             signature, version, count, _ = window.unpack(_SEGMENT)
             if signature not in NANOVDB or signature == _BARE:
-                raise _invalid("no segment where one should begin", at)
+                raise invalid("no segment where one should begin", at)
             self.take_version(version, at)
             self.count_grids(count)
             window.require(count * _ENTRY.size)
@@ -139,14 +140,14 @@ class _Reader:
     def count_grids(self, count: int) -> None:
         self.grid_count += count
         if self.grid_count > _MOST:
-            raise _invalid(f"{self.grid_count} grids", self.window.position)
+            raise invalid(f"{self.grid_count} grids", self.window.position)
 
     def read_entry(self) -> tuple[str, tuple[Any, ...]]:
         window = self.window
         entry = window.unpack(_ENTRY)
         length = entry[20]
         if length > _LONGEST_NAME:
-            raise _invalid(f"a grid's name of {length} bytes", window.position)
+            raise invalid(f"a grid's name of {length} bytes", window.position)
         return _name(window.read(length)), entry
 
     def read_segment_grid(self, name: str, entry: tuple[Any, ...]) -> None:
@@ -187,7 +188,7 @@ class _Reader:
             signature, version, _, count, size, name = fields[:6]
             world, voxel_size, (grid_class, kind) = fields[18:24], fields[24:27], fields[27:]
             if signature != _BARE:
-                raise _invalid("no grid where one should begin", start)
+                raise invalid("no grid where one should begin", start)
             if self.version is None:
                 self.take_version(version, start + 8)
                 self.count_grids(max(1, count))
@@ -196,7 +197,7 @@ class _Reader:
             # The way to the root counts from the start of the tree.
             root += start + _BUFFER.size
             if size < _BUFFER.size + _TREE.size or root > start + size:
-                raise _invalid(f"grid {quoted(_name(name))} of {size} bytes", start)
+                raise invalid(f"grid {quoted(_name(name))} of {size} bytes", start)
             window.position = root
             index = window.unpack(_ROOT)
             bounds: IndexBounds = (index[:3], index[3:])
@@ -246,10 +247,6 @@ class _Reader:
         window.position = end
 
 
-def _invalid(message: str, offset: int) -> VolumeFileError:
-    return VolumeFileError("not-a-volume-file", message, offset)
-
-
 def _dotted(version: int | None) -> str:
     packed = version or 0
     return f"{packed >> 21}.{packed >> 10 & 0x7FF}.{packed & 0x3FF}"
@@ -264,7 +261,7 @@ def _transform(head: bytes, at: int) -> Transform:
     a, b, c, d, e, f, g, h, i = fields[6:15]
     x, y, z = fields[15:18]
     if not finite(fields[6:18]):
-        raise _invalid("the grid's map holds numbers that are not finite", at)
+        raise invalid("the grid's map holds numbers that are not finite", at)
     # NanoVDB multiplies column vectors from the right.
     return Transform("Map", ((a, d, g, 0.0), (b, e, h, 0.0), (c, f, i, 0.0), (x, y, z, 1.0)))
 

@@ -25,6 +25,10 @@ def scale_translate(scale: Iterable[float], translation: Iterable[float] = (0, 0
     )
 
 
+IDENTITY: Matrix = scale_translate((1, 1, 1))
+"""The matrix that changes nothing; `is IDENTITY` says that nothing was ever multiplied."""
+
+
 def rows(numbers: tuple[float, ...]) -> Matrix:
     """Sixteen numbers, row by row, as a matrix."""
     a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p = numbers  # noqa: E741

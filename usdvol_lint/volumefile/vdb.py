@@ -15,6 +15,7 @@ from usdvol_lint.volumefile.model import (
     Metadatum,
     VolumeFile,
     VolumeFileError,
+    invalid,
     quoted,
 )
 from usdvol_lint.volumefile.signatures import OPENVDB
@@ -155,7 +156,7 @@ class _Reader:
         at = self.window.position
         (count,) = self.window.unpack(_GRID_COUNT)
         if not 0 <= count <= _MOST:
-            raise _invalid(f"{count} grids", at)
+            raise invalid(f"{count} grids", at)
         self.window.require(count * _SMALLEST_DESCRIPTOR)
         self.grid_count = count
         for _ in range(min(count, 1) if self.streamed else count):
@@ -186,14 +187,14 @@ class _Reader:
         at = window.position
         (count,) = window.unpack(_U32)
         if count > _MOST:
-            raise _invalid(f"{count} metadata entries", at)
+            raise invalid(f"{count} metadata entries", at)
         window.require(count * _SMALLEST_METADATUM)
         found: dict[str, Metadatum] = {}
         for _ in range(count):
             at = window.position
             name = window.string(_LONGEST_NAME)
             if not name:
-                raise _invalid("metadata without a name", at)
+                raise invalid("metadata without a name", at)
             kind = window.string(_LONGEST_TYPE)
             (size,) = window.unpack(_U32)
             value = self.read_value(kind, size)
@@ -211,7 +212,7 @@ class _Reader:
         if form is not None:
             if size != form.size:
                 message = f"{size} bytes of {kind}, which takes {form.size}"
-                raise _invalid(message, window.position - _U32.size)
+                raise invalid(message, window.position - _U32.size)
             values: tuple[float, ...] = window.unpack(form)
             return values if len(values) > 1 else values[0]
         if kind == "string" and size <= _LARGEST_VALUE:
@@ -274,7 +275,7 @@ class _Reader:
         section_end = end if is_instance else blocks
         if not window.position <= grid_start <= section_end <= end:
             message = f"grid {quoted(name)} has offsets {grid_start}, {blocks}, {end}"
-            raise _invalid(message, at)
+            raise invalid(message, at)
         window.position = grid_start
         window.limit = min(section_end, window.size)
         return int(end)
@@ -288,17 +289,17 @@ class _Reader:
         numbers = window.unpack(_FRUSTUM)
         frustum = Frustum(numbers[0:3], numbers[3:6], numbers[6], numbers[7])
         if not frustum.valid:
-            raise _invalid("a frustum without extent, or of no finite size", at)
+            raise invalid("a frustum without extent, or of no finite size", at)
         at = window.position
         return Transform(kind, self.read_linear_map(window.string(_LONGEST_MAP), at), frustum)
 
     def read_linear_map(self, kind: str, at: int) -> Matrix:
         if kind not in _MAPS:
-            raise _invalid(f"unknown transform {quoted(kind)}", at)
+            raise invalid(f"unknown transform {quoted(kind)}", at)
         form, matrix_of = _MAPS[kind]
         matrix = matrix_of(self.window.unpack(form))
         if not finite(chain.from_iterable(matrix)):
-            raise _invalid(f"the {kind} holds numbers that are not finite", at)
+            raise invalid(f"the {kind} holds numbers that are not finite", at)
         return matrix
 
     def share_bounds(self) -> None:
@@ -311,10 +312,6 @@ class _Reader:
                     index_bounds=self.grids[parent].index_bounds,
                     is_empty=self.grids[parent].is_empty,
                 )
-
-
-def _invalid(message: str, offset: int) -> VolumeFileError:
-    return VolumeFileError("not-a-volume-file", message, offset)
 
 
 def _text(metadata: dict[str, Metadatum], name: str) -> str:

@@ -16,8 +16,8 @@ from usdvol_lint.facts.grids.claims import Claim, FieldClaims
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.volumefile import tokens
-from usdvol_lint.volumefile.cache import Fault, Reading, VolumeFiles
-from usdvol_lint.volumefile.model import Format, Grid, VolumeFile, quoted
+from usdvol_lint.volumefile.cache import Reading, VolumeFiles
+from usdvol_lint.volumefile.model import Fault, Format, Grid, VolumeFile, quoted
 
 _FORMATS: dict[str, Format] = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
 _READ_TOGETHER = 1024

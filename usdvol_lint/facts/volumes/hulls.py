@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 from usdvol_lint.facts.grids.contents import Timeline
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.volumes.boxes import magnitude
-from usdvol_lint.facts.volumes.placement import AT_REST, IDENTITY, Placement
+from usdvol_lint.facts.volumes.placement import AT_REST, Placement
 from usdvol_lint.volumefile import Bounds, Grid, IndexBounds, Matrix
+from usdvol_lint.volumefile.transform import IDENTITY
 
 _HALF_VOXEL = 0.5
 

@@ -10,9 +10,8 @@ from pxr import Gf, Usd
 from usdvol_lint.facts.usd.calls import get_attribute, get_parent, get_value, is_in_prototype
 from usdvol_lint.facts.usd.instances import shown_paths
 from usdvol_lint.facts.usd.steps import Time
-from usdvol_lint.volumefile.transform import Matrix, finite, rows, scale_translate
+from usdvol_lint.volumefile.transform import IDENTITY, Matrix, finite, rows
 
-IDENTITY: Matrix = scale_translate((1, 1, 1))
 _ROUNDING = 1e-6
 
 

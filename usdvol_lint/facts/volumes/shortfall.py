@@ -21,9 +21,10 @@ from usdvol_lint.facts.volumes.boxes import (
     sides_outside,
 )
 from usdvol_lint.facts.volumes.hulls import GridBoxes, carried
-from usdvol_lint.facts.volumes.placement import IDENTITY, Placement
+from usdvol_lint.facts.volumes.placement import Placement
 from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Grid, Matrix
+from usdvol_lint.volumefile.transform import IDENTITY
 
 
 class Moment(NamedTuple):
