@@ -194,8 +194,8 @@ def test_a_rule_module(path: Path) -> None:
         root = imported.partition(".")[0]
         assert root != "logging"
         if root == "usdvol_lint":
-            module = imported.split(".")[1]
-            assert module in {"rule", "schema", "spelling"}, f"a rule imports {imported}"
+            home = imported.split(".")[1]
+            assert home in {"rule", "schema", "spelling"}, f"a rule imports {imported}"
     roots = {imported.partition(".")[0] for imported in imports_at_once(path)}
     assert roots.isdisjoint({"pxr", "numpy"}), "the parent process loads rules too"
 
