@@ -19,7 +19,7 @@ from usdvol_lint.facts.grids.contents import Content, ContentReader, Kind
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.testing import STAGE, cases, pages, write_example
-from usdvol_lint.volumefile.cache import _kind as kind_of
+from usdvol_lint.volumefile.cache import layout_of
 from usdvol_lint.volumefile.model import Grid, Metadatum, VolumeFile
 from usdvol_lint.volumefile.transform import Transform, scale_translate
 
@@ -149,7 +149,7 @@ def test_what_kinds_do_not_go_by_changes_no_answer(met: Met) -> None:
 def identity(kind: Kind) -> tuple[Any, ...]:
     """What tells kinds of several stages apart."""
     _, claim, reading, wanted = kind.content
-    return kind_of(reading.file, reading.fault), claim, wanted, kind.content.unexpected_format
+    return layout_of(reading.file, reading.fault), claim, wanted, kind.content.unexpected_format
 
 
 # What a reader makes of other parts, such as `registered` of the type, differs only with these.
@@ -170,7 +170,7 @@ def others_of_its_kind(content: Content) -> Iterator[tuple[str, Content]]:
     yield "authored", content._replace(sample=sample._replace(authored="@./another@"))
     if file is not None:
         for name, changed in changes(file):
-            if kind_of(changed, content.reading.fault) == kind_of(file, content.reading.fault):
+            if layout_of(changed, content.reading.fault) == layout_of(file, content.reading.fault):
                 yield name, content._replace(reading=content.reading._replace(file=changed))
 
 

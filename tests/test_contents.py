@@ -200,20 +200,20 @@ def test_frames_are_recalled_as_they_are(tmp_path: Path, monkeypatch: pytest.Mon
 
     genuine = cache.read_window
     monkeypatch.setattr(cache, "read_window", counting)
-    kinds = set()
+    layouts = set()
     for number in range(200):
         path.write_bytes(frame(number))
         found = files.read(str(path), 0, len(frame(number)))
-        kinds.add(found.kind)
+        layouts.add(found.layout)
         assert as_kept(found) == plainly(path)
     assert parsed == 1
-    assert len(kinds) == 1
+    assert len(layouts) == 1
     path.write_bytes(frame(-8))
     empty = files.read(str(path))
     assert as_kept(empty) == plainly(path)
     assert empty.file
     assert empty.file.grids[0].is_empty
-    assert empty.kind not in kinds
+    assert empty.layout not in layouts
     assert parsed == 1
 
 

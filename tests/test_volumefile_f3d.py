@@ -140,7 +140,7 @@ def test_samples(path: Path) -> None:
         assert grid.metadata["n"].value == 3
         assert grid.metadata["x"].value == 1.5
         assert grid.transform is not None
-        assert (grid.transform.kind, grid.transform.linear) == ("MatrixFieldMapping", True)
+        assert (grid.transform.map_type, grid.transform.linear) == ("MatrixFieldMapping", True)
         # The matrix scales the unit cube, which spans all voxels of the extents, by 2, 3, 4.
         move = 10 if (grid.name, grid.tree_type) == ("density", "SparseField") else 0
         low, high = grid.transform.bounds((-2.5, -0.5, 0.5), (9.5, 7.5, 12.5))

@@ -108,7 +108,7 @@ def _compare(grid: Grid, said: dict[str, Any], is_instance: bool) -> None:
     } == said["meta"]
     transform = grid.transform
     assert transform is not None
-    assert (transform.kind, transform.linear) == (said["map"], said["map"][:3] != "Non")
+    assert (transform.map_type, transform.linear) == (said["map"], said["map"][:3] != "Non")
     points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (-13.5, 22.25, 41)]
     for point, image in zip(points, said["pts"], strict=True):
         assert transform.apply(point) == pytest.approx(image, rel=1e-12, abs=1e-12)
@@ -345,7 +345,7 @@ def test_linear_maps(
 ) -> None:
     transform = read(w.vdb(w.Grid(transform=stored))).grids[0].transform
     assert transform is not None
-    assert (transform.kind, transform.linear, transform.frustum) == (kind, True, None)
+    assert (transform.map_type, transform.linear, transform.frustum) == (kind, True, None)
     assert transform.apply((1, 2, 3)) == image
 
 
@@ -358,7 +358,7 @@ def test_frustum_bounds_are_exact(read: Reader, taper: float, second: bytes) -> 
     entries = {"name": w.string("density"), **w.bounds((2, 3, 4), (17, 29, 31))}
     grid = read(w.vdb(w.Grid(metadata=entries, transform=map_))).grids[0]
     assert grid.transform is not None
-    assert (grid.transform.kind, grid.transform.linear) == ("NonlinearFrustumMap", False)
+    assert (grid.transform.map_type, grid.transform.linear) == ("NonlinearFrustumMap", False)
     low, high = grid.world_bounds() or pytest.fail("no bounds")
     dice = random.Random(taper)
     points = [

@@ -18,12 +18,12 @@ class Reading(NamedTuple):
     """What came of reading a file: its content, or as much of it as was understood, without any
     metadata, and what is wrong with it.
 
-    Files of equal `kind` differ in nothing but bounds, transforms and numbers in messages.
+    Files of equal `layout` differ in nothing but bounds, transforms and numbers in messages.
     """
 
     file: VolumeFile | None
     fault: Fault | None
-    kind: Hashable
+    layout: Hashable
 
 
 class VolumeFiles:
@@ -31,7 +31,7 @@ class VolumeFiles:
 
     def __init__(self) -> None:
         self._readings: dict[tuple[int | None, ...], Reading] = {}
-        self._kinds: dict[Hashable, int] = {}
+        self._layouts: dict[Hashable, int] = {}
         self._recall = Recall()
         self._last: tuple[VolumeFile | None, int] = (None, 0)
 
@@ -65,11 +65,11 @@ class VolumeFiles:
 
     def _keep(self, file: VolumeFile | None, fault: Fault | None) -> Reading:
         # Frames that differ in nothing are recalled as one and the same.
-        known, kind = self._last
+        known, layout = self._last
         if file is None or file is not known or fault:
-            kind = self._kinds.setdefault(_kind(file, fault), len(self._kinds))
-            self._last = (None if fault else file, kind)
-        return Reading(file, fault, kind)
+            layout = self._layouts.setdefault(layout_of(file, fault), len(self._layouts))
+            self._last = (None if fault else file, layout)
+        return Reading(file, fault, layout)
 
 
 def _without_metadata(file: VolumeFile) -> VolumeFile:
@@ -77,7 +77,7 @@ def _without_metadata(file: VolumeFile) -> VolumeFile:
     return file._replace(uuid=None, metadata={}, grids=grids)
 
 
-def _kind(file: VolumeFile | None, fault: Fault | None) -> Hashable:
+def layout_of(file: VolumeFile | None, fault: Fault | None) -> Hashable:
     said = fault and (fault.code, re.sub(_NUMBER, "", fault.message))
     if file is None:
         return said

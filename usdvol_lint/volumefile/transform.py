@@ -78,9 +78,13 @@ class Frustum(NamedTuple):
 
 
 class Transform(NamedTuple):
-    """A grid's own transform: `kind` is the map's type, and a frustum comes before the matrix."""
+    """A grid's own transform: the frustum, if there is one, then the matrix.
 
-    kind: str
+    `map_type` is what the file calls it; no rule reads it, but the tests compare it with what
+    OpenVDB's own tools say.
+    """
+
+    map_type: str
     matrix: Matrix
     frustum: Frustum | None = None
 

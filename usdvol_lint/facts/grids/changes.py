@@ -53,7 +53,7 @@ def _by_kind(ask: Callable[[Content], _T]) -> Callable[[Content], _T]:
     answers: dict[Hashable, _T] = {}
 
     def answer(content: Content) -> _T:
-        kind = (content.reading.kind, content.claim)
+        kind = (content.reading.layout, content.claim)
         if kind not in answers:
             answers[kind] = ask(content)
         return answers[kind]

@@ -312,7 +312,7 @@ class ContentReader:
 
     def _kind(self, content: Content) -> Kind:
         _, claim, reading, wanted = content
-        key = (claim, reading.kind, wanted, content.unexpected_format)
+        key = (claim, reading.layout, wanted, content.unexpected_format)
         kind = self._kinds.get(key)
         if kind is None:
             kind = self._kinds[key] = Kind(content)
