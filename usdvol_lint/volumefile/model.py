@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Final, Literal, NamedTuple, TypeAlias
 
 from usdvol_lint import model
 from usdvol_lint.volumefile.transform import Bounds, Matrix, Transform, finite
@@ -19,6 +19,9 @@ ErrorCode: TypeAlias = Literal[
 MetadataValue: TypeAlias = bool | int | float | str | tuple[int, ...] | tuple[float, ...] | None
 Coordinate: TypeAlias = tuple[int, int, int]
 IndexBounds: TypeAlias = tuple[Coordinate, Coordinate]
+
+BOUNDS_NAMES: Final = ("file_bbox_min", "file_bbox_max")
+"""The entries of OpenVDB's metadata with the lowest and the highest voxel of a grid."""
 
 _LONGEST_QUOTE = 80
 

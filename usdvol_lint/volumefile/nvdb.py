@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Mapping
 from struct import Struct
 from typing import Any, Final
 
@@ -67,12 +68,8 @@ def read_nvdb(window: Window) -> VolumeFile:
         if reader.newer is None or error.code == "not-a-file":
             error.partial = partial
             raise
-        raise VolumeFileError(
-            "version-unsupported",
-            f"{reader.newer}: {error.message}",
-            error.offset,
-            partial,
-        ) from None
+        message = f"{reader.newer}: {error.message}"
+        raise VolumeFileError("version-unsupported", message, error.offset, partial) from None
     return reader.result(finished=True)
 
 
@@ -159,7 +156,8 @@ class _Reader:
         bounds: IndexBounds = (index[:3], index[3:])
         head = self.read_head(codec, size)
         transform = _transform(head, start) if head else _aligned(bounds, world, voxel_size)
-        self.add(name, kind, grid_class, voxels, bounds, transform, world, voxel_size)
+        metadata = _metadata(voxels, voxel_size, world)
+        self.grids.append(_grid(name, kind, grid_class, bounds, transform, metadata))
         self.go_on(end)
 
     def read_head(self, codec: int, size: int) -> bytes | None:
@@ -202,40 +200,9 @@ class _Reader:
             index = window.unpack(_ROOT)
             bounds: IndexBounds = (index[:3], index[3:])
             transform = _transform(head, start)
-            self.add(_name(name), kind, grid_class, voxels, bounds, transform, world, voxel_size)
+            metadata = _metadata(voxels, voxel_size, world)
+            self.grids.append(_grid(_name(name), kind, grid_class, bounds, transform, metadata))
             self.go_on(start + size)
-
-    def add(
-        self,
-        name: str,
-        kind: int,
-        grid_class: int,
-        voxels: int,
-        bounds: IndexBounds,
-        transform: Transform | None,
-        world: tuple[float, ...],
-        voxel_size: Point,
-    ) -> None:
-        is_empty = any(low > high for low, high in zip(*bounds, strict=True))
-        value_type = _TYPES.get(kind, "unknown")
-        self.grids.append(
-            Grid(
-                name=name,
-                unique_name=name,
-                value_type=value_type,
-                tree_type=_QUANTIZED.get(kind, value_type),
-                grid_class=_CLASSES.get(grid_class, "unknown"),
-                index_bounds=None if is_empty else bounds,
-                is_empty=is_empty,
-                transform=transform,
-                metadata={
-                    "voxel_count": Metadatum("uint64", voxels, 8),
-                    "voxel_size": Metadatum("vec3d", voxel_size, 24),
-                    "world_bbox_min": Metadatum("vec3d", world[:3], 24),
-                    "world_bbox_max": Metadatum("vec3d", world[3:], 24),
-                },
-            )
-        )
 
     def go_on(self, end: int) -> None:
         """Goes behind the voxels of the last grid, without reading them."""
@@ -245,6 +212,39 @@ class _Reader:
             message = f"grid {label} ends at byte {end}, the file at {window.size}"
             raise VolumeFileError("truncated", message, window.size)
         window.position = end
+
+
+def _grid(
+    name: str,
+    kind: int,
+    grid_class: int,
+    bounds: IndexBounds,
+    transform: Transform | None,
+    metadata: Mapping[str, Metadatum],
+) -> Grid:
+    is_empty = any(low > high for low, high in zip(*bounds, strict=True))
+    value_type = _TYPES.get(kind, "unknown")
+    return Grid(
+        name=name,
+        unique_name=name,
+        value_type=value_type,
+        tree_type=_QUANTIZED.get(kind, value_type),
+        grid_class=_CLASSES.get(grid_class, "unknown"),
+        index_bounds=None if is_empty else bounds,
+        is_empty=is_empty,
+        transform=transform,
+        metadata=metadata,
+    )
+
+
+def _metadata(voxels: int, voxel_size: Point, world: tuple[float, ...]) -> Mapping[str, Metadatum]:
+    """What a header tells of a grid, as entries: NanoVDB itself has no metadata."""
+    return {
+        "voxel_count": Metadatum("uint64", voxels, 8),
+        "voxel_size": Metadatum("vec3d", voxel_size, 24),
+        "world_bbox_min": Metadatum("vec3d", world[:3], 24),
+        "world_bbox_max": Metadatum("vec3d", world[3:], 24),
+    }
 
 
 def _dotted(version: int | None) -> str:

@@ -7,13 +7,12 @@ from operator import is_not, itemgetter
 from struct import Struct
 from typing import Any, TypeAlias
 
-from usdvol_lint.volumefile.model import Grid, IndexBounds, VolumeFile
+from usdvol_lint.volumefile.model import BOUNDS_NAMES, Grid, IndexBounds, VolumeFile
 from usdvol_lint.volumefile.window import Note, Window
 
 _LONGEST = 1 << 14
 _LAYOUTS = 8
-_BOUNDS = ("file_bbox_min", "file_bbox_max")
-_FORMS = {"offsets": "3q", **dict.fromkeys(_BOUNDS, "3i")}
+_FORMS = {"offsets": "3q", **dict.fromkeys(BOUNDS_NAMES, "3i")}
 _SIZE = 4
 
 Fields: TypeAlias = tuple[Any, ...]
@@ -96,8 +95,8 @@ class _Head:
         self._parts.append((Struct(form), False))
         self._constants = _picker(names, "")
         self._offsets = _picker(names, "offsets")
-        self._low, self._high = (_picker(names, name) for name in _BOUNDS)
-        self._has_bounds = all(name in names for name in _BOUNDS)
+        self._low, self._high = (_picker(names, name) for name in BOUNDS_NAMES)
+        self._has_bounds = all(name in names for name in BOUNDS_NAMES)
         window.position = start
         fields = self._fields(window)
         self._expected = fields and self._constants(fields)

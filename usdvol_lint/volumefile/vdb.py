@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from itertools import chain
+from collections.abc import Mapping
 from operator import gt
 from struct import Struct
 from typing import Final
 
 from usdvol_lint.volumefile.model import (
     Grid,
-    IndexBounds,
-    MetadataValue,
     Metadatum,
     VolumeFile,
     VolumeFileError,
@@ -19,25 +16,22 @@ from usdvol_lint.volumefile.model import (
     quoted,
 )
 from usdvol_lint.volumefile.signatures import OPENVDB
-from usdvol_lint.volumefile.transform import (
-    Frustum,
-    Matrix,
-    Transform,
-    finite,
-    rows,
-    scale_translate,
+from usdvol_lint.volumefile.transform import Transform
+from usdvol_lint.volumefile.vdb_maps import read_transform
+from usdvol_lint.volumefile.vdb_metadata import (
+    LONGEST_NAME,
+    LONGEST_TYPE,
+    MOST,
+    flag,
+    index_bounds,
+    read_metadata,
+    text,
 )
 from usdvol_lint.volumefile.window import Window
 
 OLDEST_VERSION: Final = 222
 NEWEST_VERSION: Final = 225
 
-_LONGEST_NAME = 1 << 16
-_LONGEST_TYPE = 1 << 10
-_LONGEST_MAP = 1 << 8
-_LARGEST_VALUE = 1 << 20
-_MOST = 100_000
-_SMALLEST_METADATUM = 12
 _SMALLEST_DESCRIPTOR = 36
 
 _SUFFIX_MARK = "\x1e"
@@ -59,44 +53,11 @@ VECTOR_TYPES = frozenset(
     )
 )
 
-_BOUNDS = ("file_bbox_min", "file_bbox_max")
-
-_U32 = Struct("<I")
 _VERSION = Struct("<I")
 _HEADER = Struct("<IIB36s")
 _GRID_COUNT = Struct("<i")
 _OFFSETS = Struct("<qqq")
-_VALUES = {
-    "bool": Struct("<?"),
-    "int32": Struct("<i"),
-    "int64": Struct("<q"),
-    "float": Struct("<f"),
-    "double": Struct("<d"),
-    "ptidx32": Struct("<I"),
-    "ptidx64": Struct("<Q"),
-    **{
-        f"vec{length}{letter}": Struct(f"<{length}{code}")
-        for length in (2, 3, 4)
-        for letter, code in (("i", "i"), ("s", "f"), ("d", "d"))
-    },
-    "mat4s": Struct("<16f"),
-    "mat4d": Struct("<16d"),
-}
-
-_FRUSTUM = Struct("<8d")
-_FRUSTUM_MAP = "NonlinearFrustumMap"
-# After scale and translation come values derived of them, which nobody needs.
-_SCALE = Struct("<3d96x"), scale_translate
-_TRANSLATE_SCALE = Struct("<6d96x"), lambda numbers: scale_translate(numbers[3:], numbers[:3])
-_MAPS: dict[str, tuple[Struct, Callable[[tuple[float, ...]], Matrix]]] = {
-    "AffineMap": (Struct("<16d"), rows),
-    "UnitaryMap": (Struct("<16d"), rows),
-    "ScaleMap": _SCALE,
-    "UniformScaleMap": _SCALE,
-    "ScaleTranslateMap": _TRANSLATE_SCALE,
-    "UniformScaleTranslateMap": _TRANSLATE_SCALE,
-    "TranslationMap": (Struct("<3d"), lambda numbers: scale_translate((1, 1, 1), numbers)),
-}
+_COMPRESSION_FLAGS = 4
 
 
 def read_vdb(window: Window) -> VolumeFile:
@@ -109,12 +70,8 @@ def read_vdb(window: Window) -> VolumeFile:
         if reader.newer is None or error.code == "not-a-file":
             error.partial = partial
             raise
-        raise VolumeFileError(
-            "version-unsupported",
-            f"{reader.newer}: {error.message}",
-            error.offset,
-            partial,
-        ) from None
+        message = f"{reader.newer}: {error.message}"
+        raise VolumeFileError("version-unsupported", message, error.offset, partial) from None
     return reader.result(finished=True)
 
 
@@ -152,10 +109,10 @@ class _Reader:
 
     def read(self) -> None:
         self.read_header()
-        self.metadata = self.read_metadata()
+        self.metadata = read_metadata(self.window)
         at = self.window.position
         (count,) = self.window.unpack(_GRID_COUNT)
-        if not 0 <= count <= _MOST:
+        if not 0 <= count <= MOST:
             raise invalid(f"{count} grids", at)
         self.window.require(count * _SMALLEST_DESCRIPTOR)
         self.grid_count = count
@@ -182,76 +139,19 @@ class _Reader:
         # OpenVDB leaves a NUL where it found no randomness.
         self.uuid = uuid.partition(b"\0")[0].decode("ascii", "surrogateescape") or None
 
-    def read_metadata(self) -> dict[str, Metadatum]:
-        window = self.window
-        at = window.position
-        (count,) = window.unpack(_U32)
-        if count > _MOST:
-            raise invalid(f"{count} metadata entries", at)
-        window.require(count * _SMALLEST_METADATUM)
-        found: dict[str, Metadatum] = {}
-        for _ in range(count):
-            at = window.position
-            name = window.string(_LONGEST_NAME)
-            if not name:
-                raise invalid("metadata without a name", at)
-            kind = window.string(_LONGEST_TYPE)
-            (size,) = window.unpack(_U32)
-            value = self.read_value(kind, size)
-            if kind in _VALUES and kind != "bool":
-                window.note(name if kind == "vec3i" and name in _BOUNDS else "number", size)
-            elif kind not in ("bool", "string"):
-                window.note("skipped", size)
-            if not kind.startswith("__"):
-                found[name] = Metadatum(kind, value, size)
-        return found
-
-    def read_value(self, kind: str, size: int) -> MetadataValue:
-        window = self.window
-        form = _VALUES.get(kind)
-        if form is not None:
-            if size != form.size:
-                message = f"{size} bytes of {kind}, which takes {form.size}"
-                raise invalid(message, window.position - _U32.size)
-            values: tuple[float, ...] = window.unpack(form)
-            return values if len(values) > 1 else values[0]
-        if kind == "string" and size <= _LARGEST_VALUE:
-            return window.read(size).decode("utf-8", "surrogateescape")
-        window.skip(size)
-        return None
-
     def read_grid(self) -> None:
         window = self.window
-        full_name = window.string(_LONGEST_NAME)
-        stored_type = window.string(_LONGEST_TYPE)
-        parent = window.string(_LONGEST_NAME)
-        unique_name, mark, suffix = full_name.partition(_SUFFIX_MARK)
-        end = self.enter_grid(unique_name, is_instance=bool(parent))
-
-        window.skip(_U32.size)  # compression flags
-        metadata = self.read_metadata()
-        transform = self.read_transform()
+        full_name = window.string(LONGEST_NAME)
+        stored_type = window.string(LONGEST_TYPE)
+        parent = window.string(LONGEST_NAME)
+        end = self.enter_grid(full_name, is_instance=bool(parent))
+        window.skip(_COMPRESSION_FLAGS)
+        metadata = read_metadata(window)
+        transform = read_transform(window)
         window.note("head", 0)
 
-        tree_type = stored_type.removesuffix(_HALF_MARK)
-        bounds = _index_bounds(metadata)
-        is_empty = bounds is not None and any(map(gt, *bounds))
+        grid = _grid(full_name, stored_type, metadata, transform)
         position = len(self.grids)
-        grid = Grid(
-            name=_text(metadata, "name"),
-            unique_name=unique_name,
-            suffix=suffix if mark else None,
-            value_type=_value_type(tree_type),
-            tree_type=tree_type,
-            half=tree_type != stored_type or _saved_as_half(metadata),
-            registered=tree_type in _REGISTERED,
-            grid_class=_known(_text(metadata, "class"), CLASSES, "unknown"),
-            vector_type=_known(_text(metadata, "vector_type"), VECTOR_TYPES, "invariant"),
-            index_bounds=None if is_empty else bounds,
-            is_empty=is_empty,
-            transform=transform,
-            metadata=metadata,
-        )
         self.grids.append(grid)
         self.parents.setdefault(full_name, position)
         if parent:
@@ -264,7 +164,7 @@ class _Reader:
         if not self.streamed:
             window.position = end
 
-    def enter_grid(self, name: str, *, is_instance: bool) -> int:
+    def enter_grid(self, full_name: str, *, is_instance: bool) -> int:
         """Goes to a grid's metadata, narrows the window to it, and says where the grid ends."""
         window = self.window
         at = window.position
@@ -274,33 +174,12 @@ class _Reader:
             return 0
         section_end = end if is_instance else blocks
         if not window.position <= grid_start <= section_end <= end:
-            message = f"grid {quoted(name)} has offsets {grid_start}, {blocks}, {end}"
+            name = quoted(full_name.partition(_SUFFIX_MARK)[0])
+            message = f"grid {name} has offsets {grid_start}, {blocks}, {end}"
             raise invalid(message, at)
         window.position = grid_start
         window.limit = min(section_end, window.size)
         return int(end)
-
-    def read_transform(self) -> Transform:
-        window = self.window
-        at = window.position
-        kind = window.string(_LONGEST_MAP)
-        if kind != _FRUSTUM_MAP:
-            return Transform(kind, self.read_linear_map(kind, at))
-        numbers = window.unpack(_FRUSTUM)
-        frustum = Frustum(numbers[0:3], numbers[3:6], numbers[6], numbers[7])
-        if not frustum.valid:
-            raise invalid("a frustum without extent, or of no finite size", at)
-        at = window.position
-        return Transform(kind, self.read_linear_map(window.string(_LONGEST_MAP), at), frustum)
-
-    def read_linear_map(self, kind: str, at: int) -> Matrix:
-        if kind not in _MAPS:
-            raise invalid(f"unknown transform {quoted(kind)}", at)
-        form, matrix_of = _MAPS[kind]
-        matrix = matrix_of(self.window.unpack(form))
-        if not finite(chain.from_iterable(matrix)):
-            raise invalid(f"the {kind} holds numbers that are not finite", at)
-        return matrix
 
     def share_bounds(self) -> None:
         """Gives instances, which have no bounds of their own, those of the grid they show."""
@@ -314,26 +193,33 @@ class _Reader:
                 )
 
 
-def _text(metadata: dict[str, Metadatum], name: str) -> str:
-    entry = metadata.get(name)
-    return entry.value if entry is not None and isinstance(entry.value, str) else ""
+def _grid(
+    full_name: str, stored_type: str, metadata: Mapping[str, Metadatum], transform: Transform
+) -> Grid:
+    unique_name, mark, suffix = full_name.partition(_SUFFIX_MARK)
+    tree_type = stored_type.removesuffix(_HALF_MARK)
+    bounds = index_bounds(metadata)
+    is_empty = bounds is not None and any(map(gt, *bounds))
+    return Grid(
+        name=text(metadata, "name"),
+        unique_name=unique_name,
+        suffix=suffix if mark else None,
+        value_type=_value_type(tree_type),
+        tree_type=tree_type,
+        half=tree_type != stored_type or flag(metadata, "is_saved_as_half_float"),
+        registered=tree_type in _REGISTERED,
+        grid_class=_known(text(metadata, "class"), CLASSES, "unknown"),
+        vector_type=_known(text(metadata, "vector_type"), VECTOR_TYPES, "invariant"),
+        index_bounds=None if is_empty else bounds,
+        is_empty=is_empty,
+        transform=transform,
+        metadata=metadata,
+    )
 
 
-def _saved_as_half(metadata: Mapping[str, Metadatum]) -> bool:
-    entry = metadata.get("is_saved_as_half_float")
-    return entry is not None and entry.value is True
-
-
-def _known(text: str, words: frozenset[str], otherwise: str) -> str:
-    word = text.strip().lower()
+def _known(stored: str, words: frozenset[str], otherwise: str) -> str:
+    word = stored.strip().lower()
     return word if word in words else otherwise
-
-
-def _index_bounds(metadata: dict[str, Metadatum]) -> IndexBounds | None:
-    low, high = map(metadata.get, _BOUNDS)
-    if low is None or high is None or not low.type == high.type == "vec3i":
-        return None
-    return low.value, high.value  # type: ignore[return-value]
 
 
 def _value_type(tree_type: str) -> str:
