@@ -30,6 +30,8 @@ class Config(NamedTuple):
 
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
+    # One empty dictionary for all: a Mapping is not written to, and a MappingProxyType can't be
+    # pickled or copied.
     severity: Mapping[str, str] = {}
     options: Mapping[str, Mapping[str, Any]] = {}
     packs: tuple[str, ...] = ()

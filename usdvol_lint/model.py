@@ -142,6 +142,8 @@ class StageReport(NamedTuple):
 
     path: str
     status: Status
+    # One empty dictionary for all: a Mapping is not written to, and a MappingProxyType can't be
+    # pickled, which a worker does with its reports.
     stats: Mapping[str, int] = {}
     findings: tuple[Finding, ...] = ()
     seconds: Mapping[str, float] = {}

@@ -39,6 +39,10 @@ class Metadatum(NamedTuple):
     size: int
 
 
+_NONE: Mapping[str, Metadatum] = {}
+"""No metadata; not a MappingProxyType, which can't be pickled."""
+
+
 class Grid(NamedTuple):
     """One grid, or one Field3D layer.
 
@@ -66,7 +70,7 @@ class Grid(NamedTuple):
     index_bounds: IndexBounds | None = None
     is_empty: bool = False
     transform: Transform | None = None
-    metadata: Mapping[str, Metadatum] = {}
+    metadata: Mapping[str, Metadatum] = _NONE
 
     @property
     def label(self) -> str:
@@ -108,7 +112,7 @@ class VolumeFile(NamedTuple):
     version_number: int
     library: str | None = None
     uuid: str | None = None
-    metadata: Mapping[str, Metadatum] = {}
+    metadata: Mapping[str, Metadatum] = _NONE
     grids: tuple[Grid, ...] = ()
     newer: str | None = None
     grid_count: int = 0
