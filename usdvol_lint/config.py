@@ -1,4 +1,4 @@
-"""Configuration: pyproject.toml or usdvol-lint.toml, then the command line, become one Config."""
+"""The settings of a run, and how they are read from usdvol-lint.toml or pyproject.toml."""
 
 from __future__ import annotations
 
@@ -26,7 +26,12 @@ LONGEST_TIMEOUT = 1_000_000
 
 
 class Config(NamedTuple):
-    """What a run was asked for. `jobs` of 0 means one for each processor."""
+    """The settings of a run.
+
+    `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
+    for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
+    See `Depth` for `load`, `content`, `times` and `statistics`.
+    """
 
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
@@ -48,18 +53,19 @@ class Config(NamedTuple):
 
     @property
     def depth(self) -> Depth:
-        """How much of each stage is looked at."""
+        """How much of each stage is checked."""
         selections = self.variant_limit if self.variants == "all" else 0
         return Depth(self.load, self.content, self.times, self.statistics, selections)
 
 
 class Depth(NamedTuple):
-    """How much of each stage is looked at.
+    """How much of each stage is checked.
 
-    `load` says whether payloads are, `content` how many of a field's files (all, first or off),
-    `times` which time samples of particles (all, first, ends, or so many), `selections` how many
-    variant selections besides the authored ones at most; `statistics` asks for the numbers of
-    particle fields too.
+    `load`: whether payloads are loaded (all, none).
+    `content`: how many of a field's files are opened (all, first, off).
+    `times`: which time samples of particles are read (all, first, ends, or their number).
+    `statistics`: whether the figures of particle fields are collected.
+    `selections`: how many variant selections at most, besides the authored ones.
     """
 
     load: str = "all"
@@ -70,7 +76,10 @@ class Depth(NamedTuple):
 
 
 def find_config_file(start: Path) -> Path | None:
-    """The nearest configuration from a folder upward; pyproject.toml counts with our table."""
+    """The configuration file of a folder, or of the nearest one above it that has one.
+
+    It is a usdvol-lint.toml, or else a pyproject.toml with a table [tool.usdvol-lint].
+    """
     for folder in (start, *start.parents):
         own = folder / FILE_NAME
         if isfile(own):
@@ -82,7 +91,10 @@ def find_config_file(start: Path) -> Path | None:
 
 
 def read_config(path: Path) -> Config:
-    """Reads a configuration file; pack folders in it are relative to the file."""
+    """Reads a configuration file; pack folders in it are relative to the file.
+
+    Raises UsageError where it can't be read, or says what is not allowed.
+    """
     table = _own_table(path) if path.name == "pyproject.toml" else _read_toml(path)
     if table is None:
         raise UsageError(f"{path} has no table [tool.{TABLE}]")
@@ -97,7 +109,7 @@ def read_config(path: Path) -> Config:
 
 
 def _own_table(project: Path) -> Any | None:
-    """What a pyproject.toml says of us."""
+    """The value of tool.usdvol-lint in a pyproject.toml; None if there is none."""
     tools = _read_toml(project).get("tool", {})
     return tools.get(TABLE) if isinstance(tools, dict) else None
 
@@ -205,5 +217,7 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "times": _times,
     "statistics": _boolean,
 }
-"""What each key of the configuration allows: from where it was written and its value to the value
-of the `Config`, or a UsageError that begins with where."""
+"""For each key of the configuration a function that returns the value for the `Config`.
+
+It is called with where the value was given, which begins its UsageError, and the value.
+"""

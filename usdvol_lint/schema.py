@@ -1,6 +1,6 @@
-"""What UsdVol declares, as the union over USD versions: the one place with version-dependent names.
+"""What UsdVol declares, as the union over USD versions: no other module depends on a version.
 
-The tables hold for every supported USD, also for one that is too old to know particle fields.
+The tables are the same under every supported USD, also one too old to know particle fields.
 Source: `usdVol/schema.usda` of OpenUSD 24.11 to 26.11.
 """
 
@@ -17,15 +17,15 @@ GPRIM = "Gprim"
 OURS = frozenset({VOLUME, FIELD, PARTICLE_FIELD})
 
 FIELD_NAMESPACE = "field:"
-"""What the names of a Volume's relationships to its fields begin with."""
+"""The prefix of a Volume's relationships to its fields."""
 
 STAGE = "<stage>"
 UNKNOWN_TYPE = "<unknown type>"
 ABSTRACT_TYPE = "<abstract type>"
-"""Not schemas, but subscribed to like schemas: see `usdvol_lint.rule`."""
+"""No schemas, but in a rule's `on` like schemas: see `usdvol_lint.rule.Rule`."""
 
 FILE_EXTENSIONS = {"OpenVDBAsset": ".vdb", "Field3DAsset": ".f3d"}
-"""What the names of the files of each type end in."""
+"""The extension of the files of each type."""
 
 PARTICLE_FIELD_SINCE = (0, 26, 3)
 """The first USD whose UsdVol declares particle fields."""
@@ -71,7 +71,7 @@ API_INCLUDES: dict[str, tuple[str, ...]] = {
     "ParticleFieldKernelConstantSurfletAPI": (KERNEL_BASE,),
     "ParticleFieldSphericalHarmonicsAttributeAPI": (RADIANCE_BASE,),
 }
-"""Every applied API of UsdVol with the APIs that it brings along."""
+"""Every applied API of UsdVol with the APIs that are built into it."""
 
 BASE_APIS = (POSITION_BASE, KERNEL_BASE, RADIANCE_BASE)
 PARTICLE_FIELD_ONLY_APIS = tuple(api for api in API_INCLUDES if api not in BASE_APIS)
@@ -87,11 +87,11 @@ BUILT_IN_APIS: dict[str, tuple[str, ...]] = {
         "ParticleFieldSphericalHarmonicsAttributeAPI",
     ),
 }
-"""The APIs that a prim type has without anyone applying them."""
+"""The APIs that are built into a prim type."""
 
 
 class Attribute(NamedTuple):
-    """What a schema declares of an attribute: any token is allowed where it names none."""
+    """What a schema declares of an attribute; without `tokens`, any token is allowed."""
 
     type_name: str
     uniform: bool = False
@@ -169,26 +169,26 @@ ATTRIBUTES: dict[str, dict[str, Attribute]] = {
         "radiance:sphericalHarmonicsCoefficientsh": Attribute("half3[]"),
     },
 }
-"""The attributes that each schema adds to, or narrows of, those of its bases, bases first.
+"""The attributes that each schema adds to those of its bases or declares anew, bases first.
 
-What a Volume has from UsdGeom is here too, but not which tokens UsdGeom allows.
+Those that a Volume inherits from UsdGeom are here too, but without UsdGeom's tokens.
 """
 
 SCALAR_DATA_TYPES = frozenset(
     {"half", "float", "double", "int", "uint", "int64", "bool", "mask", "string"}
 )
-"""The `fieldDataType` tokens of fields with one number, flag or text in each voxel."""
+"""The `fieldDataType` tokens of fields with one number, bool or string for each voxel."""
 
 API_ATTRIBUTES: dict[str, tuple[str, ...]] = {
     api: tuple(ATTRIBUTES[api]) for api in API_INCLUDES if api in ATTRIBUTES
 }
-"""The names of the attributes that come with each applied API."""
+"""The names of each applied API's attributes."""
 
 API_PROVIDERS: dict[str, tuple[str, ...]] = {
     base: tuple(api for api, included in API_INCLUDES.items() if base in included)
     for base in BASE_APIS
 }
-"""The APIs of UsdVol that bring each base API along, and carry what it stands for."""
+"""The APIs of UsdVol into which each base API is built; these have the attributes."""
 
 COLOUR_SPACES = frozenset(
     {
@@ -200,17 +200,17 @@ COLOUR_SPACES = frozenset(
         *("data", "raw", "unknown", "identity"),
     }
 )
-"""The colour spaces that USD knows by name (`GfColorSpaceNames`)."""
+"""The names of USD's colour spaces (`GfColorSpaceNames`)."""
 
 
 def expand_apis(apis: tuple[str, ...]) -> tuple[str, ...]:
-    """The APIs with those that they bring along, in order, each once."""
+    """The APIs, each followed by those built into it, without duplicates."""
     expanded = (name for api in apis for name in (api, *API_INCLUDES.get(api, ())))
     return tuple(dict.fromkeys(expanded))
 
 
 def attributes_of(schemas: Iterable[str]) -> dict[str, Attribute]:
-    """The attributes that prims have which answer to all of these schemas."""
+    """The attributes of a prim with all of these schemas, by name."""
     names = frozenset(schemas)
     return {
         name: attribute

@@ -1,4 +1,4 @@
-"""Guesses at what was meant by a name that no schema of UsdVol declares."""
+"""The name of UsdVol that an undeclared one is probably a misspelling of."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PRE_STANDARD_TYPES: dict[str, str] = {
     "VDBAsset": "OpenVDBAsset",
     "Field3D": "Field3DAsset",
 }
-"""Type names from before the schema was released, or from guesswork, and what is meant."""
+"""Type names that were used before the schema was released, or are guessed, and today's."""
 
 PRE_STANDARD_APIS: dict[str, str] = {
     "GaussianShapeAPI": "ParticleFieldKernelGaussianEllipsoidAPI",
@@ -35,7 +35,7 @@ PRE_STANDARD_APIS: dict[str, str] = {
     **{api.replace("ParticleField", "LightField"): api for api in API_INCLUDES},
     **{api.replace("Attribute", ""): api for api in API_ATTRIBUTES},
 }
-"""API names from before the schema was released, or from guesswork, and what is meant."""
+"""API names that were used before the schema was released, or are guessed, and today's."""
 
 GUESSED_ATTRIBUTES: dict[str, str] = {
     "file": "filePath",
@@ -55,7 +55,7 @@ GUESSED_ATTRIBUTES: dict[str, str] = {
     "shCoeffs": "radiance:sphericalHarmonicsCoefficients",
     "shDegree": "radiance:sphericalHarmonicsDegree",
 }
-"""Attribute names from guesswork that no likeness gives away, and what is meant."""
+"""Guessed attribute names that are too unlike the right one to be found by similarity."""
 
 GUESSED_TOKENS: dict[str, dict[str, str]] = {
     "fieldClass": {"sdf": "levelSet", "fog": "fogVolume"},
@@ -79,34 +79,34 @@ GUESSED_TOKENS: dict[str, dict[str, str]] = {
     "vectorDataRoleHint": {"colour": "Color"},
     "sortingModeHint": {"depth": "zDepth", "distance": "cameraDistance"},
 }
-"""Tokens in other libraries' words, folded, and what the attribute calls them."""
+"""For each attribute tokens of other libraries, folded, and its own for the same."""
 
 
 def misspelt_type(name: str) -> str | None:
-    """The type of UsdVol that an unregistered type name was probably meant to be."""
+    """The type of UsdVol that an unregistered type name is probably a misspelling of."""
     return PRE_STANDARD_TYPES.get(name) or closest_name(name, CONCRETE_TYPES)
 
 
 def misspelt_api(name: str) -> str | None:
-    """The API of UsdVol that an unregistered API name was probably meant to be.
+    """The API of UsdVol that an unregistered API name is probably a misspelling of.
 
-    The names share most of their letters, so a third party's own may look alike: a near one
-    differs by a letter or two.
+    These names share most of their letters, also with those of third parties, so one has to be
+    right but for a letter or two.
     """
     return PRE_STANDARD_APIS.get(name) or closest_name(name, tuple(API_INCLUDES), cutoff=0.95)
 
 
 def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
-    """The candidate that an attribute which no schema declares was probably meant to be.
+    """The candidate that an undeclared attribute name is probably a misspelling of.
 
-    A name in a namespace is somebody's own, unless it is in one of ours; and one with a word more
-    than ours has, `opacitiesMax`, is no slip.
+    A namespaced name is compared only with namespaced candidates, and a primvar with none.
+    A candidate with a word appended, `opacitiesMax`, is no misspelling.
     """
     names = frozenset(candidates)
     folded = _fold(name)
-    for guessed, meant in GUESSED_ATTRIBUTES.items():
+    for guessed, right in GUESSED_ATTRIBUTES.items():
         if folded == _fold(guessed):
-            return meant if meant in names else None
+            return right if right in names else None
     if name.startswith("primvars:"):
         return None
     if ":" in name:
@@ -117,14 +117,14 @@ def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
 
 
 def is_alike(one: str, other: str) -> bool:
-    """Whether values of two types may stand for the same thing: both texts or both numbers."""
-    return _nature(one) == _nature(other)
+    """Whether two value types are both arrays or both not, and both of text or both of numbers."""
+    return _array_and_text(one) == _array_and_text(other)
 
 
 def misspelt_token(attribute: str, token: str, allowed: tuple[str, ...]) -> str | None:
-    """The allowed token that another one was probably meant to be.
+    """The allowed token that another one is probably a misspelling of.
 
-    OpenVDB's own words among them: `GRID_FOG_VOLUME`, `Tree_float_5_4_3`, `vec3s`.
+    OpenVDB's own names are understood too: `GRID_FOG_VOLUME`, `Tree_float_5_4_3`, `vec3s`.
     """
     folded = _fold(token).removeprefix("grid")
     if folded.startswith("tree"):
@@ -138,21 +138,23 @@ def closest_name(
 ) -> str | None:
     """The candidate that `name` is most likely a misspelling of, if one is close enough.
 
-    Another number is another thing, however close: a 2D splat is no misspelt 3D splat.
+    A name with digits is compared only with candidates that have the same digits: a 2D splat is no
+    misspelt 3D splat.
+    `cutoff` is as for `nearest.closest_match`.
     """
     digits = _digits(name)
-    alike = (other for other in sorted(candidates) if digits in ("", _digits(other)))
-    return closest_match(name, alike, cutoff, _fold)
+    comparable = (other for other in sorted(candidates) if digits in ("", _digits(other)))
+    return closest_match(name, comparable, cutoff, _fold)
 
 
-def _nature(type_name: str) -> tuple[bool, bool]:
-    """Whether a type is an array, and whether it is a text."""
+def _array_and_text(type_name: str) -> tuple[bool, bool]:
+    """Whether a value type is an array, and whether it is of text."""
     scalar = type_name.removesuffix("[]")
     return scalar != type_name, scalar in ("asset", "string", "token")
 
 
 def _fold(name: str) -> str:
-    """The name without case, separators and the prefix that it has in C++."""
+    """The name in lower case, without separators and the prefix of C++, `UsdVol`."""
     for separator in "_-: ":
         name = name.replace(separator, "")
     return name.lower().removeprefix("usdvol")

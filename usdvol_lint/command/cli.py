@@ -1,4 +1,4 @@
-"""The command line: argv in, exit code out; no other module knows of either."""
+"""From command-line arguments to an exit code; no other module deals with either."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _complete_code(context: click.Context, parameter: click.Parameter, typed: st
 
 
 def _complete_from(constant: str) -> Any:
-    """Completes with the values that a constant of `config` allows."""
+    """A shell completion with the values in a constant of `config`."""
 
     def complete(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
         from usdvol_lint import config
@@ -115,7 +115,7 @@ def command(paths: tuple[str, ...], **given: Any) -> int:
 
 
 def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) -> int:
-    """Runs the command and says its exit code; every failure is one line on standard error.
+    """Runs the command and returns its exit code; any failure is one line on standard error.
 
     `child` is the first worker process, if it was started already.
     """
@@ -130,9 +130,9 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
         click.echo(f"usdvol-lint: error: {error}", err=True)
     except (click.Abort, KeyboardInterrupt):
         click.echo("usdvol-lint: interrupted", err=True)
-    except Exception as error:
-        said = " ".join(f"{type(error).__name__}: {error}".split())
-        click.echo(f"usdvol-lint: internal error: {said} (--verbose shows more)", err=True)
+    except Exception as error:  # a bug of ours must exit with 2 too: 1 would mean findings
+        words = " ".join(f"{type(error).__name__}: {error}".split())
+        click.echo(f"usdvol-lint: internal error: {words} (--verbose shows more)", err=True)
         if not {"-v", "--verbose"}.isdisjoint(sys.argv if arguments is None else arguments):
             import traceback
 
@@ -141,7 +141,7 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
 
 
 def help_text() -> str:
-    """What `--help` prints: `help.txt` holds it, so that nobody has to wait for click's import."""
+    """What `--help` prints; it is kept in `help.txt`, since importing click takes time."""
     context = click.Context(
         command, info_name="usdvol-lint", terminal_width=80, **command.context_settings
     )
