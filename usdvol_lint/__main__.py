@@ -1,4 +1,4 @@
-"""The entry point of `usdvol-lint` and `python -m usdvol_lint`: first what takes longest."""
+"""The entry point of `usdvol-lint` and `python -m usdvol_lint`: it first starts what is slowest."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _STARTS_NO_CHILD = {
 
 
 def main() -> None:
-    """PrimBatch what needs no more than this, or has the command line do it."""
+    """Answers --version and --help itself, and leaves all else to the command line."""
     arguments = sys.argv[1:]
     if arguments == ["--version"]:
         _say(f"usdvol-lint {__version__}\n")

@@ -1,4 +1,4 @@
-"""Readers of field files: header and metadata only, never voxels."""
+"""Readers of volume files: header and metadata only, never voxels."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ _LONGEST_SIGNATURE = len(LFS_POINTER)
 
 
 def read_volume_file(path: str, offset: int = 0, size: int | None = None) -> VolumeFile:
-    """What the volume file at `path` says, whatever its extension.
+    """Reads the volume file at `path`, whatever its extension.
 
-    `offset` and `size` choose a part of the file, such as a file stored in a package.
+    `offset` and `size`, in bytes, choose a part of it, such as a file stored in a package.
     Raises `VolumeFileError`, and nothing else, for whatever may be wrong with the file.
     """
     if offset < 0 or (size is not None and size < 0):
@@ -49,8 +49,8 @@ def read_volume_file(path: str, offset: int = 0, size: int | None = None) -> Vol
 
 
 def read_window(window: Window) -> VolumeFile:
-    """What the volume file in a window says, from its start."""
-    # Each reader is imported where its signature is met: most stages have files of one kind.
+    """Reads the volume file in a window, whose format is known by its signature."""
+    # A reader is imported when its signature is met: most stages have files of one format.
     head = window.peek(_LONGEST_SIGNATURE)
     if not head:
         raise VolumeFileError("not-a-file", "empty (0 bytes)")

@@ -1,4 +1,4 @@
-"""Every volume file is read once, however often it is named."""
+"""Reads each volume file once, however often it is named."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _NUMBER = r"\d+"
 
 
 class Reading(NamedTuple):
-    """What came of reading a file: its content, or as much of it as was understood, without any
-    metadata, and what is wrong with it.
+    """The result of reading a file.
 
+    `file` has no metadata and no UUID; with a `fault` it is what was read before that, if anything.
     Files of equal `layout` differ in nothing but bounds, transforms and numbers in messages.
     """
 
@@ -27,7 +27,7 @@ class Reading(NamedTuple):
 
 
 class VolumeFiles:
-    """Reads files, and remembers what it read by what tells one state of a file from another."""
+    """A cache of readings; a file is read anew if its size or time of change is another."""
 
     def __init__(self) -> None:
         self._readings: dict[tuple[int | None, ...], Reading] = {}
@@ -36,7 +36,7 @@ class VolumeFiles:
         self._last: tuple[VolumeFile | None, int] = (None, 0)
 
     def read(self, path: str, offset: int = 0, size: int | None = None) -> Reading:
-        """What `read_volume_file` would return or raise."""
+        """What `read_volume_file` returns or raises, as a `Reading`."""
         try:
             with open_window(path, offset, size) as window:
                 state = window.status
@@ -56,17 +56,17 @@ class VolumeFiles:
             except VolumeFileError as error:
                 return self._failed(error)
             self._recall.learn(window, file)
-        return self._keep(file, None)
+        return self._reading(file, None)
 
     def _failed(self, error: VolumeFileError) -> Reading:
-        # The error itself would hold on to all that was at hand when it was raised.
+        # The error itself must not be kept: its traceback keeps the reader and its window.
         partial = error.partial and _without_metadata(error.partial)
-        return self._keep(partial, error.fault)
+        return self._reading(partial, error.fault)
 
-    def _keep(self, file: VolumeFile | None, fault: Fault | None) -> Reading:
-        # Frames that differ in nothing are recalled as one and the same.
-        known, layout = self._last
-        if file is None or file is not known or fault:
+    def _reading(self, file: VolumeFile | None, fault: Fault | None) -> Reading:
+        # Of frames that differ in nothing, `Recall` returns the same object.
+        last, layout = self._last
+        if file is None or file is not last or fault:
             layout = self._layouts.setdefault(layout_of(file, fault), len(self._layouts))
             self._last = (None if fault else file, layout)
         return Reading(file, fault, layout)
@@ -78,11 +78,12 @@ def _without_metadata(file: VolumeFile) -> VolumeFile:
 
 
 def layout_of(file: VolumeFile | None, fault: Fault | None) -> Hashable:
-    said = fault and (fault.code, re.sub(_NUMBER, "", fault.message))
+    """All of a reading but bounds, transforms and numbers in messages; see `Reading`."""
+    message = fault and (fault.code, re.sub(_NUMBER, "", fault.message))
     if file is None:
-        return said
+        return message
     return (
-        said,
+        message,
         file.format,
         file.version_number,
         file.complete,

@@ -1,4 +1,4 @@
-"""Field3D: layers in partitions, kept in an Ogawa or an HDF5 file."""
+"""Field3D: layers in partitions, in an Ogawa or an HDF5 container."""
 
 from __future__ import annotations
 
@@ -25,9 +25,11 @@ from usdvol_lint.volumefile.transform import (
 )
 
 LARGEST_VALUE: Final = 1 << 20
+"""In bytes; larger values are skipped."""
 DEEPEST: Final = 4
-"""Root, partition, layer, metadata: nothing below matters."""
+"""Levels of groups that are read: root, partition, layer and its metadata."""
 MOST: Final = 100_000
+"""More groups and attributes than any writer writes."""
 
 _VALUE_TYPES: dict[tuple[MetadataValue, MetadataValue], str] = {
     (components, bits): name
@@ -38,7 +40,7 @@ _VALUE_TYPES: dict[tuple[MetadataValue, MetadataValue], str] = {
 
 @dataclass(slots=True)
 class Group:
-    """A named group of either container, without its data sets."""
+    """A group of an Ogawa or HDF5 file, without its data sets."""
 
     name: str
     attributes: dict[str, Metadatum] = field(default_factory=dict)
@@ -53,7 +55,7 @@ class Group:
 
 
 def volume_file(root: Group) -> VolumeFile:
-    """What a container's groups say in the terms of Field3D."""
+    """The Field3D file in a container; raises VolumeFileError if it is not one."""
     version = root.value("version_number")
     if not (isinstance(version, tuple) and len(version) == 3):
         raise VolumeFileError("not-a-volume-file", "the container holds no Field3D")
@@ -78,15 +80,15 @@ def volume_file(root: Group) -> VolumeFile:
 
 
 def _purpose(partition: str) -> str:
-    """`cloud` of `cloud.1`: the number tells apart partitions that are mapped differently."""
+    """`cloud` of `cloud.1`: Field3D numbers partitions of one name with different mappings."""
     name, dot, number = partition.rpartition(".")
     return name if dot and number.isdigit() else partition
 
 
 def _mapping(partition: Group) -> tuple[str, Matrix] | None:
-    """The map from the unit cube that a partition's extents span to the world.
+    """Type and matrix of the mapping from a partition's unit cube to world space.
 
-    None for maps that are not matrices; of one that is animated it is the first sample.
+    None for a mapping that is no matrix; of an animated one the first sample.
     """
     mapping = partition.group("mapping")
     kind = mapping.value("mapping_type") if mapping else None
@@ -118,7 +120,7 @@ def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None) -> Gri
 
 
 def _box(layer: Group, name: str) -> IndexBounds | None:
-    """Two corners: one value in HDF5, two in Ogawa."""
+    """A box that HDF5 stores as one attribute, Ogawa as two; None if invalid or missing."""
     corners = layer.value(name)
     if corners is None:
         low, high = layer.value(f"{name}_min"), layer.value(f"{name}_max")
@@ -130,7 +132,7 @@ def _box(layer: Group, name: str) -> IndexBounds | None:
 
 
 def _overlap(extents: IndexBounds | None, window: IndexBounds | None) -> IndexBounds | None:
-    """The voxels that both hold data and lie in what the mapping spans."""
+    """The voxels of the data window within the extents; the extents if there are none."""
     if extents is None or window is None:
         return extents or window
     x, y, z = map(max, extents[0], window[0])
@@ -139,7 +141,7 @@ def _overlap(extents: IndexBounds | None, window: IndexBounds | None) -> IndexBo
 
 
 def _transform(mapping: tuple[str, Matrix] | None, extents: IndexBounds | None) -> Transform | None:
-    """From voxels to the unit cube of the extents, whose faces are those of the outer voxels."""
+    """From index space to world space, via the unit cube around the outermost voxels."""
     if mapping is None or extents is None:
         return None
     kind, matrix = mapping

@@ -1,4 +1,4 @@
-"""What the header and metadata of a field file say, and the error that stops a reader."""
+"""What the readers of volume files return, and the error that they raise."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _LONGEST_QUOTE = 80
 class Metadatum(NamedTuple):
     """One entry of a file's or a grid's metadata.
 
-    `value` is None for types that this reader does not know and for values too large to matter.
+    `value` is None for types that the reader doesn't know and for values that are too large.
     `size` is in bytes; no rule reads it, but the tests compare it with what OpenVDB's own tools
     say, as proof that the reader advanced by the right number of bytes.
     """
@@ -46,13 +46,13 @@ _NONE: Mapping[str, Metadatum] = {}
 class Grid(NamedTuple):
     """One grid, or one Field3D layer.
 
-    `name` is that of the metadata, `unique_name` that of the descriptor without its suffix, which
-    is what files are searched by; in NanoVDB and Field3D they are the same.
-    `suffix` tells same-named grids apart on disk.
+    `name` is that of the metadata, `unique_name` that of the descriptor without its suffix, by
+    which OpenVDB finds grids; in NanoVDB and Field3D they are the same.
+    `suffix` tells grids of the same name apart on disk.
     `purpose` is Field3D's partition, what `fieldPurpose` names.
     `value_type` is spelt as in OpenVDB, `tree_type` as in the file.
-    `half` says that values are stored in half precision; `registered`, that stock OpenVDB knows
-    the type.
+    `half`: values are stored in half precision.
+    `registered`: OpenVDB knows the type without plug-ins.
     `index_bounds` are inclusive, and None where the file holds none or the grid is empty; an
     instance has those of the grid whose voxels it shows.
     """
@@ -74,14 +74,14 @@ class Grid(NamedTuple):
 
     @property
     def label(self) -> str:
-        """The name as OpenVDB's tools print it, `density[1]` where others share it."""
+        """The name as OpenVDB's tools print it: `density[1]` if others have the same name."""
         return self.unique_name if self.suffix is None else f"{self.unique_name}[{self.suffix}]"
 
     def world_bounds(self, padding: float = 0.0, then: Matrix | None = None) -> Bounds | None:
-        """The box of the active voxels' centres, widened by `padding` voxels, in world space.
+        """The box around the centres of the active voxels, widened by `padding` voxels.
 
-        `then` is a matrix from there to the space in which the box is wanted.
-        None where the grid is empty, the file tells no bounds or no transform, or numbers overflow.
+        It is in world space, or in the space that the matrix `then` leads to from there.
+        None if the grid is empty, its bounds or transform are unknown, or numbers overflow.
         """
         if self.index_bounds is None or self.transform is None:
             return None
@@ -94,15 +94,14 @@ class Grid(NamedTuple):
 
 
 class VolumeFile(NamedTuple):
-    """What a file says of itself and its grids, in file order.
+    """A volume file; `grids` are in file order.
 
     `version` is the file format's (OpenVDB's `224`, NanoVDB's `32.4.2`, Field3D's `1.7.3`), and
     `version_number` the same as one ordered number; `library` is the OpenVDB that wrote the file.
-    `newer` says what is newer than what, in words for a message, if the file's version is newer
-    than any that this reader knows.
-    `grid_count` is what the header promises.
-    `complete` is False where an error ended the reading, and where `grids` holds fewer: of a
-    `streamed` file only the first grid can be found without decoding voxels.
+    `newer` is a message if the version is newer than any that the reader knows.
+    `grid_count` is the number in the header.
+    `complete` is False if the reader was stopped by an error or `grids` are fewer: of a `streamed`
+    file only the first grid can be found without decoding voxels.
     No rule reads `library`, `uuid`, `streamed` and the metadata: the tests compare them with what
     OpenVDB's own tools say, since a reader that misplaces one of them misplaces all that follows.
     """
@@ -169,5 +168,5 @@ def invalid(message: str, offset: int) -> VolumeFileError:
 
 
 def quoted(text: str) -> str:
-    """Text out of a file, printable and short enough for a message."""
+    """Text from a file in quotes, printable and cut off after 80 characters."""
     return model.quoted(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")

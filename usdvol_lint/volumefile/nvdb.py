@@ -26,7 +26,7 @@ _BARE = b"NanoVDB1"
 _MOST = 100_000
 _LONGEST_NAME = 1 << 16
 _NONE, _ZIP = 0, 1
-_ZIPPED_HEAD = 4096
+_ZIPPED_HEAD = 4096  # bytes of a compressed grid, enough to decompress its header from
 
 # signature, version, grids, codec
 _SEGMENT = Struct("<8sIHH")
@@ -40,7 +40,7 @@ _TREE = Struct("<24xQ24xQ")
 _ROOT = Struct("<6i")
 _LENGTH = Struct("<Q")
 
-# In the words of OpenVDB, as far as it has any.
+# Named as in OpenVDB, if it has the type.
 _TYPES = dict(
     enumerate(
         (
@@ -56,7 +56,7 @@ _CLASSES = {1: "level set", 2: "fog volume", 3: "staggered"}
 
 
 def read_nvdb(window: Window) -> VolumeFile:
-    """The file that starts at the window's start, whose signature is known to be right."""
+    """Reads a file from the start of its window; the signature was checked by the caller."""
     reader = _Reader(window)
     try:
         if window.peek(len(_BARE)) == _BARE:
@@ -74,7 +74,7 @@ def read_nvdb(window: Window) -> VolumeFile:
 
 
 class _Reader:
-    """What is known so far."""
+    """Reads one file; its attributes are what is known so far."""
 
     def __init__(self, window: Window) -> None:
         self.window = window
@@ -95,10 +95,10 @@ class _Reader:
         )
 
     def read_segments(self) -> None:
-        """Every segment: a header, an entry and a name a grid, then the grids themselves."""
+        """Reads segments: a header, then entry and name of each grid, then the grids."""
         window = self.window
         segments = 0
-        while self.version is None or self.goes_on():
+        while self.version is None or self.has_segment():
             at = window.position
             segments += 1
             if segments > _MOST:
@@ -113,8 +113,8 @@ class _Reader:
             for name, entry in entries:
                 self.read_segment_grid(name, entry)
 
-    def goes_on(self) -> bool:
-        """Whether another segment follows; NanoVDB ignores a few bytes that are none."""
+    def has_segment(self) -> bool:
+        """Whether another segment follows: NanoVDB ignores a few other bytes at the end."""
         rest = self.window.peek(_SEGMENT.size)
         signature = rest[: len(_BARE)]
         is_start = bool(signature) and any(word.startswith(signature) for word in NANOVDB)
@@ -158,10 +158,10 @@ class _Reader:
         transform = _transform(head, start) if head else _aligned(bounds, world, voxel_size)
         metadata = _metadata(voxels, voxel_size, world)
         self.grids.append(_grid(name, kind, grid_class, bounds, transform, metadata))
-        self.go_on(end)
+        self.skip_grid(end)
 
     def read_head(self, codec: int, size: int) -> bytes | None:
-        """A grid's own header, which holds its transform; None where Blosc would be needed."""
+        """A grid's own header, which has its transform; None if it can't be decompressed."""
         window = self.window
         start = window.position
         head = b""
@@ -177,7 +177,7 @@ class _Reader:
         return head if len(head) == _BUFFER.size and head[:8] in NANOVDB else None
 
     def read_buffers(self) -> None:
-        """Grid buffers one after the other, each of which knows how many they are."""
+        """Reads grid buffers, which follow each other; the first one has their number."""
         window = self.window
         while self.version is None or len(self.grids) < self.grid_count:
             start = window.position
@@ -192,7 +192,7 @@ class _Reader:
                 self.count_grids(max(1, count))
                 window.require((self.grid_count - 1) * _BUFFER.size)
             root, voxels = window.unpack(_TREE)
-            # The way to the root counts from the start of the tree.
+            # The offset of the root counts from the start of the tree.
             root += start + _BUFFER.size
             if size < _BUFFER.size + _TREE.size or root > start + size:
                 raise invalid(f"grid {quoted(_name(name))} of {size} bytes", start)
@@ -202,10 +202,10 @@ class _Reader:
             transform = _transform(head, start)
             metadata = _metadata(voxels, voxel_size, world)
             self.grids.append(_grid(_name(name), kind, grid_class, bounds, transform, metadata))
-            self.go_on(start + size)
+            self.skip_grid(start + size)
 
-    def go_on(self, end: int) -> None:
-        """Goes behind the voxels of the last grid, without reading them."""
+    def skip_grid(self, end: int) -> None:
+        """Moves to the end of the last grid, past its voxels."""
         window = self.window
         if end > window.size:
             label = quoted(self.grids[-1].label)
@@ -238,7 +238,7 @@ def _grid(
 
 
 def _metadata(voxels: int, voxel_size: Point, world: tuple[float, ...]) -> Mapping[str, Metadatum]:
-    """What a header tells of a grid, as entries: NanoVDB itself has no metadata."""
+    """Values of a grid's header as metadata, of which NanoVDB has none."""
     return {
         "voxel_count": Metadatum("uint64", voxels, 8),
         "voxel_size": Metadatum("vec3d", voxel_size, 24),
@@ -262,14 +262,14 @@ def _transform(head: bytes, at: int) -> Transform:
     x, y, z = fields[15:18]
     if not finite(fields[6:18]):
         raise invalid("the grid's map holds numbers that are not finite", at)
-    # NanoVDB multiplies column vectors from the right.
+    # NanoVDB multiplies a matrix by a column vector, USD a row vector by a matrix.
     return Transform("Map", ((a, d, g, 0.0), (b, e, h, 0.0), (c, f, i, 0.0), (x, y, z, 1.0)))
 
 
 def _aligned(bounds: IndexBounds, world: tuple[float, ...], voxel_size: Point) -> Transform | None:
-    """The transform that the boxes tell of, if it only scales and moves.
+    """The transform from index box to world box, if one that scales and translates fits.
 
-    The world box reaches to one past the last voxel.
+    The world box reaches to the index after the last voxel.
     """
     if not finite((*world, *voxel_size)):
         return None

@@ -1,4 +1,4 @@
-"""The frames of a sequence differ in a few numbers: a file laid out like one before is known."""
+"""A fast path for sequences: a frame with a known layout is decoded by it instead of parsed."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from usdvol_lint.volumefile.window import Note, Window
 _LONGEST = 1 << 14
 _LAYOUTS = 8
 _FORMS = {"offsets": "3q", **dict.fromkeys(BOUNDS_NAMES, "3i")}
-_SIZE = 4
+_SIZE = 4  # bytes of the size before a value
 
 Fields: TypeAlias = tuple[Any, ...]
 
 
 class Recall:
-    """Reads files as the OpenVDB reader does, those of the last few layouts at a glance.
+    """The layouts of the OpenVDB files read last, by which others are decoded.
 
-    A layout is everything before the voxels but for what the reader noted: where the parts lie,
-    and the values of metadata, of which only the bounds are looked at.
-    So files are recalled without any metadata and UUID.
+    A layout is all that precedes the voxels, except what the reader noted: offsets, and values of
+    metadata, of which only the bounds are decoded.
+    So files that are found have neither metadata nor a UUID.
     """
 
     def __init__(self) -> None:
         self._layouts: list[_Layout] = []
 
     def find(self, window: Window) -> VolumeFile | None:
-        """The file in the window if its layout is known and nothing is odd about it."""
+        """The file in the window, if it has a known layout and is valid by it."""
         for number, layout in enumerate(self._layouts):
             file = layout.match(window)
             window.position = 0
@@ -41,7 +41,7 @@ class Recall:
         return None
 
     def learn(self, window: Window, file: VolumeFile) -> None:
-        """Remembers the layout of the file, which was just read from the window."""
+        """Adds the layout of a file that was just read from the window, if it has one."""
         heads = tuple(_heads(window))
         if heads and len(heads) == len(file.grids):
             layout = _Layout(heads, file)
@@ -51,13 +51,17 @@ class Recall:
 
 
 class _Layout:
-    """The heads of a file's grids; `file` is the one it was learnt from."""
+    """The heads of a file's grids, and the file that they are from."""
 
     def __init__(self, heads: tuple[_Head, ...], file: VolumeFile) -> None:
         self._heads = heads
         self._file = file
 
     def match(self, window: Window) -> VolumeFile | None:
+        """The file in the window, or None if it has another layout.
+
+        If it has the same bounds as the file of the layout, that very object is returned.
+        """
         grids = []
         for head, grid in zip(self._heads, self._file.grids, strict=True):
             fields = head.match(window)
@@ -69,14 +73,14 @@ class _Layout:
 
 
 class _Head:
-    """What stands before the voxels of one grid, and before the first one the file's header.
+    """The bytes before the voxels of one grid, for the first grid including the file's header.
 
-    It is taken apart into constants and numbers; a value that was skipped ends a part of it, since
-    values of any size may stand in its place.
+    They are divided into constants, which must match, and numbers, which may differ.
+    A value that the reader skipped may have any size, so it ends a part with a `Struct` of its own.
     """
 
     def __init__(self, window: Window, start: int, notes: Iterable[Note]) -> None:
-        """The head at byte `start` of the file in the window."""
+        """Takes over the head at byte `start` of the file in the window, and its notes."""
         self._parts: list[tuple[Struct, bool]] = []
         self._data = 0
         names: list[str] = []
@@ -103,7 +107,7 @@ class _Head:
         self.end = self._offsets(fields)[-1] if fields else start
 
     def match(self, window: Window) -> Fields | None:
-        """What the file in the window has in the places of a head like this; goes to its end."""
+        """The fields of such a head at the window's position, which moves to the grid's end."""
         start = window.position
         fields = self._fields(window)
         if fields is None or self._constants(fields) != self._expected:
@@ -129,7 +133,7 @@ class _Head:
 
 
 def _heads(window: Window) -> Iterable[_Head]:
-    """The heads that the reader's notes tell of."""
+    """The heads by the reader's notes; fewer than grids if one is too long to keep."""
     start, notes = 0, list[Note]()
     for note in window.notes:
         notes.append(note)
@@ -151,5 +155,6 @@ def _with_bounds(grid: Grid, bounds: IndexBounds | None) -> Grid:
 
 
 def _picker(names: list[str], wanted: str) -> Any:
-    places = [place for place, name in enumerate(names) if name == wanted]
-    return itemgetter(*places) if places else None
+    """A function from fields to those of a name."""
+    indices = [index for index, name in enumerate(names) if name == wanted]
+    return itemgetter(*indices) if indices else None

@@ -1,4 +1,4 @@
-"""What files of each kind begin with, so that only the reader that is needed is imported."""
+"""The first bytes of each format, by which the one reader that is needed is imported."""
 
 from __future__ import annotations
 

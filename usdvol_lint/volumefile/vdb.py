@@ -1,4 +1,4 @@
-"""OpenVDB: file versions 222 to 225, which differ in nothing that is read here."""
+"""OpenVDB: file versions 222 to 225, between which nothing that is read here has changed."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ _COMPRESSION_FLAGS = 4
 
 
 def read_vdb(window: Window) -> VolumeFile:
-    """The file that starts at the window's start, whose signature is known to be right."""
+    """Reads a file from the start of its window; the signature was checked by the caller."""
     reader = _Reader(window)
     try:
         reader.read()
@@ -76,7 +76,11 @@ def read_vdb(window: Window) -> VolumeFile:
 
 
 class _Reader:
-    """What is known so far; each method reads one thing at the window's position."""
+    """Reads one file; its attributes are what is known so far.
+
+    `parents` are the positions of grids by full name, `instances` the full names of the grids that
+    others show, by the position of these.
+    """
 
     def __init__(self, window: Window) -> None:
         self.window = window
@@ -136,7 +140,7 @@ class _Reader:
         window.note("uuid", len(uuid))
         self.library = f"{major}.{minor}"
         self.streamed = not has_offsets
-        # OpenVDB leaves a NUL where it found no randomness.
+        # OpenVDB writes NULs if it has no source of randomness.
         self.uuid = uuid.partition(b"\0")[0].decode("ascii", "surrogateescape") or None
 
     def read_grid(self) -> None:
@@ -165,7 +169,7 @@ class _Reader:
             window.position = end
 
     def enter_grid(self, full_name: str, *, is_instance: bool) -> int:
-        """Goes to a grid's metadata, narrows the window to it, and says where the grid ends."""
+        """Moves to a grid's metadata, limits the window to the head, and returns the grid's end."""
         window = self.window
         at = window.position
         grid_start, blocks, end = window.unpack(_OFFSETS)
@@ -182,7 +186,7 @@ class _Reader:
         return int(end)
 
     def share_bounds(self) -> None:
-        """Gives instances, which have no bounds of their own, those of the grid they show."""
+        """Gives instances, which have no bounds of their own, those of the grid that they show."""
         for position, parent_name in self.instances.items():
             parent = self.parents.get(parent_name)
             grid = self.grids[position]
@@ -223,7 +227,7 @@ def _known(stored: str, words: frozenset[str], otherwise: str) -> str:
 
 
 def _value_type(tree_type: str) -> str:
-    """`float` of `Tree_float_5_4_3`; other forms are left as they are."""
+    """`float` for `Tree_float_5_4_3`; a type of another form as it is."""
     words = tree_type.split("_")
     while len(words) > 2 and words[-1].isdigit():
         words.pop()

@@ -20,7 +20,7 @@ from usdvol_lint.volumefile.window import Window
 _LONGEST_NAME = 1 << 8
 _FRUSTUM = Struct("<8d")
 _FRUSTUM_MAP = "NonlinearFrustumMap"
-# After scale and translation come values derived of them, which nobody needs.
+# The values after scale and translation are derived from them.
 _SCALE = Struct("<3d96x"), scale_translate
 _TRANSLATE_SCALE = Struct("<6d96x"), lambda numbers: scale_translate(numbers[3:], numbers[:3])
 _MAPS: dict[str, tuple[Struct, Callable[[tuple[float, ...]], Matrix]]] = {

@@ -42,9 +42,9 @@ _VALUES = {
 
 
 def read_metadata(window: Window) -> dict[str, Metadatum]:
-    """The entries at the window's position, without those that OpenVDB keeps to itself.
+    """The entries at the window's position, without OpenVDB's internal ones.
 
-    What may differ from frame to frame is noted for `volumefile.recall`.
+    Values that may differ between frames are noted for `volumefile.recall`.
     """
     at = window.position
     (count,) = window.unpack(_U32)
@@ -85,19 +85,19 @@ def _read_value(window: Window, value_type: str, size: int) -> MetadataValue:
 
 
 def text(metadata: Mapping[str, Metadatum], name: str) -> str:
-    """The value of an entry; empty if there is none, or one that is no text."""
+    """The value of an entry; empty if the entry is missing or of another type."""
     entry = metadata.get(name)
     return entry.value if entry is not None and isinstance(entry.value, str) else ""
 
 
 def flag(metadata: Mapping[str, Metadatum], name: str) -> bool:
-    """Whether there is an entry that says `true`."""
+    """Whether an entry is true; False if it is missing or of another type."""
     entry = metadata.get(name)
     return entry is not None and entry.value is True
 
 
 def index_bounds(metadata: Mapping[str, Metadatum]) -> IndexBounds | None:
-    """The bounds as they are stored: those of a grid without voxels are inside out."""
+    """The bounds as stored: in a grid without voxels, the lowest are above the highest."""
     low, high = map(metadata.get, BOUNDS_NAMES)
     if low is None or high is None or not low.type == high.type == "vec3i":
         return None
