@@ -217,6 +217,17 @@ def test_frames_are_recalled_as_they_are(tmp_path: Path, monkeypatch: pytest.Mon
     assert parsed == 1
 
 
+def test_instances_have_the_bounds_of_their_own_frame(tmp_path: Path) -> None:
+    """Also with other offsets than OpenVDB writes, by which instances are not recalled."""
+    files, path = VolumeFiles(), tmp_path / "a.vdb"
+    for number in range(1, 4):
+        shown = {"name": w.string("a"), **w.bounds((0, 0, 0), (number,) * 3)}
+        instance = w.Grid("b", parent="a", offsets=lambda start, _, end: (start, end, end))
+        path.write_bytes(w.vdb(w.Grid("a", metadata=shown), instance))
+        os.utime(path, ns=(number, number))
+        assert as_kept(files.read(str(path))) == plainly(path)
+
+
 def test_a_recalled_frame_may_lie(tmp_path: Path) -> None:
     """Whatever byte is another one, it is told as the reader tells it."""
     choose = random.Random(7)

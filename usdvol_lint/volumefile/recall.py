@@ -43,7 +43,8 @@ class Recall:
     def learn(self, window: Window, file: VolumeFile) -> None:
         """Adds the layout of a file that was just read from the window, if it has one."""
         heads = tuple(_heads(window))
-        if heads and len(heads) == len(file.grids):
+        # An instance has the bounds of another grid, which are not in its own head.
+        if heads and [head.has_bounds for head in heads] == [_has_bounds(g) for g in file.grids]:
             layout = _Layout(heads, file)
             window.position = 0
             if layout.match(window) == file:
@@ -100,7 +101,7 @@ class _Head:
         self._constants = _picker(names, "")
         self._offsets = _picker(names, "offsets")
         self._low, self._high = (_picker(names, name) for name in BOUNDS_NAMES)
-        self._has_bounds = all(name in names for name in BOUNDS_NAMES)
+        self.has_bounds = all(name in names for name in BOUNDS_NAMES)
         window.position = start
         fields = self._fields(window)
         self._expected = fields and self._constants(fields)
@@ -119,7 +120,7 @@ class _Head:
         return fields
 
     def bounds(self, fields: Fields) -> IndexBounds | None:
-        return (self._low(fields), self._high(fields)) if self._has_bounds else None
+        return (self._low(fields), self._high(fields)) if self.has_bounds else None
 
     def _fields(self, window: Window) -> Fields | None:
         fields: Fields = ()
@@ -144,6 +145,10 @@ def _heads(window: Window) -> Iterable[_Head]:
             head = _Head(window, start, notes)
             yield head
             start, notes = head.end, []
+
+
+def _has_bounds(grid: Grid) -> bool:
+    return grid.index_bounds is not None or grid.is_empty
 
 
 def _with_bounds(grid: Grid, bounds: IndexBounds | None) -> Grid:
