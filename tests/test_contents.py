@@ -228,6 +228,17 @@ def test_instances_have_the_bounds_of_their_own_frame(tmp_path: Path) -> None:
         assert as_kept(files.read(str(path))) == plainly(path)
 
 
+def test_bounds_may_be_told_twice(tmp_path: Path) -> None:
+    """Those of the whole file are not those of its grid."""
+    files, path = VolumeFiles(), tmp_path / "a.vdb"
+    for number in range(1, 4):
+        own = {"name": w.string("a"), **w.bounds((0, 0, 0), (number,) * 3)}
+        of_the_file = w.metadata(w.bounds((0, 0, 0), (5, 5, 5)))
+        path.write_bytes(w.vdb(w.Grid("a", metadata=own), metadata_bytes=of_the_file))
+        os.utime(path, ns=(number, number))
+        assert as_kept(files.read(str(path))) == plainly(path)
+
+
 def test_a_recalled_frame_may_lie(tmp_path: Path) -> None:
     """Whatever byte is another one, it is told as the reader tells it."""
     choose = random.Random(7)

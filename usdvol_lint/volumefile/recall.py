@@ -101,7 +101,8 @@ class _Head:
         self._constants = _picker(names, "")
         self._offsets = _picker(names, "offsets")
         self._low, self._high = (_picker(names, name) for name in BOUNDS_NAMES)
-        self.has_bounds = all(name in names for name in BOUNDS_NAMES)
+        # Other than three numbers each are not the bounds of this grid, or not its only ones.
+        self.has_bounds = all(names.count(name) == 3 for name in BOUNDS_NAMES)
         window.position = start
         fields = self._fields(window)
         self._expected = fields and self._constants(fields)
