@@ -190,7 +190,7 @@ def _timeout(where: str, value: Any) -> float:
 
 
 def _times(where: str, value: Any) -> str | int:
-    """The value, if it says which time samples of particles are looked at."""
+    """The value, if it says which time samples of particles are read."""
     if isinstance(value, str) and value.isascii() and value.isdigit():
         value = int(value)
     is_number = isinstance(value, int) and not isinstance(value, bool) and value > 0

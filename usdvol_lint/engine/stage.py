@@ -10,11 +10,11 @@ from typing import Any, BinaryIO
 from pxr import Sdf, Tf, Usd
 
 from usdvol_lint.engine.trouble import Unreadable
-from usdvol_lint.facts.files.disk import LFS_SIGNATURE
 from usdvol_lint.facts.usd.clips import tells_of_clips
 from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
 from usdvol_lint.model import quoted
 from usdvol_lint.paths import SUFFIXES, display
+from usdvol_lint.volumefile.signatures import LFS_POINTER
 
 _CRATE = b"PXR-USDC"
 _ZIP = b"PK\x03\x04"
@@ -123,7 +123,7 @@ def _diagnose_folder(path: str) -> Unreadable:
 def _diagnose_head(head: bytes, size: int, suffix: str) -> None:
     if not size:
         raise Unreadable("an empty file (0 bytes)", "export it again")
-    if head.startswith(LFS_SIGNATURE):
+    if head.startswith(LFS_POINTER):
         raise Unreadable("a Git-LFS pointer, not the file itself", "run `git lfs pull`")
     if head.startswith(_BYTE_ORDER_MARK):
         raise Unreadable(

@@ -49,7 +49,7 @@ def read_volume_file(path: str, offset: int = 0, size: int | None = None) -> Vol
 
 
 def read_window(window: Window) -> VolumeFile:
-    """Reads the volume file in a window, whose format is known by its signature."""
+    """Reads the volume file in a window; its first bytes tell the format."""
     # A reader is imported when its signature is met: most stages have files of one format.
     head = window.peek(_LONGEST_SIGNATURE)
     if not head:

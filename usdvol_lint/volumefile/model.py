@@ -52,7 +52,7 @@ class Grid(NamedTuple):
     `purpose` is Field3D's partition, what `fieldPurpose` names.
     `value_type` is spelt as in OpenVDB, `tree_type` as in the file.
     `half`: values are stored in half precision.
-    `registered`: OpenVDB knows the type without plug-ins.
+    `registered`: the type is one of OpenVDB's own.
     `index_bounds` are inclusive, and None where the file holds none or the grid is empty; an
     instance has those of the grid whose voxels it shows.
     """

@@ -16,8 +16,8 @@ from usdvol_lint.facts.files.patterns import matching_frames
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.model import quoted
 from usdvol_lint.nearest import closest_match
+from usdvol_lint.volumefile.signatures import LFS_POINTER
 
-LFS_SIGNATURE = b"version https://git-lfs"
 _LFS_POINTER_LIMIT = 1024
 _NUMBER = re.compile(r"[0-9]+")
 
@@ -193,7 +193,7 @@ def file_fault(path: str) -> str | None:
         return FileFault.EMPTY
     if not status.st_mode & stat.S_IROTH and not os.access(path, os.R_OK):
         return FileFault.UNREADABLE
-    if len(LFS_SIGNATURE) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
+    if len(LFS_POINTER) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
         return FileFault.LFS_POINTER
     return None
 
@@ -201,7 +201,7 @@ def file_fault(path: str) -> str | None:
 def _starts_like_lfs(path: str) -> bool:
     try:
         with open(path, "rb", buffering=0) as file:  # Path takes three times as long
-            return file.read(len(LFS_SIGNATURE)) == LFS_SIGNATURE
+            return file.read(len(LFS_POINTER)) == LFS_POINTER
     except OSError:
         return False
 
