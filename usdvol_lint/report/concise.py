@@ -11,8 +11,8 @@ from pathlib import Path
 
 from usdvol_lint.model import Finding, Report, Site, StageReport, printable
 from usdvol_lint.report import Options
-from usdvol_lint.report.style import paint
-from usdvol_lint.report.text import SEVERITY_STYLES, location
+from usdvol_lint.report.style import SEVERITY_STYLES, paint
+from usdvol_lint.report.text import location
 
 
 def render(report: Report, options: Options) -> str:

@@ -2,6 +2,14 @@
 
 from __future__ import annotations
 
+from usdvol_lint.model import Severity
+
+SEVERITY_STYLES = {
+    Severity.ERROR: "bold red",
+    Severity.WARNING: "bold yellow",
+    Severity.INFO: "bold cyan",
+}
+
 
 def paint(text: str, style: str, color: bool) -> str:
     """Text in a style of rich, such as `bold red`; without `color` the text itself.

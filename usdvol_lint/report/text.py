@@ -17,13 +17,7 @@ from usdvol_lint.model import (
     printable,
 )
 from usdvol_lint.report import Options
-from usdvol_lint.report.style import paint
-
-SEVERITY_STYLES = {
-    Severity.ERROR: "bold red",
-    Severity.WARNING: "bold yellow",
-    Severity.INFO: "bold cyan",
-}
+from usdvol_lint.report.style import SEVERITY_STYLES, paint
 
 _LONGEST_SUGGESTION = 400
 
@@ -44,14 +38,15 @@ def verdict(report: Report) -> str:
     summary = report.summary
     if not summary.stages:
         return "no stages checked"
-    parts = [_findings(summary), f"{_checked(summary.stats)} in {_duration(report.seconds)}"]
+    checked = _checked_counts(summary.stats)
+    parts = [_finding_counts(summary), f"{checked} in {_duration(report.seconds)}"]
     unchecked = summary.stages - summary.by_status.get(Status.CHECKED, 0)
     if unchecked:
         parts.append(f"{_count(unchecked, 'stage')} could not be checked")
     return "; ".join(parts)
 
 
-def _findings(summary: Summary) -> str:
+def _finding_counts(summary: Summary) -> str:
     if not summary.findings:
         return f"no findings in {_count(summary.stages, 'stage')}"
     counts = _counts(
@@ -61,7 +56,7 @@ def _findings(summary: Summary) -> str:
     return f"{counts} in {of}{_count(summary.stages, 'stage')}"
 
 
-def _checked(stats: Mapping[str, int]) -> str:
+def _checked_counts(stats: Mapping[str, int]) -> str:
     counts = _counts(
         (stats.get("volumes", 0), "volume"),
         (stats.get("particle_fields", 0), "particle field"),
