@@ -1,1 +1,1 @@
-"""Benchmarks: how much longer than bare USD the linter takes."""
+"""Benchmarks: the time of the linter in relation to that of bare USD."""

@@ -1,4 +1,4 @@
-"""`python -m bench`: runs the cases and prints a table of ratios; nothing is asserted."""
+"""`python -m bench`: runs cases and prints a table of ratios, without asserting anything."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _row(case: Case, pairs: Pairs) -> str:
 
 
 def _made(make: Make, data: Path, scale: float) -> Path:
-    """What a case needs on disk; it is made once, and in whole."""
+    """The path of what `make` wrote, which is kept; after an interruption it is written anew."""
     folder = data / f"{make.__name__}-{scale:g}"
     note = folder / "stage"
     if not note.exists():

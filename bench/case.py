@@ -1,4 +1,4 @@
-"""What a case is."""
+"""A case of the benchmarks."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import TypeAlias
 from bench.measure import Command
 
 Make: TypeAlias = Callable[[Path, float], Path]
-"""Writes a stage, or a folder of files, into a folder, at a scale, and returns it."""
+"""Writes a stage, or a folder of files, of a size by scale into a folder, and returns its path."""
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A command of ours, what it is held against, and how much longer it may take.
+    """Our command, the floor to compare it with, and the ratio that is wanted.
 
-    Both commands get the path of what `make` wrote, the floor that of `make_floor` if it differs.
-    Without a floor, `wanted` is not a ratio but a figure that ours prints, in `unit`.
+    Both commands get the path of what `make` wrote, the floor that of `make_floor` if there is one.
+    Without a floor, `wanted` is a figure that our command prints, in `unit`.
     `needs` names a program that must be installed.
     """
 

@@ -15,14 +15,14 @@ _INTERVAL = 0.002
 
 
 def check(words: list[str]) -> tuple[float, int]:
-    """The seconds that a worker spent on facts and rules, without opening and walking the stage."""
+    """The seconds that a worker spent on facts and rules, without opening and walking a stage."""
     done = subprocess.run([*words, "--verbose"], stdout=subprocess.PIPE, text=True, check=False)
-    said = re.search(r"^ *seconds:.*\bcheck ([0-9.]+)", done.stdout, re.MULTILINE)
-    return float(said[1]) if said else math.nan, done.returncode
+    match = re.search(r"^ *seconds:.*\bcheck ([0-9.]+)", done.stdout, re.MULTILINE)
+    return float(match[1]) if match else math.nan, done.returncode
 
 
 def memory(words: list[str]) -> tuple[float, int]:
-    """The most megabytes of its own that any process had at once; mapped files do not count."""
+    """The most anonymous memory that a process had, in megabytes; mapped files do not count."""
     process = subprocess.Popen(words, stdout=subprocess.DEVNULL)
     most = 0
     while process.poll() is None:
@@ -32,7 +32,7 @@ def memory(words: list[str]) -> tuple[float, int]:
 
 
 def _family(process: int) -> Iterator[int]:
-    """A process and its descendants, as Linux lists them."""
+    """The ids of a process and its descendants; on Linux only."""
     yield process
     with suppress(OSError):
         for children in Path(f"/proc/{process}/task").glob("*/children"):

@@ -1,4 +1,4 @@
-"""Times pairs of commands as whole processes, or takes the figures that they print."""
+"""Times pairs of commands as whole processes, or reads the figures that they print."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ ROOT = Path(__file__).parent.parent
 
 
 class UnexpectedExitError(Exception):
-    """A command that did not do what was to be timed."""
+    """A command ended with another exit code than expected, so its time means nothing."""
 
 
 @dataclass(frozen=True, slots=True)
 class Command:
     """A program with its arguments, and the exit code it must end with.
 
-    What counts is its time from start to exit or, if it `prints` a figure, that.
+    It is measured from start to exit, unless it `prints` a figure, which is taken instead.
     """
 
     words: tuple[str, ...]
@@ -31,33 +31,33 @@ class Command:
 
 
 def python(code: str, prints: bool = False) -> Command:
-    """A Python process that runs `code`, which finds the stage in `sys.argv[1]`."""
+    """A Python process that runs `code`; the path of the stage is `sys.argv[1]`."""
     return Command((sys.executable, "-c", code), prints=prints)
 
 
 def linter(*arguments: str, exit_code: int = 0) -> Command:
-    """The linter as users run it: the installed script, or else the module."""
+    """The linter as users run it: the installed script, or the module if there is none."""
     script = Path(sys.executable).with_name("usdvol-lint")
     program = (str(script),) if script.exists() else (sys.executable, "-m", "usdvol_lint")
     return Command((*program, *arguments), exit_code)
 
 
 def gauged(gauge: str, command: Command) -> Command:
-    """The command under a gauge of `bench.gauges`, whose figure counts instead of the time."""
+    """The command run by a gauge of `bench.gauges`, whose figure is taken instead of the time."""
     words = (sys.executable, "-m", "bench.gauges", gauge, *command.words)
     return replace(command, words=words, prints=True)
 
 
 @dataclass(frozen=True, slots=True)
 class Pairs:
-    """What two commands took in turn; nothing, for the one that a case leaves out."""
+    """The figures of two commands that ran in turn; `floor` is empty if a case has none."""
 
     floor: tuple[float, ...]
     ours: tuple[float, ...]
 
     @property
     def ratio(self) -> float:
-        """The median over the pairs: a slow moment of the machine touches both of a pair."""
+        """The median over the pairs: a slow moment of the machine affects both runs of a pair."""
         return median(ours / floor for floor, ours in zip(self.floor, self.ours, strict=True))
 
 
@@ -67,7 +67,10 @@ def measure(
     runs: int,
     cache: Path,
 ) -> Pairs:
-    """Runs both commands in turn, after a run of each that warms the caches."""
+    """Runs both commands in turn `runs` times, after one run of each to fill the caches.
+
+    `cache` is the folder for compiled modules; raises UnexpectedExitError.
+    """
     environment = _environment(cache)
     sides: tuple[list[float], list[float]] = [], []
     for _ in range(runs + 1):
@@ -78,7 +81,7 @@ def measure(
 
 
 def _environment(cache: Path) -> Mapping[str, str]:
-    """As after an installation, which leaves compiled modules."""
+    """The environment of an installed package, whose modules are compiled."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     path = {"PYTHONPATH": os.environ["PYTHONPATH"]} if "PYTHONPATH" in os.environ else {}
     return {**kept, **path, "PYTHONPYCACHEPREFIX": str(cache)}

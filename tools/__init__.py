@@ -1,1 +1,1 @@
-"""What maintains the repository itself; not part of the package."""
+"""Programs that maintain the repository; not part of the package."""

@@ -10,7 +10,7 @@ from typing import Any
 
 from usdvol_lint import schema
 from usdvol_lint.engine.stage import open_stage
-from usdvol_lint.engine.trouble import Unreadable
+from usdvol_lint.engine.trouble import UnreadableStageError
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts
 from usdvol_lint.facts.found import Wing, column, fact, summary
@@ -34,8 +34,8 @@ def main(arguments: list[str]) -> int:
     path, name = arguments
     try:
         stage = open_stage(path, "all")
-    except Unreadable as trouble:
-        print(f"{path}: {trouble}", file=sys.stderr)
+    except UnreadableStageError as error:
+        print(f"{path}: {error}", file=sys.stderr)
         return 2
     prim = stage.GetPrimAtPath(name)
     if not prim:

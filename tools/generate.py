@@ -1,4 +1,4 @@
-"""Writes the files that are derived from others, or checks that they are current."""
+"""Writes the files that are generated from others, or checks that they are up to date."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ HELP = ROOT / "usdvol_lint" / "help.txt"
 
 
 def rule_index(catalog: Catalog) -> str:
-    """rules/README.md: what the folder is, and a table of rules for each family."""
+    """The text of rules/README.md: what the folder is, and a table of the rules of each family."""
     lines = [
         "# Rules",
         "",
@@ -40,7 +40,10 @@ def rule_index(catalog: Catalog) -> str:
 
 
 def main(arguments: list[str]) -> int:
-    """Writes every generated file; with --check only says which are out of date."""
+    """Writes every generated file that is out of date; with --check only lists them.
+
+    Returns 1 if --check lists any, else 0.
+    """
     check = "--check" in arguments
     generated = {RULES / "README.md": rule_index(load()), HELP: help_text(), **all_words(RULES)}
     stale = [
@@ -48,16 +51,16 @@ def main(arguments: list[str]) -> int:
         for path, text in generated.items()
         if not path.is_file() or path.read_text(encoding="utf-8") != text
     ]
-    forsaken = [path for path in RULES.rglob("*.words.txt") if path not in generated]
+    orphaned = [path for path in RULES.rglob("*.words.txt") if path not in generated]
     for path in stale:
         print(f"{'out of date' if check else 'written'}: {path.relative_to(ROOT)}")
         if not check:
             path.write_text(generated[path], encoding="utf-8")
-    for path in forsaken:
+    for path in orphaned:
         print(f"{'without examples' if check else 'removed'}: {path.relative_to(ROOT)}")
         if not check:
             path.unlink()
-    return 1 if check and (stale or forsaken) else 0
+    return 1 if check and (stale or orphaned) else 0
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
-"""Configuration: pyproject.toml or usdvol-lint.toml, then the command line, become one Config."""
+"""The settings of a run, and how they are read from usdvol-lint.toml or pyproject.toml."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from os.path import isfile
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,23 +20,23 @@ OUTPUT_FORMATS = ("full", "concise", "json")
 LOADS = ("all", "none")
 CONTENTS = ("all", "first", "off")
 VARIANTS = ("selected", "all")
-_CHOICES = {
-    "fail-on": FAIL_ON,
-    "output-format": OUTPUT_FORMATS,
-    "load": LOADS,
-    "content": CONTENTS,
-    "variants": VARIANTS,
-}
 TIMES = ("all", "first", "ends")
 LEVELS = tuple(severity.label for severity in reversed(Severity))
 LONGEST_TIMEOUT = 1_000_000
 
 
 class Config(NamedTuple):
-    """What a run was asked for. `jobs` of 0 means one for each processor."""
+    """The settings of a run.
+
+    `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
+    for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
+    See `Depth` for `load`, `content`, `times` and `statistics`.
+    """
 
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
+    # One empty dictionary for all: a Mapping is not written to, and a MappingProxyType can't be
+    # pickled or copied.
     severity: Mapping[str, str] = {}
     options: Mapping[str, Mapping[str, Any]] = {}
     packs: tuple[str, ...] = ()
@@ -52,18 +53,19 @@ class Config(NamedTuple):
 
     @property
     def depth(self) -> Depth:
-        """How much of each stage is looked at."""
+        """How much of each stage is checked."""
         selections = self.variant_limit if self.variants == "all" else 0
         return Depth(self.load, self.content, self.times, self.statistics, selections)
 
 
 class Depth(NamedTuple):
-    """How much of each stage is looked at.
+    """How much of each stage is checked.
 
-    `load` says whether payloads are, `content` how many of a field's files (all, first or off),
-    `times` which time samples of particles (all, first, ends, or so many), `selections` how many
-    variant selections besides the authored ones at most; `statistics` asks for the numbers of
-    particle fields too.
+    `load`: whether payloads are loaded (all, none).
+    `content`: how many of a field's files are opened (all, first, off).
+    `times`: which time samples of particles are read (all, first, ends, or their number).
+    `statistics`: whether the figures of particle fields are collected.
+    `selections`: how many variant selections at most, besides the authored ones.
     """
 
     load: str = "all"
@@ -74,7 +76,10 @@ class Depth(NamedTuple):
 
 
 def find_config_file(start: Path) -> Path | None:
-    """The nearest configuration from a folder upward; pyproject.toml counts with our table."""
+    """The configuration file of a folder, or of the nearest one above it that has one.
+
+    It is a usdvol-lint.toml, or else a pyproject.toml with a table [tool.usdvol-lint].
+    """
     for folder in (start, *start.parents):
         own = folder / FILE_NAME
         if isfile(own):
@@ -86,23 +91,25 @@ def find_config_file(start: Path) -> Path | None:
 
 
 def read_config(path: Path) -> Config:
-    """Reads a configuration file; pack folders in it are relative to the file."""
+    """Reads a configuration file; pack folders in it are relative to the file.
+
+    Raises UsageError where it can't be read, or says what is not allowed.
+    """
     table = _own_table(path) if path.name == "pyproject.toml" else _read_toml(path)
     if table is None:
         raise UsageError(f"{path} has no table [tool.{TABLE}]")
-    known = {name.replace("_", "-"): name for name in Config._fields}
     values = {}
     for key, value in _table(f"{path}: tool.{TABLE}", table).items():
-        if key not in known:
-            raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, known)}")
-        values[known[key]] = _checked(path, key, value)
+        if key not in CHECKS:
+            raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
+        values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
     config = Config(**values)
     packs = tuple(str(path.parent / pack) for pack in config.packs)
     return config._replace(packs=packs)
 
 
 def _own_table(project: Path) -> Any | None:
-    """What a pyproject.toml says of us."""
+    """The value of tool.usdvol-lint in a pyproject.toml; None if there is none."""
     tools = _read_toml(project).get("tool", {})
     return tools.get(TABLE) if isinstance(tools, dict) else None
 
@@ -121,34 +128,60 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise UsageError(f"{path}: {error.strerror}") from error
 
 
-def _checked(path: Path, key: str, value: Any) -> Any:
-    where = f"{path}: {key}"
-    if key in ("select", "ignore", "packs"):
-        return tuple(strings(where, value))
-    if key in _CHOICES:
-        return one_of(where, value, _CHOICES[key])
-    if key == "severity":
-        return {
-            k: one_of(f"{where}.{k}", level, LEVELS) for k, level in _table(where, value).items()
-        }
-    if key == "options":
-        return {str(k): _table(f"{where}.{k}", v) for k, v in _table(where, value).items()}
-    if key == "timeout":
-        return timeout(where, value)
-    if key == "times":
-        return times(where, value)
-    if key == "statistics":
-        if not isinstance(value, bool):
-            raise UsageError(f"{where} must be true or false, not {value!r}")
-        return value
-    least = 1 if key == "variant-limit" else 0
+def strings(where: str, value: Any) -> list[str]:
+    """The value, if it is a list of strings."""
+    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
+        raise UsageError(f"{where} must be a list of strings, not {value!r}")
+    return value
+
+
+def one_of(where: str, value: Any, allowed: tuple[str, ...]) -> str:
+    """The value, if it is one of those allowed."""
+    if value in allowed:
+        return str(value)
+    hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
+    raise UsageError(f"{where} must be one of {', '.join(allowed)}, not {value!r}{hint}")
+
+
+def level(where: str, value: Any) -> str:
+    """The value, if it is the name of a severity."""
+    return one_of(where, value, LEVELS)
+
+
+def _strings(where: str, value: Any) -> tuple[str, ...]:
+    return tuple(strings(where, value))
+
+
+def _table(where: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise UsageError(f"{where} must be a table, not {value!r}")
+    return value
+
+
+def _levels(where: str, value: Any) -> dict[str, str]:
+    return {code: level(f"{where}.{code}", name) for code, name in _table(where, value).items()}
+
+
+def _tables(where: str, value: Any) -> dict[str, dict[str, Any]]:
+    return {
+        rule: _table(f"{where}.{rule}", options) for rule, options in _table(where, value).items()
+    }
+
+
+def _boolean(where: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise UsageError(f"{where} must be true or false, not {value!r}")
+    return value
+
+
+def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
     return value
 
 
-def timeout(where: str, value: Any) -> float:
-    """The value, if it is a time limit that a timer takes."""
+def _timeout(where: str, value: Any) -> float:
+    """The value, if it is a time limit, in seconds, that a timer takes."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if not is_number or not 0 < value <= LONGEST_TIMEOUT:
         wanted = f"a number of seconds above 0, at most {LONGEST_TIMEOUT:,}"
@@ -156,8 +189,8 @@ def timeout(where: str, value: Any) -> float:
     return float(value)
 
 
-def times(where: str, value: Any) -> str | int:
-    """The value, if it says which time samples of particles are looked at."""
+def _times(where: str, value: Any) -> str | int:
+    """The value, if it says which time samples of particles are read."""
     if isinstance(value, str) and value.isascii() and value.isdigit():
         value = int(value)
     is_number = isinstance(value, int) and not isinstance(value, bool) and value > 0
@@ -167,22 +200,24 @@ def times(where: str, value: Any) -> str | int:
     return value  # type: ignore[no-any-return]
 
 
-def strings(where: str, value: Any) -> list[str]:
-    """The value, if it is a list of strings."""
-    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
-        raise UsageError(f"{where} must be a list of strings, not {value!r}")
-    return value
+CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
+    "select": _strings,
+    "ignore": _strings,
+    "severity": _levels,
+    "options": _tables,
+    "packs": _strings,
+    "fail-on": partial(one_of, allowed=FAIL_ON),
+    "output-format": partial(one_of, allowed=OUTPUT_FORMATS),
+    "jobs": partial(_whole_number, least=0),
+    "timeout": _timeout,
+    "load": partial(one_of, allowed=LOADS),
+    "content": partial(one_of, allowed=CONTENTS),
+    "variants": partial(one_of, allowed=VARIANTS),
+    "variant-limit": partial(_whole_number, least=1),
+    "times": _times,
+    "statistics": _boolean,
+}
+"""For each key of the configuration a function that returns the value for the `Config`.
 
-
-def _table(where: str, value: Any) -> dict[str, Any]:
-    if not isinstance(value, dict):
-        raise UsageError(f"{where} must be a table, not {value!r}")
-    return value
-
-
-def one_of(where: str, value: Any, allowed: tuple[str, ...]) -> str:
-    """The value, if it is allowed."""
-    if value in allowed:
-        return str(value)
-    hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
-    raise UsageError(f"{where} must be one of {', '.join(allowed)}, not {value!r}{hint}")
+It is called with where the value was given, which begins its UsageError, and the value.
+"""

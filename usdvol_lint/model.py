@@ -1,4 +1,4 @@
-"""The nouns of a run: plain, frozen, picklable data that knows nothing of USD."""
+"""The data of a run, plain, frozen and picklable, and how it is written; nothing of USD."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 
 class UsageError(Exception):
-    """A mistake of the user's: one line that says what, where and what to do (exit code 2)."""
+    """A mistake of the user's, in one line: what, where and what to do (exit code 2)."""
 
 
 class PackError(UsageError):
@@ -19,16 +19,16 @@ class PackError(UsageError):
 
 
 def quoted(text: str) -> str:
-    """Text between quotes as it stands, a backslash too; what can't be printed is escaped."""
+    """Text in quotes, unchanged, backslashes too, but for what `printable` escapes."""
     mark = '"' if "'" in text and '"' not in text else "'"
     return f"{mark}{printable(text)}{mark}"
 
 
 def printable(text: str) -> str:
-    r"""Text from a stage as one visible line: what does not print is shown as `\x1b` or `\u202e`.
+    r"""Text on one line, in which characters that don't print are escaped: `\x1b`, `\u202e`.
 
-    That covers control characters, line breaks, bidirectional overrides, invisible characters,
-    spaces that only look like one, and bytes that were never text (`\xff`).
+    These are control characters, line breaks, bidirectional overrides, invisible characters,
+    spaces other than U+0020, and bytes that could not be decoded (`\xff`).
     """
     return text if text.isprintable() else "".join(map(_visible, text))
 
@@ -37,7 +37,7 @@ def _visible(char: str) -> str:
     if char.isprintable():
         return char
     point = ord(char)
-    if 0xDC80 <= point <= 0xDCFF:  # a byte that Python could not decode in a file name
+    if 0xDC80 <= point <= 0xDCFF:  # a byte that could not be decoded, as a lone surrogate
         point -= 0xDC00
     if point <= 0xFF:
         return f"\\x{point:02x}"
@@ -57,7 +57,7 @@ class Severity(IntEnum):
 
 
 class Status(StrEnum):
-    """What became of one stage."""
+    """Whether one stage was checked, or why not."""
 
     CHECKED = "checked"
     UNREADABLE = "unreadable"
@@ -67,14 +67,13 @@ class Status(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """Where a finding is: the layer that holds the opinion, the composed prim, the frames.
+    """Where a finding is: the layer with the opinion, the composed prim, the time codes.
 
     `layer` is relative to the working directory, with `/`.
-    `variant` is where in its layer the opinion is, `look=thin`, or, for what the stage shows only
+    `variant` is the variant in which the opinion is authored, `look=thin`; or, for what is so only
     under another selection than the authored one, that selection: `/model{look=thin}`.
-    `line` and `column` are 1-based and None in binary layers.
-    `times` are time codes of the stage, ascending; `at_default` says that USD's default time
-    is affected too.
+    `line` and `column` count from 1 and are None in binary layers.
+    `times` are time codes of the stage, ascending; `at_default` adds USD's default time.
     """
 
     layer: str
@@ -88,7 +87,7 @@ class Site:
 
     @builtins.property
     def frames(self) -> str | None:
-        """The time codes as ranges, `102-104, 117`; None where time plays no part."""
+        """The time codes as ranges, `102-104, 117`; None if there are none."""
         if not self.times:
             return None
         ranges = frame_ranges(self.times)
@@ -97,7 +96,7 @@ class Site:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that is wrong, ready to be reported."""
+    """One problem, ready to be reported."""
 
     code: str
     name: str
@@ -114,17 +113,17 @@ class Finding:
 
 
 class ParticleFieldStats(NamedTuple):
-    """What one particle field holds, over all the time samples that were looked at.
+    """Figures about one particle field, over all the time samples that were read.
 
-    `count` is the greatest number of particles at one time, `bytes` what its arrays take in all.
+    `count` is the greatest number of particles at one time, `bytes` the size of all its arrays.
     `precision` is `float`, `half` or `mixed`, `bounds` are the corners that enclose all positions.
-    `opacity` and `scale` are quantiles by name, from `min` to `max`, `transparent` is the share of
-    particles that are as good as invisible.
-    What there is no array for is None.
+    `opacity` and `scale` are quantiles by name, from `min` to `max`; `transparent` is the share,
+    from 0 to 1, of particles that are practically invisible.
+    A figure is None if the array it is computed from is missing.
     """
 
     prim: str
-    count: int  # type: ignore[assignment]  # in the place of what tuples call so
+    count: int  # type: ignore[assignment]  # hides tuple.count
     sh_degree: int | None
     bytes: int
     precision: str | None
@@ -135,15 +134,17 @@ class ParticleFieldStats(NamedTuple):
 
 
 class StageReport(NamedTuple):
-    """What one stage came to.
+    """The result for one stage.
 
-    `path` is the stage as the user gave it or as it was found in a folder.
-    `stats` counts what was looked at, `seconds` are wall-clock by phase.
+    `path` is the stage as the user named it or as it was found in a folder.
+    `stats` are counts by name, such as `volumes`; `seconds` is wall-clock time by phase.
     `particle_fields` is None unless statistics were asked for.
     """
 
     path: str
     status: Status
+    # One empty dictionary for all: a Mapping is not written to, and a MappingProxyType can't be
+    # pickled, which a worker does with its reports.
     stats: Mapping[str, int] = {}
     findings: tuple[Finding, ...] = ()
     seconds: Mapping[str, float] = {}
@@ -168,7 +169,7 @@ class Summary(NamedTuple):
 
 
 class Report(NamedTuple):
-    """A whole run: everything that any output format prints."""
+    """The result of a run: all that the output formats print."""
 
     version: str
     usd_version: str | None
@@ -196,17 +197,17 @@ class Report(NamedTuple):
 
 
 def format_time(time: float) -> str:
-    """A time code as people write it: `101`, `101.5`, never `101.0`."""
+    """A time code without superfluous decimals: `101`, `101.5`, never `101.0`."""
     rounded = round(time, 6)
     return str(int(rounded)) if rounded.is_integer() and abs(rounded) < 2**53 else repr(rounded)
 
 
 def frame_ranges(times: Sequence[float]) -> str:
-    """Ascending time codes as ranges: `102-104, 117`; every second frame is `0-10x2`."""
+    """Ascending time codes as ranges: `102-104, 117`; a step other than 1 is added, `0-10x2`."""
     parts: list[str] = []
     start = 0
     while start < len(times):
-        stop = _run_end(times, start)
+        stop = _end_of_run(times, start)
         step = times[start + 1] - times[start] if stop - start > 1 else 0.0
         if stop - start > 2 or _same(step, 1.0):
             suffix = "" if _same(step, 1.0) else f"x{format_time(step)}"
@@ -218,8 +219,8 @@ def frame_ranges(times: Sequence[float]) -> str:
     return ", ".join(parts)
 
 
-def _run_end(times: Sequence[float], start: int) -> int:
-    """One past the last of the evenly spaced times that begin at `start`."""
+def _end_of_run(times: Sequence[float], start: int) -> int:
+    """The index after the last of the evenly spaced times that begin at index `start`."""
     stop = start + 2
     if stop > len(times):
         return len(times)
@@ -234,10 +235,10 @@ def _same(one: float, other: float) -> bool:
 
 
 def with_fingerprints(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Findings sorted, without repetitions, each with its fingerprint.
+    """The findings, sorted and without duplicates, each with its fingerprint.
 
-    A fingerprint is made of code, layer, prim and property, so it survives other machines, other
-    runs and unrelated edits; findings that share all four are numbered in their order.
+    A fingerprint is a hash of code, layer, prim, property and variant, so it is the same on other
+    machines, in other runs and after unrelated edits; findings that share all five are numbered.
     """
     stamped: list[Finding] = []
     seen: Counter[tuple[str | None, ...]] = Counter()

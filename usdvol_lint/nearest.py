@@ -1,11 +1,11 @@
-"""Did you mean: the known word that another one is most likely a misspelling of."""
+"""The known word that an unknown one is most likely a misspelling of."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
 CLOSE = 0.84
-"""How alike two words must be, from 0 to 1, for one to be offered in place of the other."""
+"""The least similarity, from 0 to 1, at which a word is offered for another."""
 
 
 def closest_match(
@@ -14,7 +14,10 @@ def closest_match(
     cutoff: float = CLOSE,
     fold: Callable[[str], str] = str.lower,
 ) -> str | None:
-    """The known word closest to `word` once both are folded, or None if none is close."""
+    """The known word closest to `word` when both are folded; None if none is close enough.
+
+    `cutoff` is the least similarity, from 0 to 1, as difflib computes it.
+    """
     from difflib import get_close_matches  # costs start-up time, and few words are misspelt
 
     folded = {fold(other): other for other in known}
@@ -23,6 +26,6 @@ def closest_match(
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """`; did you mean 'x'?` for what somebody typed, or nothing if nothing known is near."""
-    meant = closest_match(word, known, cutoff=0.6)
-    return f"; did you mean {meant!r}?" if meant else ""
+    """The end of a message about an unknown word, `; did you mean 'x'?`; empty if none is close."""
+    closest = closest_match(word, known, cutoff=0.6)
+    return f"; did you mean {closest!r}?" if closest else ""

@@ -1,4 +1,4 @@
-"""The words rules are written in: `@rule`, `Problem`, `NotChecked`, `Facts`, `Prim`."""
+"""What rules are written with: `@rule`, `Problem`, `NotChecked`, `Facts`, preconditions."""
 
 from __future__ import annotations
 
@@ -70,10 +70,10 @@ Prim: TypeAlias = Any
 
 
 class Occurrence(Protocol):
-    """Where something stands in the values of an attribute: most of what facts find is one.
+    """Some of the values of an attribute, by their times; what most facts consist of.
 
-    `times` are time codes of the stage; `at_default` adds USD's default time; `asset` is the asset
-    path there, as authored, if that is what the line should point to.
+    `times` are time codes of the stage; `at_default` adds USD's default time.
+    `asset` is the asset path there, as authored, if the line reported should be the path's.
     """
 
     @property
@@ -87,12 +87,13 @@ class Occurrence(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class _Said:
-    """What a rule says, and of what.
+class _Result:
+    """What a rule reports, and where.
 
-    `at` is a `Usd.Prim`, a `Usd.Property`, or an occurrence, which knows the attribute, `times`,
-    `at_default` and `asset`.  The layer and line are those of the strongest opinion there (at the
-    first of `times`), unless `spec` names the `Sdf` spec that is to blame.
+    `at` is a `Usd.Prim`, a `Usd.Property`, or an `Occurrence`, which brings `times`, `at_default`
+    and `asset` along.
+    The layer and line are those of the strongest opinion at `at` (and the first of `times`), unless
+    `spec` names another `Sdf` spec.
     """
 
     message: str
@@ -114,11 +115,12 @@ class _Said:
 
 
 @dataclass(frozen=True, slots=True)
-class Problem(_Said):
+class Problem(_Result):
     """What a rule yields: what is wrong, and where.
 
     `severity` may lower the rule's own for a milder case, never raise it.
-    `holds` is asked when all of the stage was looked at, other variant selections too.
+    `holds` is called after all variant selections were checked; if it returns False, the problem is
+    not reported.
     """
 
     _: KW_ONLY
@@ -127,8 +129,8 @@ class Problem(_Said):
 
 
 @dataclass(frozen=True, slots=True)
-class NotChecked(_Said):
-    """What a rule yields where it could not look: reported as LNT005, never as an error."""
+class NotChecked(_Result):
+    """What a rule could not check, and why: reported as LNT005, never as an error."""
 
 
 Problems: TypeAlias = Iterator[Problem | NotChecked]
@@ -136,11 +138,13 @@ Check: TypeAlias = Callable[..., Problems]
 
 
 class When(NamedTuple):
-    """A precondition: a rule is handed only prims whose key it holds for.
+    """A precondition: the rule runs only on prims whose key `holds` accepts.
 
-    `keys` is declared in a wing, such as `Files.path_marks`.  `holds` is called once for each key,
-    with those of the rule's options that it names, and may say yes too often, which costs time,
-    but never no wrongly, which loses findings.  A rule has to be right without it.
+    `keys` is declared in a wing, such as `Files.path_marks`.
+    `holds` is called once for each distinct key, with those of the rule's options that it has
+    parameters for.
+    It may accept too many keys, which costs time, but never too few, which loses findings: a rule
+    has to be right without it.
     """
 
     keys: column[Any, Any] | summary[Any, Any]
@@ -159,40 +163,41 @@ def authored(*names: str) -> When:
 
 
 def file_paths(*marks: Enum) -> When:
-    """When the values of `filePath` have one of these states or marks about them."""
-    return When(Files.path_marks, lambda found: not found.isdisjoint(marks))
+    """When the values of `filePath` have one of these states or marks."""
+    return When(Files.path_marks, lambda states: not states.isdisjoint(marks))
 
 
 def bindings(*marks: Enum) -> When:
-    """When the `field:` namespace of a Volume has one of these states or marks about it."""
-    return When(Volumes.binding_marks, lambda found: not found.isdisjoint(marks))
+    """When the `field:` namespace of a Volume has one of these states or marks."""
+    return When(Volumes.binding_marks, lambda states: not states.isdisjoint(marks))
 
 
 def contents(*keys: Callable[[Content], Hashable | None]) -> When:
-    """When the content of one of a field's files has one of these keys."""
+    """When one of these keys is not None for the content of one of a field's files."""
     return When(Grids.content_classes, AnyKey(keys))
 
 
 @dataclass(frozen=True, slots=True)
 class AnyKey:
-    """Whether one of some classes of contents has one of these keys."""
+    """Whether any of these keys is not None for any class of contents."""
 
     keys: tuple[Callable[[Content], Hashable | None], ...]
 
     def __call__(self, classes: Iterable[ContentClass]) -> bool:
-        return any(each.answer(key) is not None for each in classes for key in self.keys)
+        return any(contents.answer(key) is not None for contents in classes for key in self.keys)
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """One rule: what it is called, which prims it is handed, and what it does with them.
+    """One rule: what it is called, which prims it checks, and how.
 
-    `on` are schema names: a prim type, also as a base, or an applied API.
-    Three constants stand beside them: `STAGE` (handed the pseudo-root, once), `UNKNOWN_TYPE`
-    (prims whose type nobody registers), `ABSTRACT_TYPE` (prims whose type may not be instantiated).
+    `on` are schema names: a prim type, also as a base, or an applied API; or one of `STAGE` (the
+    pseudo-root, once), `UNKNOWN_TYPE` (prims whose type is not registered) and `ABSTRACT_TYPE`
+    (prims whose type may not be instantiated).
+    `check` is called with a prim, the facts of its stage, and the options.
     `options` maps the names of the check's keyword-only parameters to their defaults.
     `default` is False for rules that are off until selected by name.
-    `when` narrows down which of these prims it is handed; None means all of them.
+    `when` is a precondition on the prims of `on`; None accepts all of them.
     """
 
     code: str
@@ -215,7 +220,10 @@ def rule(
     default: bool = True,
     when: When | None = None,
 ) -> Callable[[Check], Rule]:
-    """Makes the decorated generator a rule, named after it: `file_missing` is `file-missing`."""
+    """Makes a rule of the generator below it, which it is named after: `file-missing`.
+
+    Raises ValueError for a `when` whose keys no wing declares, or whose options the rule lacks.
+    """
 
     if when and not isinstance(when.keys, column | summary):
         raise ValueError(f"{code}: `when` names no column or summary of a wing, but {when.keys!r}")

@@ -1,4 +1,4 @@
-"""What is measured: a module for each group of cases, with what makes their stages."""
+"""All cases: a module for each group, with the functions that write its stages."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ _TIME_SUMS = python(
 
 
 def splats(folder: Path, scale: float) -> Path:
-    """5 million splats of degree 3: 1.2 GB."""
+    """Writes 5 million splats of degree 3: 1.2 GB."""
     return _write(folder, _SPLATS * scale)
 
 
@@ -53,7 +53,7 @@ def broken_splats(folder: Path, scale: float) -> Path:
 
 
 def animated_splats(folder: Path, scale: float) -> Path:
-    """100 frames of a fiftieth of the splats; ten times as many make frames of a million."""
+    """100 frames of a fiftieth of the splats, which is a million at `--scale 10`."""
     return _write(folder, _SPLATS * scale / 50, times=range(_FRAMES))
 
 
@@ -74,7 +74,7 @@ def _write(
     times: Sequence[float | None] = (None,),
     broken: bool = False,
 ) -> Path:
-    """Saves after each array, so that no more than one is in memory."""
+    """Writes `count` splats; it saves after each array, so that only one is in memory."""
     import numpy as np
     from pxr import Gf, Usd, UsdVol, Vt
 
@@ -119,13 +119,13 @@ def _write(
 
 
 def _grown(name: str, make: Make, make_floor: Make, wanted: float) -> Case:
-    """Our own command on more splats, by the time that the rules take, against on fewer."""
+    """The seconds for facts and rules on more splats in relation to those on fewer."""
     command = gauged("check", linter())
     return Case(name, command, command, wanted, make, make_floor)
 
 
 _PEER = Command(("omni_asset_validate", "--no-init-rules", "--requirement", "VG.035"), exit_code=1)
-"""omniverse-asset-validator, which finds fault with these splats."""
+"""omniverse-asset-validator, which reports these splats as failing."""
 
 _PEER_ALONE = f"""
 import subprocess, sys, tempfile

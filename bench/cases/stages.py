@@ -1,4 +1,4 @@
-"""Stages of many prims, few of which are ours."""
+"""Stages of many prims, few of which are Volumes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How long it takes to get going."""
+"""Start-up: runs with nothing or little to check."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Volumes, their fields and the files of these."""
+"""Volumes, their fields and volume files."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bench.measure import ROOT, Command, linter, python
 
 _ASSETS = ROOT / "rules" / "assets"
 
-# Up to the grids: signature, versions, a flag, the UUID, no metadata, the number of grids.
+# Before the grids: signature, versions, a flag, the UUID, no metadata, the number of grids.
 _HEADER = struct.Struct("<8s3I?36s2I")
 _OFFSETS = struct.Struct("<3q")
 
@@ -56,7 +56,7 @@ _VDB_PRINT = Command(("sh", "-c", 'exec vdb_print "$1"/*.vdb', "sh"))
 
 
 def many_samples(folder: Path, scale: float) -> Path:
-    """100,000 time samples of one attribute, each with a file that is there."""
+    """100,000 time samples of one attribute, all of whose files exist."""
     (folder / "files").mkdir()
     count = max(1, round(100_000 * scale))
     for number in range(count):
@@ -96,7 +96,7 @@ def many_volumes(folder: Path, scale: float) -> Path:
 
 
 def add_volume(parent: Any, name: str, file: str) -> None:
-    """A Volume below a prim of a layer, with one field that names a file."""
+    """Adds a Volume with one field of one file below a prim spec."""
     from pxr import Sdf, Vt
 
     volume = Sdf.PrimSpec(parent, name, Sdf.SpecifierDef, "Volume")
@@ -114,42 +114,42 @@ def add_volume(parent: Any, name: str, file: str) -> None:
 
 
 def _write_frames(folder: Path, count: int, data: bytes) -> None:
-    """So many files like `data`, each with another UUID and other bounds, as frames have."""
+    """Writes `count` copies of a file with UUIDs and bounds that differ, as those of frames do."""
     folder.mkdir()
     corners = [
-        *((place, 1) for place in _places(data, b"file_bbox_min")),
-        *((place, 6) for place in _places(data, b"file_bbox_max")),
+        *((at, 1) for at in _offsets_of(data, b"file_bbox_min")),
+        *((at, 6) for at in _offsets_of(data, b"file_bbox_max")),
     ]
     frame = bytearray(data)
     for number in range(count):
         frame[21:57] = f"{number:08}-0000-0000-0000-000000000000".encode()
-        for corner, (place, least) in enumerate(corners):
+        for corner, (at, least) in enumerate(corners):
             shifts = (number // 4 ** (3 * corner + axis) % 4 for axis in range(3))
-            struct.pack_into("<3i", frame, place, *(least + shift for shift in shifts))
+            struct.pack_into("<3i", frame, at, *(least + shift for shift in shifts))
         (folder / f"smoke.{number:06}.vdb").write_bytes(frame)
 
 
 def _doubled(data: bytes) -> bytes:
-    """An OpenVDB file with its one grid, "density", once more as "opacity"."""
+    """An OpenVDB file whose one grid, "density", is repeated as "opacity"."""
     grid = data[_HEADER.size :]
     copy = bytearray(grid.replace(b"density", b"opacity"))
-    place = grid.index(b"Tree_float_5_4_3") + len(b"Tree_float_5_4_3") + 4
-    offsets = _OFFSETS.unpack_from(copy, place)
-    _OFFSETS.pack_into(copy, place, *(offset + len(grid) for offset in offsets))
+    at = grid.index(b"Tree_float_5_4_3") + len(b"Tree_float_5_4_3") + 4
+    offsets = _OFFSETS.unpack_from(copy, at)
+    _OFFSETS.pack_into(copy, at, *(offset + len(grid) for offset in offsets))
     return data[: _HEADER.size - 4] + struct.pack("<I", 2) + grid + copy
 
 
-def _places(data: bytes, name: bytes) -> Iterator[int]:
-    """Where an OpenVDB file has the values of a metadatum of three integers."""
+def _offsets_of(data: bytes, name: bytes) -> Iterator[int]:
+    """The offsets of the values of an entry of metadata with three integers."""
     entry = name + struct.pack("<I", 5) + b"vec3i" + struct.pack("<I", 12)
-    place = data.find(entry)
-    while place >= 0:
-        yield place + len(entry)
-        place = data.find(entry, place + 1)
+    start = data.find(entry)
+    while start >= 0:
+        yield start + len(entry)
+        start = data.find(entry, start + 1)
 
 
 def _animated(stage: Path, count: int) -> Path:
-    """A Volume whose field names another file at each frame."""
+    """Writes a Volume whose field has another file in each frame."""
     from pxr import Sdf, Vt
 
     layer = Sdf.Layer.CreateNew(str(stage))

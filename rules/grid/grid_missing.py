@@ -1,7 +1,7 @@
 """GRD003: the grid that a field names must be in its file."""
 
 from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
-from usdvol_lint.schema import closest_name
+from usdvol_lint.spelling import closest_name
 
 _PARTS = [tuple(f"{mark}{part}" for part in "xyz") for mark in (".", "_", ":", "")]
 

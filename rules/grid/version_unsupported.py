@@ -25,8 +25,7 @@ class _Unsupported:
         if file.format == "openvdb":
             newer = f"file version {file.version} is newer than {self.newest}"
             return newer if file.version_number > self.newest else None
-        warnings = (warning.message for warning in file.warnings if warning.code == "version-newer")
-        return next(warnings, None)
+        return file.newer
 
 
 def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> bool:

@@ -1,7 +1,8 @@
 """SCH010: the APIs of particle fields belong on particle fields."""
 
 from usdvol_lint.rule import ERROR, UNKNOWN_TYPE, Facts, NotChecked, Prim, Problem, Problems, rule
-from usdvol_lint.schema import PARTICLE_FIELD, PARTICLE_FIELD_ONLY_APIS, misspelt_type
+from usdvol_lint.schema import PARTICLE_FIELD, PARTICLE_FIELD_ONLY_APIS
+from usdvol_lint.spelling import misspelt_type
 
 
 @rule("SCH010", on=PARTICLE_FIELD_ONLY_APIS, severity=ERROR, since="0.1")

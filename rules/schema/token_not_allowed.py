@@ -1,7 +1,7 @@
 """SCH005: an attribute with a list of allowed tokens holds one of them."""
 
 from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
-from usdvol_lint.schema import misspelt_token
+from usdvol_lint.spelling import misspelt_token
 
 
 @rule(

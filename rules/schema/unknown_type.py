@@ -1,7 +1,7 @@
 """SCH001: a prim whose type USD does not know is nothing to USD."""
 
 from usdvol_lint.rule import UNKNOWN_TYPE, WARNING, Facts, Prim, Problem, Problems, rule
-from usdvol_lint.schema import misspelt_type
+from usdvol_lint.spelling import misspelt_type
 
 
 @rule("SCH001", on=UNKNOWN_TYPE, severity=WARNING, since="0.1")

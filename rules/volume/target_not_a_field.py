@@ -1,7 +1,7 @@
 """VOL002: a field relationship must target a field."""
 
 from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, rule
-from usdvol_lint.schema import misspelt_type
+from usdvol_lint.spelling import misspelt_type
 
 
 @rule(

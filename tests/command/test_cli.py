@@ -19,7 +19,7 @@ from process import PROGRAM, ROUGH, STUDIO, Ran, environment, run, volume, write
 
 from usdvol_lint import __version__
 from usdvol_lint.command import cli
-from usdvol_lint.config import OUTPUT_FORMATS
+from usdvol_lint.config import CHECKS, OUTPUT_FORMATS, Config
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.report import FORMATS
 
@@ -363,6 +363,10 @@ def test_what_goes_wrong_in_the_tool_itself_is_no_finding(
 
 
 # --- configuration files --------------------------------------------------------------------------
+
+
+def test_every_setting_has_a_check() -> None:
+    assert tuple(key.replace("-", "_") for key in CHECKS) == Config._fields
 
 
 def test_the_nearest_configuration_counts(tool: Callable[..., Ran], tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from pxr import Sdf, Usd
 
-from usdvol_lint import schema
+from usdvol_lint import schema, spelling
 from usdvol_lint.facts.usd.kinds import is_concrete, is_registered, type_names
 
 REGISTRY = Usd.SchemaRegistry()
@@ -107,18 +107,18 @@ def test_built_in_apis_agree_with_the_registry(name: str) -> None:
 def test_tables_agree_with_each_other() -> None:
     assert set(schema.BASE_APIS) == set(schema.API_PROVIDERS)
     assert set(schema.API_ATTRIBUTES) <= set(schema.API_INCLUDES)
-    assert set(schema.PRE_STANDARD_TYPES.values()) <= schema.CONCRETE_TYPES
-    assert set(schema.PRE_STANDARD_APIS.values()) <= set(schema.API_INCLUDES)
-    assert not set(schema.PRE_STANDARD_TYPES) & set(schema.TYPE_BASES)
-    assert not set(schema.PRE_STANDARD_APIS) & set(schema.API_INCLUDES)
+    assert set(spelling.PRE_STANDARD_TYPES.values()) <= schema.CONCRETE_TYPES
+    assert set(spelling.PRE_STANDARD_APIS.values()) <= set(schema.API_INCLUDES)
+    assert not set(spelling.PRE_STANDARD_TYPES) & set(schema.TYPE_BASES)
+    assert not set(spelling.PRE_STANDARD_APIS) & set(schema.API_INCLUDES)
 
 
-@pytest.mark.parametrize("name", schema.PRE_STANDARD_TYPES)
+@pytest.mark.parametrize("name", spelling.PRE_STANDARD_TYPES)
 def test_no_old_type_name_is_registered(name: str) -> None:
     assert not is_registered(name)
 
 
-@pytest.mark.parametrize("name", schema.PRE_STANDARD_APIS)
+@pytest.mark.parametrize("name", spelling.PRE_STANDARD_APIS)
 def test_no_old_api_name_is_registered(name: str) -> None:
     assert not is_registered(name)
 
@@ -138,7 +138,7 @@ def test_no_old_api_name_is_registered(name: str) -> None:
     ],
 )
 def test_misspelt_type(name: str, meant: str) -> None:
-    assert schema.misspelt_type(name) == meant
+    assert spelling.misspelt_type(name) == meant
 
 
 @pytest.mark.parametrize(
@@ -156,7 +156,7 @@ def test_misspelt_type(name: str, meant: str) -> None:
     ],
 )
 def test_a_type_of_its_own_is_no_misspelling(name: str) -> None:
-    assert schema.misspelt_type(name) is None
+    assert spelling.misspelt_type(name) is None
 
 
 @pytest.mark.parametrize(
@@ -171,7 +171,7 @@ def test_a_type_of_its_own_is_no_misspelling(name: str) -> None:
     ],
 )
 def test_misspelt_api(name: str, meant: str) -> None:
-    assert schema.misspelt_api(name) == meant
+    assert spelling.misspelt_api(name) == meant
 
 
 @pytest.mark.parametrize(
@@ -187,7 +187,7 @@ def test_misspelt_api(name: str, meant: str) -> None:
     ],
 )
 def test_an_api_of_its_own_is_no_misspelling(name: str) -> None:
-    assert schema.misspelt_api(name) is None
+    assert spelling.misspelt_api(name) is None
 
 
 # --- attributes -----------------------------------------------------------------------------------
@@ -242,9 +242,9 @@ def test_attribute_tables_agree_with_each_other() -> None:
         bases = [base for base in schema.TYPE_BASES[name] if base in order]
         assert all(order.index(base) < order.index(name) for base in bases), "bases come first"
     attributes = schema.attributes_of(schema.ATTRIBUTES)
-    assert set(schema.GUESSED_ATTRIBUTES.values()) <= set(attributes)
-    assert not set(schema.GUESSED_ATTRIBUTES) & set(attributes)
-    for name, guesses in schema.GUESSED_TOKENS.items():
+    assert set(spelling.GUESSED_ATTRIBUTES.values()) <= set(attributes)
+    assert not set(spelling.GUESSED_ATTRIBUTES) & set(attributes)
+    for name, guesses in spelling.GUESSED_TOKENS.items():
         allowed = {
             token
             for table in schema.ATTRIBUTES.values()
@@ -281,7 +281,7 @@ SPLAT_ATTRIBUTES = schema.attributes_of(
     ],
 )
 def test_misspelt_attribute_of_a_field(name: str, meant: str) -> None:
-    assert schema.misspelt_attribute(name, FIELD_ATTRIBUTES) == meant
+    assert spelling.misspelt_attribute(name, FIELD_ATTRIBUTES) == meant
 
 
 @pytest.mark.parametrize(
@@ -300,7 +300,7 @@ def test_misspelt_attribute_of_a_field(name: str, meant: str) -> None:
     ],
 )
 def test_misspelt_attribute_of_a_splat(name: str, meant: str) -> None:
-    assert schema.misspelt_attribute(name, SPLAT_ATTRIBUTES) == meant
+    assert spelling.misspelt_attribute(name, SPLAT_ATTRIBUTES) == meant
 
 
 @pytest.mark.parametrize(
@@ -324,11 +324,11 @@ def test_misspelt_attribute_of_a_splat(name: str, meant: str) -> None:
 )
 def test_an_attribute_of_its_own_is_no_misspelling(name: str) -> None:
     known = FIELD_ATTRIBUTES | SPLAT_ATTRIBUTES
-    assert schema.misspelt_attribute(name, known) is None
+    assert spelling.misspelt_attribute(name, known) is None
 
 
 def test_a_guess_counts_only_where_the_attribute_exists() -> None:
-    assert schema.misspelt_attribute("points", FIELD_ATTRIBUTES) is None
+    assert spelling.misspelt_attribute("points", FIELD_ATTRIBUTES) is None
 
 
 @pytest.mark.parametrize(
@@ -343,7 +343,7 @@ def test_a_guess_counts_only_where_the_attribute_exists() -> None:
     ],
 )
 def test_types_that_may_hold_the_same(one: str, other: str, alike: bool) -> None:
-    assert schema.is_alike(one, other) is alike
+    assert spelling.is_alike(one, other) is alike
 
 
 @pytest.mark.parametrize(
@@ -366,9 +366,9 @@ def test_types_that_may_hold_the_same(one: str, other: str, alike: bool) -> None
     ],
 )
 def test_misspelt_token(name: str, token: str, meant: str | None) -> None:
-    assert schema.misspelt_token(name, token, FIELD_ATTRIBUTES[name].tokens) == meant
+    assert spelling.misspelt_token(name, token, FIELD_ATTRIBUTES[name].tokens) == meant
 
 
 def test_a_token_is_not_taken_for_one_that_is_not_allowed() -> None:
     allowed = schema.ATTRIBUTES["Field3DAsset"]["fieldDataType"].tokens
-    assert schema.misspelt_token("fieldDataType", "int32", allowed) is None
+    assert spelling.misspelt_token("fieldDataType", "int32", allowed) is None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import pickle
-import stat
 import zipfile
 from contextlib import suppress
 from pathlib import Path
@@ -13,7 +12,7 @@ import pytest
 import vdbwriter as w
 from process import SAMPLES
 
-from usdvol_lint.volumefile import VolumeFileError, file_key, read_volume_file, tokens, vdb, window
+from usdvol_lint.volumefile import VolumeFileError, read_volume_file, tokens, vdb, window
 
 
 def code_of(path: Path | str, offset: int = 0, size: int | None = None) -> str:
@@ -191,18 +190,6 @@ def test_a_part_may_not_be_negative() -> None:
         read_volume_file(str(SAMPLES / "class_0.vdb"), -1)
     with pytest.raises(ValueError, match="negative"):
         read_volume_file(str(SAMPLES / "class_0.vdb"), 0, -1)
-
-
-def test_file_keys_tell_states_apart(tmp_path: Path) -> None:
-    path = tmp_path / "file.vdb"
-    path.write_bytes(w.vdb())
-    first = file_key(str(path))
-    assert file_key(str(path)) == first
-    path.write_bytes(w.vdb(w.Grid()))
-    assert file_key(str(path)) != first
-    assert stat.S_ISREG(path.stat().st_mode)
-    with pytest.raises(VolumeFileError):
-        file_key(str(tmp_path / "missing.vdb"))
 
 
 def test_results_and_errors_cross_processes(tmp_path: Path) -> None:

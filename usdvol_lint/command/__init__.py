@@ -1,1 +1,1 @@
-"""What a person types and reads: the command line, its outputs, its progress."""
+"""The command line: its arguments, outputs and progress bar."""

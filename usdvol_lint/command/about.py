@@ -1,4 +1,4 @@
-"""What the tool says of itself: a rule's page, the list of rules, the settings in force."""
+"""Output about the tool itself: a rule's page, the list of rules, the settings in force."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from usdvol_lint.report.style import paint
 
 
 def explain(catalog: Catalog, code_or_name: str) -> Page:
-    """The page of a rule."""
+    """The page of a rule; raises UsageError where there is no such rule or it has no page."""
     rule = catalog.find(code_or_name)
     page = catalog.page(rule.code)
     if page is None:
@@ -21,7 +21,7 @@ def explain(catalog: Catalog, code_or_name: str) -> Page:
 
 
 def render_page(page: Page, color: bool, width: int) -> str:
-    """The page as Markdown, or laid out for a terminal."""
+    """The page as Markdown, or with `color` laid out for a terminal `width` cells wide."""
     if not color:
         return page.text
     from io import StringIO
@@ -36,7 +36,7 @@ def render_page(page: Page, color: bool, width: int) -> str:
 
 
 def list_rules(catalog: Catalog, color: bool) -> str:
-    """One line a rule: code, severity, name, what is wrong."""
+    """One line for each rule: code, severity, name, summary."""
     lines = []
     for rule in catalog.rules.values():
         page = catalog.page(rule.code)
@@ -47,7 +47,7 @@ def list_rules(catalog: Catalog, color: bool) -> str:
 
 
 def list_rules_as_json(catalog: Catalog) -> str:
-    """The same for programs."""
+    """The list of rules for programs, as a JSON array."""
     rules = []
     for rule in catalog.rules.values():
         page = catalog.page(rule.code)
@@ -66,5 +66,5 @@ def list_rules_as_json(catalog: Catalog) -> str:
 
 
 def show_settings(settings: Mapping[str, object], source: str | None) -> str:
-    """The settings in force, as JSON, with the file they come from."""
+    """The settings in force, as JSON; `source` is the configuration file."""
     return json.dumps({"config_file": source, **settings}, indent=2, ensure_ascii=False) + "\n"

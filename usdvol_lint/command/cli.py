@@ -1,4 +1,4 @@
-"""The command line: argv in, exit code out; no other module knows of either."""
+"""From command-line arguments to an exit code; no other module deals with either."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from usdvol_lint import __version__
 from usdvol_lint.model import UsageError
 
 if TYPE_CHECKING:
-    from pathlib import Path
     from subprocess import Popen
 
     from usdvol_lint.command.output import Destination
@@ -30,7 +29,7 @@ def _complete_code(context: click.Context, parameter: click.Parameter, typed: st
 
 
 def _complete_from(constant: str) -> Any:
-    """Completes with the values that a constant of `config` allows."""
+    """A shell completion with the values in a constant of `config`."""
 
     def complete(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
         from usdvol_lint import config
@@ -116,7 +115,7 @@ def command(paths: tuple[str, ...], **given: Any) -> int:
 
 
 def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) -> int:
-    """Runs the command and says its exit code; every failure is one line on standard error.
+    """Runs the command and returns its exit code; any failure is one line on standard error.
 
     `child` is the first worker process, if it was started already.
     """
@@ -131,9 +130,9 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
         click.echo(f"usdvol-lint: error: {error}", err=True)
     except (click.Abort, KeyboardInterrupt):
         click.echo("usdvol-lint: interrupted", err=True)
-    except Exception as error:
-        said = " ".join(f"{type(error).__name__}: {error}".split())
-        click.echo(f"usdvol-lint: internal error: {said} (--verbose shows more)", err=True)
+    except Exception as error:  # a bug of ours must exit with 2 too: 1 would mean findings
+        words = " ".join(f"{type(error).__name__}: {error}".split())
+        click.echo(f"usdvol-lint: internal error: {words} (--verbose shows more)", err=True)
         if not {"-v", "--verbose"}.isdisjoint(sys.argv if arguments is None else arguments):
             import traceback
 
@@ -142,7 +141,7 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
 
 
 def help_text() -> str:
-    """What `--help` prints: `help.txt` holds it, so that nobody has to wait for click's import."""
+    """What `--help` prints; it is kept in `help.txt`, since importing click takes time."""
     context = click.Context(
         command, info_name="usdvol-lint", terminal_width=80, **command.context_settings
     )
@@ -152,12 +151,13 @@ def help_text() -> str:
 def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
     from usdvol_lint.command import output
     from usdvol_lint.command.progress import ProgressBar
+    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.run.lint import lint
 
     settled: list[tuple[Config, list[Destination]]] = []
 
     def settle() -> Config:
-        config, _ = _settle(given)
+        config, _ = read_settings(given)
         destinations = output.pair(given["output_format"], given["output"], config.output_format)
         output.check_writable(destinations)
         settled.append((config, destinations))
@@ -181,70 +181,6 @@ def _exit_code(report: Report, fail_on: str) -> int:
         return CLEAN
     threshold = Severity[fail_on.upper()]
     return FINDINGS if any(finding.severity >= threshold for finding in findings) else CLEAN
-
-
-def _settle(given: dict[str, Any]) -> tuple[Config, Path | None]:
-    """The configuration file, with the command line on top of it."""
-    from pathlib import Path
-
-    from usdvol_lint import config
-
-    try:
-        here = Path.cwd()
-    except OSError:
-        raise UsageError("the working directory is not there any more") from None
-    file = None
-    if given["config_file"] and given["isolated"]:
-        raise click.UsageError("--config and --isolated exclude each other")
-    if given["config_file"]:
-        file = Path(given["config_file"])
-    elif not given["isolated"]:
-        file = config.find_config_file(here)
-    base = config.read_config(file) if file else config.Config()
-    changes: dict[str, Any] = {"packs": base.packs + given["pack"]}
-    if given["jobs"] is not None:
-        changes["jobs"] = given["jobs"]
-    if given["timeout"] is not None:
-        changes["timeout"] = config.timeout("--timeout", given["timeout"])
-    if given["fail_on"] is not None:
-        changes["fail_on"] = config.one_of("--fail-on", given["fail_on"], config.FAIL_ON)
-    if given["load"] is not None:
-        changes["load"] = config.one_of("--load", given["load"], config.LOADS)
-    if given["content"] is not None:
-        changes["content"] = config.one_of("--content", given["content"], config.CONTENTS)
-    if given["variants"] is not None:
-        changes["variants"] = config.one_of("--variants", given["variants"], config.VARIANTS)
-    if given["times"] is not None:
-        changes["times"] = config.times("--times", given["times"])
-    if given["statistics"]:
-        changes["statistics"] = True
-    for name in given["output_format"]:
-        config.one_of("--output-format", name, config.OUTPUT_FORMATS)
-    select = _codes(given["select"])
-    if select:
-        changes["select"] = select
-    # What is selected here is not ignored for the file's sake.
-    again = {code.upper() for code in select}
-    kept = tuple(code for code in base.ignore if code.strip().upper() not in again)
-    changes["ignore"] = kept + _codes(given["ignore"])
-    changes["severity"] = {**base.severity, **_severities(given["severity"])}
-    return base._replace(**changes), file
-
-
-def _codes(lists: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(code.strip() for codes in lists for code in codes.split(",") if code.strip())
-
-
-def _severities(pairs: tuple[str, ...]) -> dict[str, str]:
-    from usdvol_lint.config import LEVELS, one_of
-
-    severities = {}
-    for pair in _codes(pairs):
-        code, equals, level = (part.strip() for part in pair.partition("="))
-        if not equals:
-            raise UsageError(f"--severity {pair}: write it as CODE=LEVEL, such as AST002=warning")
-        severities[code] = one_of(f"--severity {code}", level, LEVELS)
-    return severities
 
 
 def _options(given: dict[str, Any]) -> Options:
@@ -284,17 +220,20 @@ def _test(given: dict[str, Any]) -> int:
 
 def _show_settings(given: dict[str, Any]) -> int:
     from usdvol_lint.command import about, output
+    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.packs.activation import activate
     from usdvol_lint.packs.catalog import load
     from usdvol_lint.run.lint import settings_of
 
-    config, file = _settle(given)
+    config, file = read_settings(given)
     settings = settings_of(config, activate(config, load(config.packs)))
     output.print_text(about.show_settings(settings, str(file) if file else None))
     return CLEAN
 
 
 def _catalog(given: dict[str, Any]) -> Catalog:
+    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.packs.catalog import load
 
-    return load(_settle(given)[0].packs)
+    config, _ = read_settings(given)
+    return load(config.packs)

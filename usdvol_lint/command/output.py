@@ -1,4 +1,4 @@
-"""Where reports go: standard output or files, each in its format."""
+"""Writes reports, each in its format, to standard output or files."""
 
 from __future__ import annotations
 
@@ -16,16 +16,17 @@ MACHINE_FORMATS = frozenset(FORMATS) - {"full", "concise"}
 
 
 class Destination(NamedTuple):
-    """One report: its format, and its file or None for standard output."""
+    """Where one report goes: its format, and its file, or None for standard output."""
 
     format: str
     file: str | None
 
 
 def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Destination]:
-    """Formats and files in the order given; one format, the last, goes to standard output.
+    """Pairs formats and files in the order given; a format without a file is for standard output.
 
-    Beside files for machines the terminal still gets a text report.
+    If all are files in formats for programs, a text report is added for standard output.
+    Raises UsageError where the numbers don't match or a file is named twice.
     """
     named = list(formats) or [default]
     if len(files) > len(named):
@@ -44,7 +45,7 @@ def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Des
 
 
 def check_writable(destinations: Sequence[Destination]) -> None:
-    """Finds out before the work whether its result can be kept."""
+    """Raises UsageError, before any work, where a file can't be written."""
     for destination in destinations:
         if destination.file is None:
             continue
@@ -58,9 +59,10 @@ def check_writable(destinations: Sequence[Destination]) -> None:
 
 
 def write(report: Report, destinations: Sequence[Destination], options: Options) -> None:
-    """Renders and writes every report; files appear whole or not at all.
+    """Renders and writes every report; a file is replaced as a whole or not at all.
 
-    A file that can't be written is said when all others are out, its report on standard output.
+    A report whose file can't be written goes to standard output; once all reports are written, a
+    UsageError names these files.
     """
     failures = []
     for destination in destinations:
@@ -78,14 +80,14 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
 
 
 def options_for(color: str, quiet: bool, verbose: bool) -> Options:
-    """How standard output wants its report."""
+    """The options for a report on standard output; `color` is auto, always or never."""
     wanted = color == "always" or (color == "auto" and _terminal_wants_color())
     width = shutil.get_terminal_size().columns
     return Options(color=wanted, width=width, quiet=quiet, verbose=verbose)
 
 
 def _terminal_wants_color() -> bool:
-    """By the conventions of no-color.org and force-color.org, which rich follows too."""
+    """Follows no-color.org and force-color.org, as rich does."""
     if os.environ.get("NO_COLOR"):
         return False
     if os.environ.get("FORCE_COLOR"):
@@ -94,7 +96,7 @@ def _terminal_wants_color() -> bool:
 
 
 def print_text(text: str) -> None:
-    """Writes text as UTF-8 whatever the locale: names in a stage are not bound to it."""
+    """Writes text as UTF-8 whatever the locale, which may lack characters of a stage's names."""
     if sys.stdout is None:
         raise UsageError("there is no standard output to print to")
     try:
@@ -102,9 +104,9 @@ def print_text(text: str) -> None:
         sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
         sys.stdout.buffer.flush()
     except OSError as error:
-        # What is still in the buffer must not fail once more when Python ends.
+        # What is left in the buffer must not fail again when Python exits.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        # Where the reader went away, as `head` does, there is nobody to tell.
+        # A reader that closed the pipe, as `head` does, is no failure.
         if not isinstance(error, BrokenPipeError):
             raise UsageError(f"can't write to standard output: {error.strerror}") from error
 
@@ -124,5 +126,5 @@ def _replace(file: Path, text: str) -> None:
 
 
 def _is_device(file: Path) -> bool:
-    """Whether the file is there and not one to replace, such as /dev/null or a pipe."""
+    """Whether it exists but is no regular file, such as /dev/null or a pipe."""
     return os.path.exists(file) and not os.path.isfile(file)

@@ -1,4 +1,4 @@
-"""A progress bar on standard error, for runs that take long enough to want one."""
+"""A progress bar on standard error, for runs that take long enough."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import time
 from types import TracebackType
 from typing import Any
 
-_PATIENCE = 0.7
-"""Seconds before the bar shows: shorter runs never import what draws it."""
+_START_DELAY = 0.7
+"""Seconds before the bar is shown: shorter runs don't import rich."""
 
 
 class ProgressBar:
-    """Counts stages, and the samples of long sequences; safe to call from several threads."""
+    """Counts stages, and the samples of long sequences; its methods are thread-safe."""
 
     def __init__(self, enabled: bool) -> None:
         self._enabled = enabled
@@ -52,7 +52,7 @@ class ProgressBar:
             self._show()
 
     def _show(self) -> None:
-        if not self._enabled or time.monotonic() - self._began < _PATIENCE:
+        if not self._enabled or time.monotonic() - self._began < _START_DELAY:
             return
         if self._stages < 2 and not self._samples:
             return

@@ -12,6 +12,7 @@ from usdvol_lint.engine.walk import Walk
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.prims.tables import Chunk, Table
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
+from usdvol_lint.facts.usd.kinds import KindKey
 from usdvol_lint.rule import Rule, When
 
 Options: TypeAlias = Mapping[str, Mapping[str, Any]]

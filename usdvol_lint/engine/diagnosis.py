@@ -7,9 +7,9 @@ import stat
 from typing import BinaryIO
 
 from usdvol_lint.engine.trouble import Trouble, UnreadableStageError
-from usdvol_lint.facts.files.disk import LFS_SIGNATURE
 from usdvol_lint.model import quoted
 from usdvol_lint.paths import SUFFIXES
+from usdvol_lint.volumefile.signatures import LFS_POINTER
 
 CRATE_SIGNATURE = b"PXR-USDC"
 ZIP_SIGNATURE = b"PK\x03\x04"
@@ -102,7 +102,7 @@ def _trouble_with_name(path: str) -> Trouble | None:
 def _trouble_with_head(head: bytes, size: int, suffix: str) -> Trouble | None:
     if not size:
         return Trouble("an empty file (0 bytes)", "export it again")
-    if head.startswith(LFS_SIGNATURE):
+    if head.startswith(LFS_POINTER):
         return Trouble("a Git-LFS pointer, not the file itself", "run `git lfs pull`")
     if head.startswith(_BYTE_ORDER_MARK):
         return Trouble(

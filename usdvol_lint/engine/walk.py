@@ -11,7 +11,7 @@ from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import has_metadata
-from usdvol_lint.facts.usd.kinds import PrimKinds
+from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 from usdvol_lint.rule import Rule
 
 _BATCH = 256

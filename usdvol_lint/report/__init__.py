@@ -1,4 +1,4 @@
-"""Report formats: each is a module with `render(report, options)`, imported when asked for."""
+"""The output formats: each is a module with `render(report, options)`, imported when used."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ FORMATS: Final[Mapping[str, str]] = {
     "concise": "usdvol_lint.report.concise",
     "json": "usdvol_lint.report.json_report",
 }
-"""The name of each format, and the module that writes it."""
+"""The module that writes each format, by the format's name."""
 
 
 class Options(NamedTuple):
-    """How to write a report; a format ignores what means nothing to it.
+    """How to write a report; a format may ignore some of it.
 
-    `width` is that of the terminal and matters with `color` only.
+    `width` is that of the terminal in cells: with `color`, the text report is wrapped to it.
     """
 
     color: bool = False
@@ -30,6 +30,6 @@ class Options(NamedTuple):
 
 
 def render(report: Report, format: str, options: Options) -> str:
-    """The whole report in one of FORMATS: empty, or ending in a newline."""
+    """The report in one of FORMATS: empty, or with a newline at its end."""
     text: str = import_module(FORMATS[format]).render(report, options)
     return text

@@ -1,4 +1,4 @@
-"""The report for grep and editors, with a line for each finding.
+"""The report for grep and editors: one line for each finding.
 
 `path: CODE severity <prim.property> [frames] (variant) message`
 """
@@ -11,8 +11,8 @@ from pathlib import Path
 
 from usdvol_lint.model import Finding, Report, Site, StageReport, printable
 from usdvol_lint.report import Options
-from usdvol_lint.report.style import paint
-from usdvol_lint.report.text import SEVERITY_STYLES, place
+from usdvol_lint.report.style import SEVERITY_STYLES, paint
+from usdvol_lint.report.text import location
 
 
 def render(report: Report, options: Options) -> str:
@@ -26,7 +26,7 @@ def render(report: Report, options: Options) -> str:
 def _parts(finding: Finding, stage: StageReport, options: Options) -> Iterator[str]:
     site = finding.site
     rule = f"{printable(finding.code)} {finding.severity.label}"
-    yield f"{place(site)}:"
+    yield f"{location(site)}:"
     yield paint(rule, SEVERITY_STYLES[finding.severity], options.color)
     if site.prim or site.property:
         yield f"<{printable(_object_path(site))}>"
@@ -45,10 +45,10 @@ def _object_path(site: Site) -> str:
 
 
 def _same_file(layer: str, stage: str) -> bool:
-    """Whether both name one file: a layer is relative, a stage is as the user wrote it."""
+    """Whether both are one path: a layer's is relative, a stage's as the user wrote it."""
     return layer == stage or _absolute(layer) == _absolute(stage)
 
 
 def _absolute(path: str) -> str:
-    # Not `resolve`: a report neither touches files nor fails over a path that cannot exist.
+    # Not `resolve`, which looks at the disk, and fails for paths that can't exist.
     return normpath(Path(path).absolute())

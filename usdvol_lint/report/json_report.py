@@ -1,4 +1,4 @@
-"""The report for programs: one JSON object, described by `report-1.0.schema.json`."""
+"""The report for programs: one JSON object that follows `report-1.0.schema.json`."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from usdvol_lint.report import Options
 
 SCHEMA_VERSION = "1.0"
 
-# Lone surrogates are not valid UTF-8; the others would act on a terminal that shows the report.
+# Lone surrogates are not valid UTF-8; a terminal would obey the others instead of showing them.
 _TO_ESCAPE = re.compile(r"[\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff]")
 
-# Above it a whole number is no longer exact in other readers of JSON.
+# Larger whole numbers are inexact in readers that take all JSON numbers for doubles.
 _LARGEST_INTEGER = 2**53
 
 
@@ -50,12 +50,12 @@ def _report(report: Report) -> dict[str, object]:
 
 
 def _stage(stage: StageReport) -> dict[str, object]:
-    fields = stage.particle_fields
+    figures = stage.particle_fields
     return {
         "path": stage.path,
         "status": stage.status.value,
         "stats": stage.stats,
-        **({} if fields is None else {"particle_fields": [each._asdict() for each in fields]}),
+        **({} if figures is None else {"particle_fields": [one._asdict() for one in figures]}),
         "seconds": round(sum(stage.seconds.values(), 0.0), 6),
         "findings": [_finding(finding) for finding in stage.findings],
     }
@@ -88,7 +88,7 @@ def _number(time: float) -> int | float:
 
 
 def _setting(value: object) -> object:
-    """A setting in JSON's terms, the same in every run."""
+    """A setting in the types of JSON, with sets sorted, so that equal runs write equal reports."""
     match value:
         case Severity():
             return value.label

@@ -1,13 +1,24 @@
-"""Colour on a terminal: the only escape codes that reach one."""
+"""Colour for terminals: no other module writes escape codes."""
 
 from __future__ import annotations
 
+from usdvol_lint.model import Severity
+
+SEVERITY_STYLES = {
+    Severity.ERROR: "bold red",
+    Severity.WARNING: "bold yellow",
+    Severity.INFO: "bold cyan",
+}
+
 
 def paint(text: str, style: str, color: bool) -> str:
-    """Printable text in a style of rich, such as `bold red`; as it is without colour."""
+    """Text in a style of rich, such as `bold red`; without `color` the text itself.
+
+    Text has to be printable already: see `model.printable`.
+    """
     if not color:
         return text
-    # rich costs more start-up time than all our formats together, and most runs have no colour.
+    # Importing rich takes longer than importing all formats, and most runs have no colour.
     from rich.color import ColorSystem
     from rich.style import Style
 

@@ -1,4 +1,4 @@
-"""The report for people: stage by stage, prim by prim, with a verdict as the last line."""
+"""The report for people: by stage and prim, with a verdict in the last line."""
 
 from __future__ import annotations
 
@@ -17,40 +17,36 @@ from usdvol_lint.model import (
     printable,
 )
 from usdvol_lint.report import Options
-from usdvol_lint.report.style import paint
-
-SEVERITY_STYLES = {
-    Severity.ERROR: "bold red",
-    Severity.WARNING: "bold yellow",
-    Severity.INFO: "bold cyan",
-}
+from usdvol_lint.report.style import SEVERITY_STYLES, paint
 
 _LONGEST_SUGGESTION = 400
 
-# A word to wrap at; quoted text counts as one, so that a path with spaces can still be copied.
+# Text is wrapped between these words; what is in quotes is one, so that a path with spaces can be
+# copied.
 _WORD = re.compile(r"""(?<!\S)\(?(['"@]).*?\1\S*|\S+""")
 
 
 def render(report: Report, options: Options) -> str:
-    blocks = [_stage(stage, options) for stage in report.stages if _speaks(stage, options)]
+    blocks = [_stage(stage, options) for stage in report.stages if _is_shown(stage, options)]
     if not options.quiet:
         blocks.append(paint(verdict(report), _verdict_style(report), options.color) + "\n")
     return "\n".join(blocks)
 
 
 def verdict(report: Report) -> str:
-    """What came of the run, in one line."""
+    """The result of the run in one line."""
     summary = report.summary
     if not summary.stages:
         return "no stages checked"
-    parts = [_found(summary), f"{_looked_at(summary.stats)} in {_duration(report.seconds)}"]
+    checked = _checked_counts(summary.stats)
+    parts = [_finding_counts(summary), f"{checked} in {_duration(report.seconds)}"]
     unchecked = summary.stages - summary.by_status.get(Status.CHECKED, 0)
     if unchecked:
         parts.append(f"{_count(unchecked, 'stage')} could not be checked")
     return "; ".join(parts)
 
 
-def _found(summary: Summary) -> str:
+def _finding_counts(summary: Summary) -> str:
     if not summary.findings:
         return f"no findings in {_count(summary.stages, 'stage')}"
     counts = _counts(
@@ -60,7 +56,7 @@ def _found(summary: Summary) -> str:
     return f"{counts} in {of}{_count(summary.stages, 'stage')}"
 
 
-def _looked_at(stats: Mapping[str, int]) -> str:
+def _checked_counts(stats: Mapping[str, int]) -> str:
     counts = _counts(
         (stats.get("volumes", 0), "volume"),
         (stats.get("particle_fields", 0), "particle field"),
@@ -76,8 +72,8 @@ def _verdict_style(report: Report) -> str:
     return SEVERITY_STYLES[max(severities)] if severities else "bold green"
 
 
-def _speaks(stage: StageReport, options: Options) -> bool:
-    """Whether there is anything to say of a stage."""
+def _is_shown(stage: StageReport, options: Options) -> bool:
+    """Whether a stage has a section in the report."""
     if stage.findings or stage.status != Status.CHECKED:
         return True
     return options.verbose and not options.quiet
@@ -106,7 +102,7 @@ def _prim_of(finding: Finding) -> str:
 
 
 def _prim(prim: str, findings: Iterable[Finding], options: Options) -> Iterator[str]:
-    """The findings of one prim under its path; those of the stage itself have no heading."""
+    """The findings on one prim under its path; those on the stage itself have no heading."""
     if prim:
         yield "  " + paint(printable(prim), "bold", options.color)
     for finding in findings:
@@ -118,7 +114,7 @@ def _finding(finding: Finding, indent: str, options: Options) -> Iterator[str]:
     style = SEVERITY_STYLES[finding.severity]
     yield _labelled(label, printable(finding.message), style, indent, options)
     indent += "  "
-    yield f"{indent}{paint('-->', 'blue', options.color)} {place(finding.site)}"
+    yield f"{indent}{paint('-->', 'blue', options.color)} {location(finding.site)}"
     if where := ", ".join(_where(finding.site)):
         yield _labelled("at", where, "blue", indent, options)
     if finding.suggestion:
@@ -131,15 +127,15 @@ def _finding(finding: Finding, indent: str, options: Options) -> Iterator[str]:
 
 
 def _shortened(suggestion: str) -> str:
-    """A suggestion of many items, such as frames to paste, up to one of them."""
+    """A long suggestion, such as a list of frames to paste, cut off between two of its items."""
     if len(suggestion) <= _LONGEST_SUGGESTION:
         return suggestion
     start = suggestion[:_LONGEST_SUGGESTION].rpartition(", ")[0]
     return f"{start}, … (--verbose shows all of it)" if start else suggestion
 
 
-def place(site: Site) -> str:
-    """`layer:line:column`, as far as they are known."""
+def location(site: Site) -> str:
+    """`layer:line:column`, without those that are None."""
     parts = [printable(site.layer)]
     if site.line is not None:
         parts.append(str(site.line))
@@ -149,7 +145,7 @@ def place(site: Site) -> str:
 
 
 def _where(site: Site) -> Iterator[str]:
-    """What the heading and the place leave open: property, variant and frames."""
+    """Property, variant and frames: what is neither in the heading nor in the location."""
     if site.property:
         yield printable(site.property)
     if site.variant:
@@ -164,7 +160,7 @@ def _rule(finding: Finding) -> str:
 
 
 def _extras(stage: StageReport, options: Options) -> Iterator[str]:
-    """What only `--verbose` says of a stage."""
+    """What `--verbose` adds to a stage."""
     stats = ", ".join(f"{printable(name)} {count:,}" for name, count in stage.stats.items())
     seconds = ", ".join(f"{printable(name)} {time:.3f}" for name, time in stage.seconds.items())
     if stats:
@@ -174,9 +170,9 @@ def _extras(stage: StageReport, options: Options) -> Iterator[str]:
 
 
 def _labelled(label: str, text: str, style: str, indent: str, options: Options) -> str:
-    """A painted label and its text, which continues below itself when a terminal is narrow."""
-    # Without colour nothing is wrapped: the output goes to a file, a pipe or a log, where a search
-    # for a phrase must not miss it because of a line break.
+    """A styled label and its text, whose further lines are indented to the first."""
+    # Without colour nothing is wrapped: the output goes to a file, a pipe or a log, where a line
+    # break in a phrase would hide it from a search.
     lines = [text]
     hang = len(indent) + len(label) + 1
     if options.color:
@@ -185,7 +181,7 @@ def _labelled(label: str, text: str, style: str, indent: str, options: Options) 
 
 
 def _wrap(text: str, width: int) -> Iterator[str]:
-    """Text in lines of at most `width` cells; a longer word is left whole."""
+    """Text in lines of at most `width` cells; a word that is longer has a line of its own."""
     from rich.cells import cell_len
 
     line = ""

@@ -1,20 +1,15 @@
-"""Readers of field files: header and metadata only, never voxels."""
+"""Readers of volume files: header and metadata only, never voxels."""
 
 from __future__ import annotations
 
-import os
-from typing import TypeAlias
-
 from usdvol_lint.volumefile.model import (
     ErrorCode,
-    FileWarning,
     Format,
     Grid,
     IndexBounds,
     Metadatum,
     VolumeFile,
     VolumeFileError,
-    WarningCode,
 )
 from usdvol_lint.volumefile.signatures import HDF5, LFS_POINTER, NANOVDB, OGAWA, OPENVDB
 from usdvol_lint.volumefile.transform import Bounds, Frustum, Matrix, Point, Transform
@@ -23,8 +18,6 @@ from usdvol_lint.volumefile.window import Window, open_window
 __all__ = [
     "Bounds",
     "ErrorCode",
-    "FileKey",
-    "FileWarning",
     "Format",
     "Frustum",
     "Grid",
@@ -35,23 +28,18 @@ __all__ = [
     "Transform",
     "VolumeFile",
     "VolumeFileError",
-    "WarningCode",
-    "file_key",
     "read_volume_file",
     "read_window",
 ]
-
-FileKey: TypeAlias = tuple[int, int, int, int]
-"""Device, inode, size and time of change: a file with the same key has the same content."""
 
 _SIGNATURES = (OPENVDB, *NANOVDB, OGAWA, HDF5)
 _LONGEST_SIGNATURE = len(LFS_POINTER)
 
 
 def read_volume_file(path: str, offset: int = 0, size: int | None = None) -> VolumeFile:
-    """What the volume file at `path` says, whatever its extension.
+    """Reads the volume file at `path`, whatever its extension.
 
-    `offset` and `size` choose a part of the file, such as a file stored in a package.
+    `offset` and `size`, in bytes, choose a part of it, such as a file stored in a package.
     Raises `VolumeFileError`, and nothing else, for whatever may be wrong with the file.
     """
     if offset < 0 or (size is not None and size < 0):
@@ -61,8 +49,8 @@ def read_volume_file(path: str, offset: int = 0, size: int | None = None) -> Vol
 
 
 def read_window(window: Window) -> VolumeFile:
-    """What the volume file in a window says, from its start."""
-    # Each reader is imported where its signature is met: most stages have files of one kind.
+    """Reads the volume file in a window; its first bytes tell the format."""
+    # A reader is imported when its signature is met: most stages have files of one format.
     head = window.peek(_LONGEST_SIGNATURE)
     if not head:
         raise VolumeFileError("not-a-file", "empty (0 bytes)")
@@ -91,12 +79,3 @@ def read_window(window: Window) -> VolumeFile:
     raise VolumeFileError(
         "not-a-volume-file", "it begins like no OpenVDB, NanoVDB or Field3D file", 0
     )
-
-
-def file_key(path: str) -> FileKey:
-    """What tells one state of a file from another, to remember what was read by."""
-    try:
-        status = os.stat(path)
-    except (OSError, ValueError) as error:
-        raise VolumeFileError("not-a-file", str(error)) from None
-    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns

@@ -1,4 +1,4 @@
-"""Every volume file is read once, however often it is named."""
+"""Reads each volume file once, however often it is named."""
 
 from __future__ import annotations
 
@@ -7,47 +7,36 @@ from collections.abc import Hashable
 from typing import NamedTuple
 
 from usdvol_lint.volumefile import read_window
-from usdvol_lint.volumefile.model import VolumeFile, VolumeFileError
+from usdvol_lint.volumefile.model import Fault, VolumeFile, VolumeFileError
 from usdvol_lint.volumefile.recall import Recall
 from usdvol_lint.volumefile.window import Window, open_window
 
 _NUMBER = r"\d+"
 
 
-class Fault(NamedTuple):
-    """What is wrong with a file, or why it was not read; see `VolumeFileError`."""
-
-    code: str
-    message: str
-    offset: int | None = None
-
-    def __str__(self) -> str:
-        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
-
-
 class Reading(NamedTuple):
-    """What came of reading a file: its content, or as much of it as was understood, without any
-    metadata, and what is wrong with it.
+    """The result of reading a file.
 
-    Files of equal `kind` differ in nothing but bounds, transforms and numbers in messages.
+    `file` has no metadata and no UUID; with a `fault` it is what was read before that, if anything.
+    Files of equal `layout` differ in nothing but bounds, transforms and numbers in messages.
     """
 
     file: VolumeFile | None
     fault: Fault | None
-    kind: Hashable
+    layout: Hashable
 
 
 class VolumeFiles:
-    """Reads files, and remembers what it read by what tells one state of a file from another."""
+    """A cache of readings; a file is read anew if its size or time of change is another."""
 
     def __init__(self) -> None:
         self._readings: dict[tuple[int | None, ...], Reading] = {}
-        self._kinds: dict[Hashable, int] = {}
+        self._layouts: dict[Hashable, int] = {}
         self._recall = Recall()
         self._last: tuple[VolumeFile | None, int] = (None, 0)
 
     def read(self, path: str, offset: int = 0, size: int | None = None) -> Reading:
-        """What `read_volume_file` would return or raise."""
+        """What `read_volume_file` returns or raises, as a `Reading`."""
         try:
             with open_window(path, offset, size) as window:
                 state = window.status
@@ -67,20 +56,20 @@ class VolumeFiles:
             except VolumeFileError as error:
                 return self._failed(error)
             self._recall.learn(window, file)
-        return self._keep(file, None)
+        return self._reading(file, None)
 
     def _failed(self, error: VolumeFileError) -> Reading:
-        # The error itself would hold on to all that was at hand when it was raised.
+        # The error itself must not be kept: its traceback keeps the reader and its window.
         partial = error.partial and _without_metadata(error.partial)
-        return self._keep(partial, Fault(error.code, error.message, error.offset))
+        return self._reading(partial, error.fault)
 
-    def _keep(self, file: VolumeFile | None, fault: Fault | None) -> Reading:
-        # Frames that differ in nothing are recalled as one and the same.
-        known, kind = self._last
-        if file is None or file is not known or fault:
-            kind = self._kinds.setdefault(_kind(file, fault), len(self._kinds))
-            self._last = (None if fault else file, kind)
-        return Reading(file, fault, kind)
+    def _reading(self, file: VolumeFile | None, fault: Fault | None) -> Reading:
+        # Of frames that differ in nothing, `Recall` returns the same object.
+        last, layout = self._last
+        if file is None or file is not last or fault:
+            layout = self._layouts.setdefault(layout_of(file, fault), len(self._layouts))
+            self._last = (None if fault else file, layout)
+        return Reading(file, fault, layout)
 
 
 def _without_metadata(file: VolumeFile) -> VolumeFile:
@@ -88,12 +77,13 @@ def _without_metadata(file: VolumeFile) -> VolumeFile:
     return file._replace(uuid=None, metadata={}, grids=grids)
 
 
-def _kind(file: VolumeFile | None, fault: Fault | None) -> Hashable:
-    said = fault and (fault.code, re.sub(_NUMBER, "", fault.message))
+def layout_of(file: VolumeFile | None, fault: Fault | None) -> Hashable:
+    """All of a reading but bounds, transforms and numbers in messages; see `Reading`."""
+    message = fault and (fault.code, re.sub(_NUMBER, "", fault.message))
     if file is None:
-        return said
+        return message
     return (
-        said,
+        message,
         file.format,
         file.version_number,
         file.complete,

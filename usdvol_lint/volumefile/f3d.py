@@ -1,13 +1,11 @@
-"""Field3D: layers in partitions, kept in an Ogawa or an HDF5 file."""
+"""Field3D: layers in partitions, in an Ogawa or an HDF5 container."""
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, field
 from typing import Final
 
 from usdvol_lint.volumefile.model import (
-    FileWarning,
     Grid,
     IndexBounds,
     MetadataValue,
@@ -27,9 +25,11 @@ from usdvol_lint.volumefile.transform import (
 )
 
 LARGEST_VALUE: Final = 1 << 20
+"""In bytes; larger values are skipped."""
 DEEPEST: Final = 4
-"""Root, partition, layer, metadata: nothing below matters."""
+"""Levels of groups that are read: root, partition, layer and its metadata."""
 MOST: Final = 100_000
+"""More groups and attributes than any writer writes."""
 
 _VALUE_TYPES: dict[tuple[MetadataValue, MetadataValue], str] = {
     (components, bits): name
@@ -40,7 +40,7 @@ _VALUE_TYPES: dict[tuple[MetadataValue, MetadataValue], str] = {
 
 @dataclass(slots=True)
 class Group:
-    """A named group of either container, without its data sets."""
+    """A group of an Ogawa or HDF5 file, without its data sets."""
 
     name: str
     attributes: dict[str, Metadatum] = field(default_factory=dict)
@@ -55,73 +55,61 @@ class Group:
 
 
 def volume_file(root: Group) -> VolumeFile:
-    """What a container's groups say in the terms of Field3D."""
+    """The Field3D file in a container; raises VolumeFileError if it is not one."""
     version = root.value("version_number")
     if not (isinstance(version, tuple) and len(version) == 3):
         raise VolumeFileError("not-a-volume-file", "the container holds no Field3D")
     major, minor, patch = map(int, version)
     grids: list[Grid] = []
-    warnings: list[FileWarning] = []
-    ordinals: Counter[tuple[str, str]] = Counter()
     for partition in root.groups:
         if partition.value("is_field3d_partition") != "1":
             continue
         purpose = _purpose(partition.name)
-        mapping, warning = _mapping(partition)
+        mapping = _mapping(partition)
         for layer in partition.groups:
             if layer.value("class_type") != "field3d_layer":
                 continue
-            if warning is not None:
-                warnings.append(FileWarning(warning.code, warning.message, len(grids)))
-            grids.append(_grid(layer, purpose, mapping, ordinals[purpose, layer.name]))
-            ordinals[purpose, layer.name] += 1
+            grids.append(_grid(layer, purpose, mapping))
     return VolumeFile(
         format="field3d",
         version=f"{major}.{minor}.{patch}",
         version_number=major * 10_000 + minor * 100 + patch,
         grids=tuple(grids),
-        warnings=tuple(warnings),
         grid_count=len(grids),
     )
 
 
 def _purpose(partition: str) -> str:
-    """`cloud` of `cloud.1`: the number tells apart partitions that are mapped differently."""
+    """`cloud` of `cloud.1`: Field3D numbers partitions of one name with different mappings."""
     name, dot, number = partition.rpartition(".")
     return name if dot and number.isdigit() else partition
 
 
-def _mapping(partition: Group) -> tuple[tuple[str, Matrix] | None, FileWarning | None]:
-    """The map from the unit cube that a partition's extents span to the world."""
+def _mapping(partition: Group) -> tuple[str, Matrix] | None:
+    """Type and matrix of the mapping from a partition's unit cube to world space.
+
+    None for a mapping that is no matrix; of an animated one the first sample.
+    """
     mapping = partition.group("mapping")
     kind = mapping.value("mapping_type") if mapping else None
     if mapping is None or kind == "NullFieldMapping":
-        return ("NullFieldMapping", IDENTITY), None
+        return "NullFieldMapping", IDENTITY
     numbers = mapping.value("matrix_0")
     if kind != "MatrixFieldMapping" or not isinstance(numbers, tuple) or len(numbers) != 16:
-        message = f"partition {quoted_short(partition.name)}: no {quoted_short(str(kind))} is read"
-        return None, FileWarning("mapping-unread", message)
+        return None
     if not finite(numbers):
         message = f"the mapping of partition {quoted_short(partition.name)} is not finite"
         raise VolumeFileError("not-a-volume-file", message)
-    samples = mapping.value("num_time_samples")
-    warning = None
-    if isinstance(samples, int) and samples > 1:
-        message = (
-            f"the mapping of partition {quoted_short(partition.name)} moves in {samples} samples"
-        )
-        warning = FileWarning("mapping-animated", message)
-    return ("MatrixFieldMapping", rows(numbers)), warning
+    return "MatrixFieldMapping", rows(numbers)
 
 
-def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None, index: int) -> Grid:
+def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None) -> Grid:
     components, bits = layer.value("components"), layer.value("bits_per_component")
     extents, window = _box(layer, "extents"), _box(layer, "data_window")
     user = layer.group("metadata")
     return Grid(
         name=layer.name,
         unique_name=layer.name,
-        index=index,
         purpose=purpose,
         value_type=_VALUE_TYPES.get((components, bits), "unknown"),
         tree_type=str(layer.value("class_name") or "unknown"),
@@ -132,7 +120,7 @@ def _grid(layer: Group, purpose: str, mapping: tuple[str, Matrix] | None, index:
 
 
 def _box(layer: Group, name: str) -> IndexBounds | None:
-    """Two corners: one value in HDF5, two in Ogawa."""
+    """A box that HDF5 stores as one attribute, Ogawa as two; None if invalid or missing."""
     corners = layer.value(name)
     if corners is None:
         low, high = layer.value(f"{name}_min"), layer.value(f"{name}_max")
@@ -144,7 +132,7 @@ def _box(layer: Group, name: str) -> IndexBounds | None:
 
 
 def _overlap(extents: IndexBounds | None, window: IndexBounds | None) -> IndexBounds | None:
-    """The voxels that both hold data and lie in what the mapping spans."""
+    """The voxels of the data window within the extents; the extents if there are none."""
     if extents is None or window is None:
         return extents or window
     x, y, z = map(max, extents[0], window[0])
@@ -153,7 +141,7 @@ def _overlap(extents: IndexBounds | None, window: IndexBounds | None) -> IndexBo
 
 
 def _transform(mapping: tuple[str, Matrix] | None, extents: IndexBounds | None) -> Transform | None:
-    """From voxels to the unit cube of the extents, whose faces are those of the outer voxels."""
+    """From index space to world space, via the unit cube around the outermost voxels."""
     if mapping is None or extents is None:
         return None
     kind, matrix = mapping

@@ -1,4 +1,4 @@
-"""Field3D's groups in an HDF5 file, by means of h5py, which is optional."""
+"""Reads Field3D's groups from an HDF5 file with h5py, an optional dependency."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from usdvol_lint.volumefile.model import MetadataValue, Metadatum, VolumeFileErr
 from usdvol_lint.volumefile.signatures import HDF5
 from usdvol_lint.volumefile.window import Window
 
-# Where a superblock of each version keeps the size of its offsets and the end of the file.
+# By version of the superblock: the positions of the size of offsets and of the end of the file.
 _END = {0: (13, 40), 1: (13, 44), 2: (9, 28), 3: (9, 28)}
 _LONGEST_SUPERBLOCK = 100
 _U64 = Struct("<Q")
 
 
 def read_hdf5(window: Window) -> Group:
-    """The tree of groups, without data sets."""
+    """The root group; raises VolumeFileError, of code `needs-h5py` if h5py is not installed."""
     end = _stored_end(window)
     if end > window.size:
         message = f"the file ends at byte {window.size} of {end}"
@@ -34,12 +34,12 @@ def read_hdf5(window: Window) -> Group:
             return _Reader(h5py).group("", file, 1)
     except VolumeFileError:
         raise
-    except Exception as error:  # h5py raises whatever the code of its C library maps to
+    except Exception as error:  # h5py raises many types, by errors of its C library
         raise VolumeFileError("not-a-volume-file", f"HDF5: {error!s:.200}") from None
 
 
 def _stored_end(window: Window) -> int:
-    """Where the file says that it ends; 0 where it says so in a way not known here."""
+    """The end of the file as its superblock has it; 0 for an unknown kind of superblock."""
     head = window.read(_LONGEST_SUPERBLOCK)
     window.position = 0
     size_at, end_at = _END.get(head[len(HDF5)], (0, 0))
@@ -47,26 +47,28 @@ def _stored_end(window: Window) -> int:
 
 
 class _Reader:
+    """Reads groups; `left` is how many more names it may meet."""
+
     def __init__(self, h5py: Any) -> None:
         self.h5py = h5py
         self.left = MOST
 
     def group(self, name: str, stored: Any, depth: int) -> Group:
-        attributes = {key: self.attribute(stored.attrs, key) for key in self.each(stored.attrs)}
+        attributes = {key: self.attribute(stored.attrs, key) for key in self.names(stored.attrs)}
         group = Group(name, attributes)
         if depth < DEEPEST:
-            for key in self.each(stored):
-                # A soft or external link may lead anywhere, to other files too.
+            for key in self.names(stored):
+                # Soft and external links are not followed: they may lead to other files.
                 link = stored.get(key, getclass=True, getlink=True)
                 if link is self.h5py.HardLink and stored.get(key, getclass=True) is self.h5py.Group:
                     group.groups.append(self.group(key, stored[key], depth + 1))
         return group
 
-    def each(self, names: Any) -> list[str]:
-        self.left -= len(names)
+    def names(self, mapping: Any) -> list[str]:
+        self.left -= len(mapping)
         if self.left < 0:
             raise VolumeFileError("not-a-volume-file", f"more than {MOST} groups and attributes")
-        return list(names)
+        return list(mapping)
 
     def attribute(self, attributes: Any, name: str) -> Metadatum:
         identifier = attributes.get_id(name)
@@ -79,18 +81,18 @@ class _Reader:
 
 
 def _plain(value: Any) -> MetadataValue:
-    """What Field3D's own reader would make of NumPy's values: one, or a flat tuple."""
+    """NumPy's values as a single one or a flat tuple; None if they are of another type."""
     values = value.ravel().tolist() if hasattr(value, "ravel") else [value]
     first = values[0] if len(values) == 1 else None
     if isinstance(first, bytes):
         return first.decode("utf-8", "surrogateescape")
     if isinstance(first, bool | int | float | str):
         return first
-    return tuple(values) if all(isinstance(each, int | float) for each in values) else None
+    return tuple(values) if all(isinstance(number, int | float) for number in values) else None
 
 
 class _Stream(io.RawIOBase):
-    """A window as the binary file that h5py wants."""
+    """A window as a binary file for h5py."""
 
     def __init__(self, window: Window) -> None:
         self.window = window

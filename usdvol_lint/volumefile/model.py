@@ -1,9 +1,9 @@
-"""What the header and metadata of a field file say, and the error that stops a reader."""
+"""What the readers of volume files return, and the error that they raise."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Final, Literal, NamedTuple, TypeAlias
 
 from usdvol_lint import model
 from usdvol_lint.volumefile.transform import Bounds, Matrix, Transform, finite
@@ -16,19 +16,12 @@ ErrorCode: TypeAlias = Literal[
     "version-unsupported",
     "needs-h5py",
 ]
-WarningCode: TypeAlias = Literal[
-    "version-newer",
-    "type-unregistered",
-    "name-differs",
-    "name-repeated",
-    "half-differs",
-    "instance-parent-missing",
-    "mapping-unread",
-    "mapping-animated",
-]
 MetadataValue: TypeAlias = bool | int | float | str | tuple[int, ...] | tuple[float, ...] | None
 Coordinate: TypeAlias = tuple[int, int, int]
 IndexBounds: TypeAlias = tuple[Coordinate, Coordinate]
+
+BOUNDS_NAMES: Final = ("file_bbox_min", "file_bbox_max")
+"""The entries of OpenVDB's metadata with the lowest and the highest voxel of a grid."""
 
 _LONGEST_QUOTE = 80
 
@@ -36,7 +29,9 @@ _LONGEST_QUOTE = 80
 class Metadatum(NamedTuple):
     """One entry of a file's or a grid's metadata.
 
-    `value` is None for types that this reader does not know and for values too large to matter.
+    `value` is None for types that the reader doesn't know and for values that are too large.
+    `size` is in bytes; no rule reads it, but the tests compare it with what OpenVDB's own tools
+    say, as proof that the reader advanced by the right number of bytes.
     """
 
     type: str
@@ -44,32 +39,26 @@ class Metadatum(NamedTuple):
     size: int
 
 
-class FileWarning(NamedTuple):
-    """Something odd that did not stop the reader; `grid` is a position in `VolumeFile.grids`."""
-
-    code: WarningCode
-    message: str
-    grid: int | None = None
+_NONE: Mapping[str, Metadatum] = {}
+"""No metadata; not a MappingProxyType, which can't be pickled."""
 
 
 class Grid(NamedTuple):
     """One grid, or one Field3D layer.
 
-    `name` is that of the metadata, `unique_name` that of the descriptor without its suffix, which
-    is what files are searched by; in NanoVDB and Field3D they are the same.
-    `suffix` tells same-named grids apart on disk; `index` counts them in file order.
+    `name` is that of the metadata, `unique_name` that of the descriptor without its suffix, by
+    which OpenVDB finds grids; in NanoVDB and Field3D they are the same.
+    `suffix` tells grids of the same name apart on disk.
     `purpose` is Field3D's partition, what `fieldPurpose` names.
     `value_type` is spelt as in OpenVDB, `tree_type` as in the file.
-    `half` says that values are stored in half precision; `registered`, that stock OpenVDB knows
-    the type.
-    `index_bounds` are inclusive, and None where the file holds none or the grid is empty.
-    `instance_of` is the label of the grid whose voxels an instance shares, and whose bounds it
-    is given here.
+    `half`: values are stored in half precision.
+    `registered`: the type is one of OpenVDB's own.
+    `index_bounds` are inclusive, and None where the file holds none or the grid is empty; an
+    instance has those of the grid whose voxels it shows.
     """
 
     name: str
     unique_name: str
-    index: int  # type: ignore[assignment]  # in the place of what tuples call so
     value_type: str
     tree_type: str
     suffix: str | None = None
@@ -81,19 +70,18 @@ class Grid(NamedTuple):
     index_bounds: IndexBounds | None = None
     is_empty: bool = False
     transform: Transform | None = None
-    metadata: Mapping[str, Metadatum] = {}
-    instance_of: str | None = None
+    metadata: Mapping[str, Metadatum] = _NONE
 
     @property
     def label(self) -> str:
-        """The name as OpenVDB's tools print it, `density[1]` where others share it."""
+        """The name as OpenVDB's tools print it: `density[1]` if others have the same name."""
         return self.unique_name if self.suffix is None else f"{self.unique_name}[{self.suffix}]"
 
     def world_bounds(self, padding: float = 0.0, then: Matrix | None = None) -> Bounds | None:
-        """The box of the active voxels' centres, widened by `padding` voxels, in world space.
+        """The box around the centres of the active voxels, widened by `padding` voxels.
 
-        `then` is a matrix from there to the space in which the box is wanted.
-        None where the grid is empty, the file tells no bounds or no transform, or numbers overflow.
+        It is in world space, or in the space that the matrix `then` leads to from there.
+        None if the grid is empty, its bounds or transform are unknown, or numbers overflow.
         """
         if self.index_bounds is None or self.transform is None:
             return None
@@ -106,13 +94,16 @@ class Grid(NamedTuple):
 
 
 class VolumeFile(NamedTuple):
-    """What a file says of itself and its grids, in file order.
+    """A volume file; `grids` are in file order.
 
     `version` is the file format's (OpenVDB's `224`, NanoVDB's `32.4.2`, Field3D's `1.7.3`), and
     `version_number` the same as one ordered number; `library` is the OpenVDB that wrote the file.
-    `grid_count` is what the header promises.
-    `complete` is False where an error ended the reading, and where `grids` holds fewer: of a
-    `streamed` file only the first grid can be found without decoding voxels.
+    `newer` is a message if the version is newer than any that the reader knows.
+    `grid_count` is the number in the header.
+    `complete` is False if the reader was stopped by an error or `grids` are fewer: of a `streamed`
+    file only the first grid can be found without decoding voxels.
+    No rule reads `library`, `uuid`, `streamed` and the metadata: the tests compare them with what
+    OpenVDB's own tools say, since a reader that misplaces one of them misplaces all that follows.
     """
 
     format: Format
@@ -120,18 +111,32 @@ class VolumeFile(NamedTuple):
     version_number: int
     library: str | None = None
     uuid: str | None = None
-    metadata: Mapping[str, Metadatum] = {}
+    metadata: Mapping[str, Metadatum] = _NONE
     grids: tuple[Grid, ...] = ()
-    warnings: tuple[FileWarning, ...] = ()
+    newer: str | None = None
     grid_count: int = 0
     streamed: bool = False
     complete: bool = True
 
 
-class VolumeFileError(Exception):
-    """Why a file can't be read, or not to its end.
+class Fault(NamedTuple):
+    """Why a file can't be read, or not to its end, or was not read.
 
+    `code` is an `ErrorCode` or a reason of the caller's own for not reading the file.
     `offset` counts from the start of the volume file, which may lie inside a package.
+    """
+
+    code: str
+    message: str
+    offset: int | None = None
+
+    def __str__(self) -> str:
+        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
+
+
+class VolumeFileError(Exception):
+    """Why a file can't be read, or not to its end; see `Fault`.
+
     `partial` is what was understood before, if anything was.
     """
 
@@ -148,10 +153,20 @@ class VolumeFileError(Exception):
         self.offset = offset
         self.partial = partial
 
+    @property
+    def fault(self) -> Fault:
+        """What may outlive the error, which holds on to its traceback."""
+        return Fault(self.code, self.message, self.offset)
+
     def __str__(self) -> str:
-        return self.message if self.offset is None else f"{self.message} (at byte {self.offset})"
+        return str(self.fault)
+
+
+def invalid(message: str, offset: int) -> VolumeFileError:
+    """The error for bytes that no writer of the format writes."""
+    return VolumeFileError("not-a-volume-file", message, offset)
 
 
 def quoted_short(text: str) -> str:
-    """Text out of a file, printable and short enough for a message."""
+    """Text from a file in quotes, printable and cut off after 80 characters."""
     return model.quoted(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import zlib
-from collections import Counter
+from collections.abc import Mapping
 from struct import Struct
 from typing import Any, Final
 
 from usdvol_lint.volumefile.model import (
-    FileWarning,
     Grid,
     IndexBounds,
     Metadatum,
     VolumeFile,
     VolumeFileError,
+    invalid,
     quoted_short,
 )
 from usdvol_lint.volumefile.signatures import NANOVDB
@@ -26,7 +26,7 @@ _BARE = b"NanoVDB1"
 _MOST = 100_000
 _LONGEST_NAME = 1 << 16
 _NONE, _ZIP = 0, 1
-_ZIPPED_HEAD = 4096
+_ZIPPED_HEAD = 4096  # bytes of a compressed grid, enough to decompress its header from
 
 # signature, version, grids, codec
 _SEGMENT = Struct("<8sIHH")
@@ -40,7 +40,7 @@ _TREE = Struct("<24xQ24xQ")
 _ROOT = Struct("<6i")
 _LENGTH = Struct("<Q")
 
-# In the words of OpenVDB, as far as it has any.
+# Named as in OpenVDB, if it has the type.
 _TYPES = dict(
     enumerate(
         (
@@ -56,7 +56,7 @@ _CLASSES = {1: "level set", 2: "fog volume", 3: "staggered"}
 
 
 def read_nvdb(window: Window) -> VolumeFile:
-    """The file that starts at the window's start, whose signature is known to be right."""
+    """Reads a file from the start of its window; the signature was checked by the caller."""
     reader = _Reader(window)
     try:
         if window.peek(len(_BARE)) == _BARE:
@@ -65,28 +65,23 @@ def read_nvdb(window: Window) -> VolumeFile:
             reader.read_segments()
     except VolumeFileError as error:
         partial = reader.result(finished=False) if reader.version is not None else None
-        if (reader.version or 0) >> 21 <= MAJOR_VERSION or error.code == "not-a-file":
+        if reader.newer is None or error.code == "not-a-file":
             error.partial = partial
             raise
-        raise VolumeFileError(
-            "version-unsupported",
-            f"NanoVDB {_dotted(reader.version)} is newer than {MAJOR_VERSION}: {error.message}",
-            error.offset,
-            partial,
-        ) from None
+        message = f"{reader.newer}: {error.message}"
+        raise VolumeFileError("version-unsupported", message, error.offset, partial) from None
     return reader.result(finished=True)
 
 
 class _Reader:
-    """What is known so far."""
+    """Reads one file; its attributes are what is known so far."""
 
     def __init__(self, window: Window) -> None:
         self.window = window
         self.version: int | None = None
         self.grid_count = 0
         self.grids: list[Grid] = []
-        self.warnings: list[FileWarning] = []
-        self.ordinals: Counter[str] = Counter()
+        self.newer: str | None = None
 
     def result(self, *, finished: bool) -> VolumeFile:
         return VolumeFile(
@@ -94,23 +89,23 @@ class _Reader:
             version=_dotted(self.version),
             version_number=self.version or 0,
             grids=tuple(self.grids),
-            warnings=tuple(self.warnings),
+            newer=self.newer,
             grid_count=self.grid_count,
             complete=finished,
         )
 
     def read_segments(self) -> None:
-        """Every segment: a header, an entry and a name a grid, then the grids themselves."""
+        """Reads segments: a header, then entry and name of each grid, then the grids."""
         window = self.window
         segments = 0
-        while self.version is None or self.goes_on():
+        while self.version is None or self.has_segment():
             at = window.position
             segments += 1
             if segments > _MOST:
-                raise _invalid(f"more than {_MOST} segments", at)
+                raise invalid(f"more than {_MOST} segments", at)
             signature, version, count, _ = window.unpack(_SEGMENT)
             if signature not in NANOVDB or signature == _BARE:
-                raise _invalid("no segment where one should begin", at)
+                raise invalid("no segment where one should begin", at)
             self.take_version(version, at)
             self.count_grids(count)
             window.require(count * _ENTRY.size)
@@ -118,8 +113,8 @@ class _Reader:
             for name, entry in entries:
                 self.read_segment_grid(name, entry)
 
-    def goes_on(self) -> bool:
-        """Whether another segment follows; NanoVDB ignores a few bytes that are none."""
+    def has_segment(self) -> bool:
+        """Whether another segment follows: NanoVDB ignores a few other bytes at the end."""
         rest = self.window.peek(_SEGMENT.size)
         signature = rest[: len(_BARE)]
         is_start = bool(signature) and any(word.startswith(signature) for word in NANOVDB)
@@ -136,21 +131,20 @@ class _Reader:
                 at + len(_BARE),
             )
         if self.version is None and major > MAJOR_VERSION:
-            message = f"NanoVDB {_dotted(version)} is newer than {MAJOR_VERSION}"
-            self.warnings.append(FileWarning("version-newer", message))
+            self.newer = f"NanoVDB {_dotted(version)} is newer than {MAJOR_VERSION}"
         self.version = self.version or version
 
     def count_grids(self, count: int) -> None:
         self.grid_count += count
         if self.grid_count > _MOST:
-            raise _invalid(f"{self.grid_count} grids", self.window.position)
+            raise invalid(f"{self.grid_count} grids", self.window.position)
 
     def read_entry(self) -> tuple[str, tuple[Any, ...]]:
         window = self.window
         entry = window.unpack(_ENTRY)
         length = entry[20]
         if length > _LONGEST_NAME:
-            raise _invalid(f"a grid's name of {length} bytes", window.position)
+            raise invalid(f"a grid's name of {length} bytes", window.position)
         return _name(window.read(length)), entry
 
     def read_segment_grid(self, name: str, entry: tuple[Any, ...]) -> None:
@@ -162,11 +156,12 @@ class _Reader:
         bounds: IndexBounds = (index[:3], index[3:])
         head = self.read_head(codec, size)
         transform = _transform(head, start) if head else _aligned(bounds, world, voxel_size)
-        self.add(name, kind, grid_class, voxels, bounds, transform, world, voxel_size)
-        self.go_on(end)
+        metadata = _metadata(voxels, voxel_size, world)
+        self.grids.append(_grid(name, kind, grid_class, bounds, transform, metadata))
+        self.skip_grid(end)
 
     def read_head(self, codec: int, size: int) -> bytes | None:
-        """A grid's own header, which holds its transform; None where Blosc would be needed."""
+        """A grid's own header, which has its transform; None if it can't be decompressed."""
         window = self.window
         start = window.position
         head = b""
@@ -182,7 +177,7 @@ class _Reader:
         return head if len(head) == _BUFFER.size and head[:8] in NANOVDB else None
 
     def read_buffers(self) -> None:
-        """Grid buffers one after the other, each of which knows how many they are."""
+        """Reads grid buffers, which follow each other; the first one has their number."""
         window = self.window
         while self.version is None or len(self.grids) < self.grid_count:
             start = window.position
@@ -191,59 +186,26 @@ class _Reader:
             signature, version, _, count, size, name = fields[:6]
             world, voxel_size, (grid_class, kind) = fields[18:24], fields[24:27], fields[27:]
             if signature != _BARE:
-                raise _invalid("no grid where one should begin", start)
+                raise invalid("no grid where one should begin", start)
             if self.version is None:
                 self.take_version(version, start + 8)
                 self.count_grids(max(1, count))
                 window.require((self.grid_count - 1) * _BUFFER.size)
             root, voxels = window.unpack(_TREE)
-            # The way to the root counts from the start of the tree.
+            # The offset of the root counts from the start of the tree.
             root += start + _BUFFER.size
             if size < _BUFFER.size + _TREE.size or root > start + size:
-                raise _invalid(f"grid {quoted_short(_name(name))} of {size} bytes", start)
+                raise invalid(f"grid {quoted_short(_name(name))} of {size} bytes", start)
             window.position = root
             index = window.unpack(_ROOT)
             bounds: IndexBounds = (index[:3], index[3:])
             transform = _transform(head, start)
-            self.add(_name(name), kind, grid_class, voxels, bounds, transform, world, voxel_size)
-            self.go_on(start + size)
+            metadata = _metadata(voxels, voxel_size, world)
+            self.grids.append(_grid(_name(name), kind, grid_class, bounds, transform, metadata))
+            self.skip_grid(start + size)
 
-    def add(
-        self,
-        name: str,
-        kind: int,
-        grid_class: int,
-        voxels: int,
-        bounds: IndexBounds,
-        transform: Transform | None,
-        world: tuple[float, ...],
-        voxel_size: Point,
-    ) -> None:
-        is_empty = any(low > high for low, high in zip(*bounds, strict=True))
-        value_type = _TYPES.get(kind, "unknown")
-        self.grids.append(
-            Grid(
-                name=name,
-                unique_name=name,
-                index=self.ordinals[name],
-                value_type=value_type,
-                tree_type=_QUANTIZED.get(kind, value_type),
-                grid_class=_CLASSES.get(grid_class, "unknown"),
-                index_bounds=None if is_empty else bounds,
-                is_empty=is_empty,
-                transform=transform,
-                metadata={
-                    "voxel_count": Metadatum("uint64", voxels, 8),
-                    "voxel_size": Metadatum("vec3d", voxel_size, 24),
-                    "world_bbox_min": Metadatum("vec3d", world[:3], 24),
-                    "world_bbox_max": Metadatum("vec3d", world[3:], 24),
-                },
-            )
-        )
-        self.ordinals[name] += 1
-
-    def go_on(self, end: int) -> None:
-        """Goes behind the voxels of the last grid, without reading them."""
+    def skip_grid(self, end: int) -> None:
+        """Moves to the end of the last grid, past its voxels."""
         window = self.window
         if end > window.size:
             label = quoted_short(self.grids[-1].label)
@@ -252,8 +214,37 @@ class _Reader:
         window.position = end
 
 
-def _invalid(message: str, offset: int) -> VolumeFileError:
-    return VolumeFileError("not-a-volume-file", message, offset)
+def _grid(
+    name: str,
+    kind: int,
+    grid_class: int,
+    bounds: IndexBounds,
+    transform: Transform | None,
+    metadata: Mapping[str, Metadatum],
+) -> Grid:
+    is_empty = any(low > high for low, high in zip(*bounds, strict=True))
+    value_type = _TYPES.get(kind, "unknown")
+    return Grid(
+        name=name,
+        unique_name=name,
+        value_type=value_type,
+        tree_type=_QUANTIZED.get(kind, value_type),
+        grid_class=_CLASSES.get(grid_class, "unknown"),
+        index_bounds=None if is_empty else bounds,
+        is_empty=is_empty,
+        transform=transform,
+        metadata=metadata,
+    )
+
+
+def _metadata(voxels: int, voxel_size: Point, world: tuple[float, ...]) -> Mapping[str, Metadatum]:
+    """Values of a grid's header as metadata, of which NanoVDB has none."""
+    return {
+        "voxel_count": Metadatum("uint64", voxels, 8),
+        "voxel_size": Metadatum("vec3d", voxel_size, 24),
+        "world_bbox_min": Metadatum("vec3d", world[:3], 24),
+        "world_bbox_max": Metadatum("vec3d", world[3:], 24),
+    }
 
 
 def _dotted(version: int | None) -> str:
@@ -270,15 +261,15 @@ def _transform(head: bytes, at: int) -> Transform:
     a, b, c, d, e, f, g, h, i = fields[6:15]
     x, y, z = fields[15:18]
     if not finite(fields[6:18]):
-        raise _invalid("the grid's map holds numbers that are not finite", at)
-    # NanoVDB multiplies column vectors from the right.
+        raise invalid("the grid's map holds numbers that are not finite", at)
+    # NanoVDB multiplies a matrix by a column vector, USD a row vector by a matrix.
     return Transform("Map", ((a, d, g, 0.0), (b, e, h, 0.0), (c, f, i, 0.0), (x, y, z, 1.0)))
 
 
 def _aligned(bounds: IndexBounds, world: tuple[float, ...], voxel_size: Point) -> Transform | None:
-    """The transform that the boxes tell of, if it only scales and moves.
+    """The transform from index box to world box, if one that scales and translates fits.
 
-    The world box reaches to one past the last voxel.
+    The world box reaches to the index after the last voxel.
     """
     if not finite((*world, *voxel_size)):
         return None

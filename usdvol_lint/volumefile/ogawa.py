@@ -1,4 +1,4 @@
-"""Field3D's groups in an Ogawa file: a tree of groups and data, each named by its place."""
+"""Reads Field3D's groups from an Ogawa file: a tree of nameless groups and data."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from usdvol_lint.volumefile.window import Window
 
 _ROOT_NAME = "f3droot"
 _LONGEST_NAME = 1 << 16
-_IS_DATA = 1 << 63
+_IS_DATA = 1 << 63  # set in the position of a child that is data, not a group
 _GROUP, _ATTRIBUTE = 0, 1
 _ATTRIBUTE_PARTS = 4
-_TIMES_READ = 4
+_TIMES_READ = 4  # a file may be read so many times over, as parts that are shared are
 
 _HEADER = Struct("<5sB2sQ")
 _CLOSED = 0xFF
@@ -36,7 +36,7 @@ _STRING = 16
 
 
 def read_ogawa(window: Window) -> Group:
-    """The tree of groups, without data sets."""
+    """The root group; raises VolumeFileError."""
     _, state, _, root = window.unpack(_HEADER)
     if state != _CLOSED or root == 0:
         raise VolumeFileError("truncated", "its writer never closed the file", len(OGAWA))
@@ -48,12 +48,14 @@ def read_ogawa(window: Window) -> Group:
 
 
 class _Reader:
+    """Reads groups; `budget` is how many more bytes it may read."""
+
     def __init__(self, window: Window) -> None:
         self.window = window
         self.budget = _TIMES_READ * window.size
 
     def group(self, name: str, position: int, depth: int) -> Group:
-        """A group, whose children after name and kind are groups of several kinds."""
+        """The group at a position; after name and kind its children are attributes and groups."""
         group = Group(name)
         for child in self.children(position, None)[2:]:
             if child & _IS_DATA or not child:
@@ -67,7 +69,7 @@ class _Reader:
         return group
 
     def children(self, position: int, most: int | None) -> tuple[int, ...]:
-        """Where the first `most` children of a group lie, or all of them."""
+        """The positions of a group's first `most` children, or of all; data has `_IS_DATA` set."""
         window = self.window
         window.position = position
         (count,) = window.unpack(_U64)
@@ -78,14 +80,14 @@ class _Reader:
         return Struct(f"<{taken}Q").unpack(self.spend(taken * _U64.size))
 
     def spend(self, count: int) -> bytes:
-        """Reads on; a file read several times over holds loops, or parts with several owners."""
+        """The next bytes, within the budget: a file that exceeds it has loops or shared parts."""
         self.budget -= count
         if self.budget < 0:
             raise _invalid("parts that belong to several groups", self.window.position)
         return self.window.read(count)
 
     def data(self, child: int, longest: int) -> bytes | None:
-        """What a child holds; None if that is too long to matter."""
+        """The bytes of a child; None if they are more than `longest`."""
         if not child & _IS_DATA:
             raise _invalid("a group where data should be", child)
         position = child & ~_IS_DATA

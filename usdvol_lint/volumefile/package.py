@@ -1,4 +1,4 @@
-"""Where in a package, which is a zip archive, the bytes of a file lie."""
+"""The position of a file within its package, a zip archive."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ _ENCRYPTED = 1
 
 
 class NotInPlaceError(Exception):
-    """Why a file in a package can't be read where it lies, in words that follow `it`."""
+    """Why a file can't be read from within its package: a predicate, as in `is compressed`."""
 
 
 class Package:
-    """A package, whose directory is read once."""
+    """The directory of a package; empty if the file is no readable zip archive."""
 
     def __init__(self, path: str) -> None:
         self._path = path
@@ -24,10 +24,10 @@ class Package:
             with ZipFile(path) as archive:
                 self._members = {member.filename: member for member in archive.infolist()}
         except (BadZipFile, NotImplementedError, OSError, ValueError):
-            pass  # then it has no members
+            pass  # its members are missing then, which is reported for each
 
     def locate(self, inner: str) -> tuple[int, int]:
-        """Offset and size of a member; raises NotInPlaceError where there are no such bytes."""
+        """Offset and size of a member in bytes; raises NotInPlaceError if it can't be read so."""
         if inner.endswith("]"):
             raise NotInPlaceError("lies in a package inside of its package")
         member = self._members.get(inner)
@@ -40,6 +40,6 @@ class Package:
             header = file.read(_LOCAL_HEADER.size)
         if len(header) < _LOCAL_HEADER.size or not header.startswith(_SIGNATURE):
             raise NotInPlaceError("is not where the directory of its package says")
-        # The local header's extra field, which aligns the data, differs from the directory's.
+        # The extra field, which aligns the data, has another size here than in the directory.
         _, name, extra = _LOCAL_HEADER.unpack(header)
         return member.header_offset + _LOCAL_HEADER.size + name + extra, member.file_size

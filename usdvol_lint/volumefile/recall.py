@@ -1,4 +1,4 @@
-"""The frames of a sequence differ in a few numbers: a file laid out like one before is known."""
+"""A fast path for sequences: a frame with a known layout is decoded by it instead of parsed."""
 
 from __future__ import annotations
 
@@ -7,31 +7,30 @@ from operator import is_not, itemgetter
 from struct import Struct
 from typing import Any, TypeAlias
 
-from usdvol_lint.volumefile.model import Grid, IndexBounds, VolumeFile
+from usdvol_lint.volumefile.model import BOUNDS_NAMES, Grid, IndexBounds, VolumeFile
 from usdvol_lint.volumefile.window import Note, Window
 
 _LONGEST = 1 << 14
 _LAYOUTS = 8
-_BOUNDS = ("file_bbox_min", "file_bbox_max")
-_FORMS = {"offsets": "3q", **dict.fromkeys(_BOUNDS, "3i")}
-_SIZE = 4
+_FORMS = {"offsets": "3q", **dict.fromkeys(BOUNDS_NAMES, "3i")}
+_SIZE = 4  # bytes of the size before a value
 
 Fields: TypeAlias = tuple[Any, ...]
 
 
 class Recall:
-    """Reads files as the OpenVDB reader does, those of the last few layouts at a glance.
+    """The layouts of the OpenVDB files read last, by which others are decoded.
 
-    A layout is everything before the voxels but for what the reader noted: where the parts lie,
-    and the values of metadata, of which only the bounds are looked at.
-    So files are recalled without any metadata and UUID.
+    A layout is all that precedes the voxels, except what the reader noted: offsets, and values of
+    metadata, of which only the bounds are decoded.
+    So files that are found have neither metadata nor a UUID.
     """
 
     def __init__(self) -> None:
         self._layouts: list[_Layout] = []
 
     def find(self, window: Window) -> VolumeFile | None:
-        """The file in the window if its layout is known and nothing is odd about it."""
+        """The file in the window, if it has a known layout and is valid by it."""
         for number, layout in enumerate(self._layouts):
             file = layout.match(window)
             window.position = 0
@@ -42,9 +41,10 @@ class Recall:
         return None
 
     def learn(self, window: Window, file: VolumeFile) -> None:
-        """Remembers the layout of the file, which was just read from the window."""
+        """Adds the layout of a file that was just read from the window, if it has one."""
         heads = tuple(_heads(window))
-        if heads and len(heads) == len(file.grids):
+        # An instance has the bounds of another grid, which are not in its own head.
+        if heads and [head.has_bounds for head in heads] == [_has_bounds(g) for g in file.grids]:
             layout = _Layout(heads, file)
             window.position = 0
             if layout.match(window) == file:
@@ -52,13 +52,17 @@ class Recall:
 
 
 class _Layout:
-    """The heads of a file's grids; `file` is the one it was learnt from."""
+    """The heads of a file's grids, and the file that they are from."""
 
     def __init__(self, heads: tuple[_Head, ...], file: VolumeFile) -> None:
         self._heads = heads
         self._file = file
 
     def match(self, window: Window) -> VolumeFile | None:
+        """The file in the window, or None if it has another layout.
+
+        If it has the same bounds as the file of the layout, that very object is returned.
+        """
         grids = []
         for head, grid in zip(self._heads, self._file.grids, strict=True):
             fields = head.match(window)
@@ -70,14 +74,14 @@ class _Layout:
 
 
 class _Head:
-    """What stands before the voxels of one grid, and before the first one the file's header.
+    """The bytes before the voxels of one grid, for the first grid including the file's header.
 
-    It is taken apart into constants and numbers; a value that was skipped ends a part of it, since
-    values of any size may stand in its place.
+    They are divided into constants, which must match, and numbers, which may differ.
+    A value that the reader skipped may have any size, so it ends a part with a `Struct` of its own.
     """
 
     def __init__(self, window: Window, start: int, notes: Iterable[Note]) -> None:
-        """The head at byte `start` of the file in the window."""
+        """Takes over the head at byte `start` of the file in the window, and its notes."""
         self._parts: list[tuple[Struct, bool]] = []
         self._data = 0
         names: list[str] = []
@@ -96,15 +100,16 @@ class _Head:
         self._parts.append((Struct(form), False))
         self._constants = _picker(names, "")
         self._offsets = _picker(names, "offsets")
-        self._low, self._high = (_picker(names, name) for name in _BOUNDS)
-        self._has_bounds = all(name in names for name in _BOUNDS)
+        self._low, self._high = (_picker(names, name) for name in BOUNDS_NAMES)
+        # Other than three numbers each are not the bounds of this grid, or not its only ones.
+        self.has_bounds = all(names.count(name) == 3 for name in BOUNDS_NAMES)
         window.position = start
         fields = self._fields(window)
         self._expected = fields and self._constants(fields)
         self.end = self._offsets(fields)[-1] if fields else start
 
     def match(self, window: Window) -> Fields | None:
-        """What the file in the window has in the places of a head like this; goes to its end."""
+        """The fields of such a head at the window's position, which moves to the grid's end."""
         start = window.position
         fields = self._fields(window)
         if fields is None or self._constants(fields) != self._expected:
@@ -116,7 +121,7 @@ class _Head:
         return fields
 
     def bounds(self, fields: Fields) -> IndexBounds | None:
-        return (self._low(fields), self._high(fields)) if self._has_bounds else None
+        return (self._low(fields), self._high(fields)) if self.has_bounds else None
 
     def _fields(self, window: Window) -> Fields | None:
         fields: Fields = ()
@@ -130,7 +135,7 @@ class _Head:
 
 
 def _heads(window: Window) -> Iterable[_Head]:
-    """The heads that the reader's notes tell of."""
+    """The heads by the reader's notes; fewer than grids if one is too long to keep."""
     start, notes = 0, list[Note]()
     for note in window.notes:
         notes.append(note)
@@ -143,6 +148,10 @@ def _heads(window: Window) -> Iterable[_Head]:
             start, notes = head.end, []
 
 
+def _has_bounds(grid: Grid) -> bool:
+    return grid.index_bounds is not None or grid.is_empty
+
+
 def _with_bounds(grid: Grid, bounds: IndexBounds | None) -> Grid:
     if bounds is None or bounds == grid.index_bounds:
         return grid
@@ -152,5 +161,6 @@ def _with_bounds(grid: Grid, bounds: IndexBounds | None) -> Grid:
 
 
 def _picker(names: list[str], wanted: str) -> Any:
-    places = [place for place, name in enumerate(names) if name == wanted]
-    return itemgetter(*places) if places else None
+    """A function from fields to those of a name."""
+    indices = [index for index, name in enumerate(names) if name == wanted]
+    return itemgetter(*indices) if indices else None

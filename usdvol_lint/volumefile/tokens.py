@@ -1,4 +1,4 @@
-"""What UsdVol calls the types, classes and vector types that field files know."""
+"""UsdVol's tokens for the types, classes and vector types of grids."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ DATA_TYPES: Final[dict[str, str]] = {
     "uint32": "uint",
     "quatd": "quatd",
 }
-"""From a value type to the `fieldDataType` of its values in memory; many types have none."""
+"""The `fieldDataType` of a value type, as values are in memory; many types have none."""
 
 HALF_TYPES: Final[dict[str, str]] = {
     "float": "half",
     "double": "half",
     **{f"vec{n}{letter}": f"half{n}" for n in (2, 3) for letter in "sd"},
 }
-"""From a value type to the `fieldDataType` that fits too where values are saved as half."""
+"""The `fieldDataType` that also fits a value type if values are saved as half."""
 
 FIELD_CLASSES: Final[dict[str, str]] = {
     "level set": "levelSet",
@@ -40,7 +40,7 @@ FIELD_CLASSES: Final[dict[str, str]] = {
 class RoleHints(NamedTuple):
     """The `vectorDataRoleHint`s that fit a vector type.
 
-    `strength` says how far the vector type can be relied on: the default proves nothing.
+    `strength` is weak for vector types that prove little, such as the default one.
     """
 
     fitting: tuple[str, ...]
@@ -57,7 +57,7 @@ ROLE_HINTS: Final[dict[str, RoleHints]] = {
 
 
 def data_types(value_type: str, half: bool = False) -> tuple[str, ...]:
-    """The `fieldDataType`s that fit, the best one first; none where UsdVol has no word for it."""
+    """The `fieldDataType`s that fit, the best one first; none if UsdVol has no token for it."""
     if value_type not in DATA_TYPES:
         return ()
     tokens = [DATA_TYPES[value_type]]

@@ -1,4 +1,4 @@
-"""From index space, where voxel centres have whole numbers, to the world space of a file."""
+"""Transforms from index space, where voxel centres are integers, to a file's world space."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ Point: TypeAlias = tuple[float, float, float]
 Bounds: TypeAlias = tuple[Point, Point]
 Row: TypeAlias = tuple[float, float, float, float]
 Matrix: TypeAlias = tuple[Row, Row, Row, Row]
-"""Row vectors are multiplied from the left, as in USD: the translation is the last row."""
+"""Applied as row vector times matrix, as in USD: the translation is the last row."""
 
 
 def scale_translate(scale: Iterable[float], translation: Iterable[float] = (0, 0, 0)) -> Matrix:
-    """The matrix that scales along the axes, then moves."""
+    """The matrix that scales along the axes, then translates."""
     (a, b, c), (x, y, z) = scale, translation
     return (
         (float(a), 0.0, 0.0, 0.0),
@@ -26,6 +26,7 @@ def scale_translate(scale: Iterable[float], translation: Iterable[float] = (0, 0
 
 
 IDENTITY: Matrix = scale_translate((1, 1, 1))
+"""The identity matrix; that a matrix `is IDENTITY` tells that nothing was multiplied."""
 
 
 def rows(numbers: tuple[float, ...]) -> Matrix:
@@ -35,7 +36,7 @@ def rows(numbers: tuple[float, ...]) -> Matrix:
 
 
 def multiply(first: Matrix, second: Matrix) -> Matrix:
-    """The matrix that does `first`, then `second`."""
+    """The matrix that applies `first`, then `second`."""
     columns = tuple(zip(*second, strict=True))
     return rows(
         tuple(
@@ -51,7 +52,7 @@ def finite(numbers: Iterable[float]) -> bool:
 
 
 class Frustum(NamedTuple):
-    """The perspective half of a frustum map: a box of index space becomes a pyramid's stump."""
+    """The nonlinear part of a frustum map: it makes a box of index space a truncated pyramid."""
 
     minimum: Point
     maximum: Point
@@ -70,16 +71,20 @@ class Frustum(NamedTuple):
 
     @property
     def valid(self) -> bool:
-        """Whether `apply` can be evaluated everywhere."""
+        """Whether the numbers are finite and `apply` never divides by zero."""
         numbers = (*self.minimum, *self.maximum, self.taper, self.depth)
         lengths = tuple(high - low for low, high in zip(self.minimum, self.maximum, strict=True))
         return finite(numbers) and 0 not in (*lengths, self.taper, self.depth)
 
 
 class Transform(NamedTuple):
-    """A grid's own transform: `kind` is the map's type, and a frustum comes before the matrix."""
+    """A grid's own transform: the frustum, if there is one, then the matrix.
 
-    kind: str
+    `map_type` is what the file calls it; no rule reads it, but the tests compare it with what
+    OpenVDB's own tools say.
+    """
+
+    map_type: str
     matrix: Matrix
     frustum: Frustum | None = None
 
@@ -88,7 +93,7 @@ class Transform(NamedTuple):
         return self.frustum is None
 
     def then(self, matrix: Matrix) -> Transform:
-        """This transform with a matrix after it."""
+        """This transform followed by a matrix."""
         return self._replace(matrix=multiply(self.matrix, matrix))
 
     def apply(self, point: Point) -> Point:
@@ -100,8 +105,8 @@ class Transform(NamedTuple):
     def bounds(self, minimum: Point, maximum: Point) -> Bounds:
         """The world box around a box of index space.
 
-        It is the box of the eight corners; that is exact for a frustum too, whose scale is linear
-        along z.
+        It is the box around the eight corners, which is exact for a frustum too: its scale is
+        linear in z.
         """
         if self.frustum is None:
             return _around(self.matrix, minimum, maximum)
@@ -112,7 +117,7 @@ class Transform(NamedTuple):
 
 
 def _around(matrix: Matrix, minimum: Point, maximum: Point) -> Bounds:
-    """The box of a transformed box's corners, at a third of what it costs to transform eight."""
+    """The box around a transformed box, in a third of the time of transforming its corners."""
     (a, b, c), (d, e, f) = minimum, maximum
     lows, highs = [], []
     for x, y, z, start in zip(*matrix, strict=True):

@@ -1,44 +1,37 @@
-"""OpenVDB: file versions 222 to 225, which differ in nothing that is read here."""
+"""OpenVDB: file versions 222 to 225, between which nothing that is read here has changed."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Mapping
-from itertools import chain
+from collections.abc import Mapping
 from operator import gt
 from struct import Struct
 from typing import Final
 
 from usdvol_lint.volumefile.model import (
-    FileWarning,
     Grid,
-    IndexBounds,
-    MetadataValue,
     Metadatum,
     VolumeFile,
     VolumeFileError,
+    invalid,
     quoted_short,
 )
 from usdvol_lint.volumefile.signatures import OPENVDB
-from usdvol_lint.volumefile.transform import (
-    Frustum,
-    Matrix,
-    Transform,
-    finite,
-    rows,
-    scale_translate,
+from usdvol_lint.volumefile.transform import Transform
+from usdvol_lint.volumefile.vdb_maps import read_transform
+from usdvol_lint.volumefile.vdb_metadata import (
+    LONGEST_NAME,
+    LONGEST_TYPE,
+    MOST,
+    flag,
+    index_bounds,
+    read_metadata,
+    text,
 )
 from usdvol_lint.volumefile.window import Window
 
 OLDEST_VERSION: Final = 222
 NEWEST_VERSION: Final = 225
 
-_LONGEST_NAME = 1 << 16
-_LONGEST_TYPE = 1 << 10
-_LONGEST_MAP = 1 << 8
-_LARGEST_VALUE = 1 << 20
-_MOST = 100_000
-_SMALLEST_METADATUM = 12
 _SMALLEST_DESCRIPTOR = 36
 
 _SUFFIX_MARK = "\x1e"
@@ -60,67 +53,34 @@ VECTOR_TYPES = frozenset(
     )
 )
 
-_BOUNDS = ("file_bbox_min", "file_bbox_max")
-
-_U32 = Struct("<I")
 _VERSION = Struct("<I")
 _HEADER = Struct("<IIB36s")
 _GRID_COUNT = Struct("<i")
 _OFFSETS = Struct("<qqq")
-_VALUES = {
-    "bool": Struct("<?"),
-    "int32": Struct("<i"),
-    "int64": Struct("<q"),
-    "float": Struct("<f"),
-    "double": Struct("<d"),
-    "ptidx32": Struct("<I"),
-    "ptidx64": Struct("<Q"),
-    **{
-        f"vec{length}{letter}": Struct(f"<{length}{code}")
-        for length in (2, 3, 4)
-        for letter, code in (("i", "i"), ("s", "f"), ("d", "d"))
-    },
-    "mat4s": Struct("<16f"),
-    "mat4d": Struct("<16d"),
-}
-
-_FRUSTUM = Struct("<8d")
-_FRUSTUM_MAP = "NonlinearFrustumMap"
-# After scale and translation come values derived of them, which nobody needs.
-_SCALE = Struct("<3d96x"), scale_translate
-_TRANSLATE_SCALE = Struct("<6d96x"), lambda numbers: scale_translate(numbers[3:], numbers[:3])
-_MAPS: dict[str, tuple[Struct, Callable[[tuple[float, ...]], Matrix]]] = {
-    "AffineMap": (Struct("<16d"), rows),
-    "UnitaryMap": (Struct("<16d"), rows),
-    "ScaleMap": _SCALE,
-    "UniformScaleMap": _SCALE,
-    "ScaleTranslateMap": _TRANSLATE_SCALE,
-    "UniformScaleTranslateMap": _TRANSLATE_SCALE,
-    "TranslationMap": (Struct("<3d"), lambda numbers: scale_translate((1, 1, 1), numbers)),
-}
+_COMPRESSION_FLAGS = 4
 
 
 def read_vdb(window: Window) -> VolumeFile:
-    """The file that starts at the window's start, whose signature is known to be right."""
+    """Reads a file from the start of its window; the signature was checked by the caller."""
     reader = _Reader(window)
     try:
         reader.read()
     except VolumeFileError as error:
         partial = reader.result(finished=False) if reader.version else None
-        if reader.version <= NEWEST_VERSION or error.code == "not-a-file":
+        if reader.newer is None or error.code == "not-a-file":
             error.partial = partial
             raise
-        raise VolumeFileError(
-            "version-unsupported",
-            f"file version {reader.version} is newer than {NEWEST_VERSION}: {error.message}",
-            error.offset,
-            partial,
-        ) from None
+        message = f"{reader.newer}: {error.message}"
+        raise VolumeFileError("version-unsupported", message, error.offset, partial) from None
     return reader.result(finished=True)
 
 
 class _Reader:
-    """What is known so far; each method reads one thing at the window's position."""
+    """Reads one file; its attributes are what is known so far.
+
+    `parents` are the positions of grids by full name, `instances` the full names of the grids that
+    others show, by the position of these.
+    """
 
     def __init__(self, window: Window) -> None:
         self.window = window
@@ -131,14 +91,12 @@ class _Reader:
         self.metadata: dict[str, Metadatum] = {}
         self.grid_count = 0
         self.grids: list[Grid] = []
-        self.warnings: list[FileWarning] = []
+        self.newer: str | None = None
         self.parents: dict[str, int] = {}
         self.instances: dict[int, str] = {}
-        self.ordinals: Counter[str] = Counter()
 
     def result(self, *, finished: bool) -> VolumeFile:
-        complete = finished and len(self.grids) == self.grid_count
-        self.share_bounds(complete=complete)
+        self.share_bounds()
         return VolumeFile(
             format="openvdb",
             version=str(self.version),
@@ -147,19 +105,19 @@ class _Reader:
             uuid=self.uuid,
             metadata=self.metadata,
             grids=tuple(self.grids),
-            warnings=tuple(self.warnings),
+            newer=self.newer,
             grid_count=self.grid_count,
             streamed=self.streamed,
-            complete=complete,
+            complete=finished and len(self.grids) == self.grid_count,
         )
 
     def read(self) -> None:
         self.read_header()
-        self.metadata = self.read_metadata()
+        self.metadata = read_metadata(self.window)
         at = self.window.position
         (count,) = self.window.unpack(_GRID_COUNT)
-        if not 0 <= count <= _MOST:
-            raise _invalid(f"{count} grids", at)
+        if not 0 <= count <= MOST:
+            raise invalid(f"{count} grids", at)
         self.window.require(count * _SMALLEST_DESCRIPTOR)
         self.grid_count = count
         for _ in range(min(count, 1) if self.streamed else count):
@@ -177,90 +135,28 @@ class _Reader:
                 len(OPENVDB),
             )
         if self.version > NEWEST_VERSION:
-            message = f"file version {self.version} is newer than {NEWEST_VERSION}"
-            self.warnings.append(FileWarning("version-newer", message))
+            self.newer = f"file version {self.version} is newer than {NEWEST_VERSION}"
         major, minor, has_offsets, uuid = window.unpack(_HEADER)
         window.note("uuid", len(uuid))
         self.library = f"{major}.{minor}"
         self.streamed = not has_offsets
-        # OpenVDB leaves a NUL where it found no randomness.
+        # OpenVDB writes NULs if it has no source of randomness.
         self.uuid = uuid.partition(b"\0")[0].decode("ascii", "surrogateescape") or None
-
-    def read_metadata(self) -> dict[str, Metadatum]:
-        window = self.window
-        at = window.position
-        (count,) = window.unpack(_U32)
-        if count > _MOST:
-            raise _invalid(f"{count} metadata entries", at)
-        window.require(count * _SMALLEST_METADATUM)
-        found: dict[str, Metadatum] = {}
-        for _ in range(count):
-            at = window.position
-            name = window.string(_LONGEST_NAME)
-            if not name:
-                raise _invalid("metadata without a name", at)
-            kind = window.string(_LONGEST_TYPE)
-            (size,) = window.unpack(_U32)
-            value = self.read_value(kind, size)
-            if kind in _VALUES and kind != "bool":
-                window.note(name if kind == "vec3i" and name in _BOUNDS else "number", size)
-            elif kind not in ("bool", "string"):
-                window.note("skipped", size)
-            if not kind.startswith("__"):
-                found[name] = Metadatum(kind, value, size)
-        return found
-
-    def read_value(self, kind: str, size: int) -> MetadataValue:
-        window = self.window
-        form = _VALUES.get(kind)
-        if form is not None:
-            if size != form.size:
-                message = f"{size} bytes of {kind}, which takes {form.size}"
-                raise _invalid(message, window.position - _U32.size)
-            values: tuple[float, ...] = window.unpack(form)
-            return values if len(values) > 1 else values[0]
-        if kind == "string" and size <= _LARGEST_VALUE:
-            return window.read(size).decode("utf-8", "surrogateescape")
-        window.skip(size)
-        return None
 
     def read_grid(self) -> None:
         window = self.window
-        full_name = window.string(_LONGEST_NAME)
-        stored_type = window.string(_LONGEST_TYPE)
-        parent = window.string(_LONGEST_NAME)
-        unique_name, mark, suffix = full_name.partition(_SUFFIX_MARK)
-        end = self.enter_grid(unique_name, is_instance=bool(parent))
-
-        window.skip(_U32.size)  # compression flags
-        metadata = self.read_metadata()
-        transform = self.read_transform()
+        full_name = window.string(LONGEST_NAME)
+        stored_type = window.string(LONGEST_TYPE)
+        parent = window.string(LONGEST_NAME)
+        end = self.enter_grid(full_name, is_instance=bool(parent))
+        window.skip(_COMPRESSION_FLAGS)
+        metadata = read_metadata(window)
+        transform = read_transform(window)
         window.note("head", 0)
 
-        tree_type = stored_type.removesuffix(_HALF_MARK)
-        bounds = _index_bounds(metadata)
-        is_empty = bounds is not None and any(map(gt, *bounds))
+        grid = _grid(full_name, stored_type, metadata, transform)
         position = len(self.grids)
-        grid = Grid(
-            name=_text(metadata, "name"),
-            unique_name=unique_name,
-            suffix=suffix if mark else None,
-            index=self.ordinals[unique_name],
-            value_type=_value_type(tree_type),
-            tree_type=tree_type,
-            half=tree_type != stored_type or _saved_as_half(metadata),
-            registered=tree_type in _REGISTERED,
-            grid_class=_known(_text(metadata, "class"), CLASSES, "unknown"),
-            vector_type=_known(_text(metadata, "vector_type"), VECTOR_TYPES, "invariant"),
-            index_bounds=None if is_empty else bounds,
-            is_empty=is_empty,
-            transform=transform,
-            metadata=metadata,
-            instance_of=_label(parent) if parent else None,
-        )
         self.grids.append(grid)
-        self.ordinals[unique_name] += 1
-        self.warn(grid, stored_type, repeated=full_name in self.parents)
         self.parents.setdefault(full_name, position)
         if parent:
             self.instances[position] = parent
@@ -274,8 +170,8 @@ class _Reader:
         if not self.streamed:
             window.position = end
 
-    def enter_grid(self, name: str, *, is_instance: bool) -> int:
-        """Goes to a grid's metadata, narrows the window to it, and says where the grid ends."""
+    def enter_grid(self, full_name: str, *, is_instance: bool) -> int:
+        """Moves to a grid's metadata, limits the window to the head, and returns the grid's end."""
         window = self.window
         at = window.position
         grid_start, blocks, end = window.unpack(_OFFSETS)
@@ -284,102 +180,56 @@ class _Reader:
             return 0
         section_end = end if is_instance else blocks
         if not window.position <= grid_start <= section_end <= end:
-            message = f"grid {quoted_short(name)} has offsets {grid_start}, {blocks}, {end}"
-            raise _invalid(message, at)
+            name = quoted_short(full_name.partition(_SUFFIX_MARK)[0])
+            message = f"grid {name} has offsets {grid_start}, {blocks}, {end}"
+            raise invalid(message, at)
         window.position = grid_start
         window.limit = min(section_end, window.size)
         return int(end)
 
-    def read_transform(self) -> Transform:
-        window = self.window
-        at = window.position
-        kind = window.string(_LONGEST_MAP)
-        if kind != _FRUSTUM_MAP:
-            return Transform(kind, self.read_linear_map(kind, at))
-        numbers = window.unpack(_FRUSTUM)
-        frustum = Frustum(numbers[0:3], numbers[3:6], numbers[6], numbers[7])
-        if not frustum.valid:
-            raise _invalid("a frustum without extent, or of no finite size", at)
-        at = window.position
-        return Transform(kind, self.read_linear_map(window.string(_LONGEST_MAP), at), frustum)
-
-    def read_linear_map(self, kind: str, at: int) -> Matrix:
-        if kind not in _MAPS:
-            raise _invalid(f"unknown transform {quoted_short(kind)}", at)
-        form, matrix_of = _MAPS[kind]
-        matrix = matrix_of(self.window.unpack(form))
-        if not finite(chain.from_iterable(matrix)):
-            raise _invalid(f"the {kind} holds numbers that are not finite", at)
-        return matrix
-
-    def warn(self, grid: Grid, stored_type: str, *, repeated: bool) -> None:
-        position = len(self.grids) - 1
-        label = quoted_short(grid.label)
-        if not grid.registered:
-            message = (
-                f"grid {label} is of type {quoted_short(grid.tree_type)}, unknown to stock OpenVDB"
-            )
-            self.warnings.append(FileWarning("type-unregistered", message, position))
-        if grid.name != grid.unique_name:
-            message = f"grid {label} is named {quoted_short(grid.name)} in its metadata"
-            self.warnings.append(FileWarning("name-differs", message, position))
-        if repeated:
-            message = f"more than one grid is stored as {label}"
-            self.warnings.append(FileWarning("name-repeated", message, position))
-        if grid.half and not (grid.tree_type != stored_type and _saved_as_half(grid.metadata)):
-            message = f"type and metadata of grid {label} differ on whether it is saved as half"
-            self.warnings.append(FileWarning("half-differs", message, position))
-
-    def share_bounds(self, *, complete: bool) -> None:
-        """Gives instances, which have no bounds of their own, those of the grid they show."""
+    def share_bounds(self) -> None:
+        """Gives instances, which have no bounds of their own, those of the grid that they show."""
         for position, parent_name in self.instances.items():
             parent = self.parents.get(parent_name)
             grid = self.grids[position]
-            if parent is None:
-                if complete:
-                    message = f"grid {quoted_short(grid.label)} is an instance of no grid here"
-                    warning = FileWarning("instance-parent-missing", message, position)
-                    self.warnings.append(warning)
-            elif grid.index_bounds is None and not grid.is_empty:
+            if parent is not None and grid.index_bounds is None and not grid.is_empty:
                 self.grids[position] = grid._replace(
                     index_bounds=self.grids[parent].index_bounds,
                     is_empty=self.grids[parent].is_empty,
                 )
 
 
-def _invalid(message: str, offset: int) -> VolumeFileError:
-    return VolumeFileError("not-a-volume-file", message, offset)
+def _grid(
+    full_name: str, stored_type: str, metadata: Mapping[str, Metadatum], transform: Transform
+) -> Grid:
+    unique_name, mark, suffix = full_name.partition(_SUFFIX_MARK)
+    tree_type = stored_type.removesuffix(_HALF_MARK)
+    bounds = index_bounds(metadata)
+    is_empty = bounds is not None and any(map(gt, *bounds))
+    return Grid(
+        name=text(metadata, "name"),
+        unique_name=unique_name,
+        suffix=suffix if mark else None,
+        value_type=_value_type(tree_type),
+        tree_type=tree_type,
+        half=tree_type != stored_type or flag(metadata, "is_saved_as_half_float"),
+        registered=tree_type in _REGISTERED,
+        grid_class=_known(text(metadata, "class"), CLASSES, "unknown"),
+        vector_type=_known(text(metadata, "vector_type"), VECTOR_TYPES, "invariant"),
+        index_bounds=None if is_empty else bounds,
+        is_empty=is_empty,
+        transform=transform,
+        metadata=metadata,
+    )
 
 
-def _label(full_name: str) -> str:
-    name, mark, suffix = full_name.partition(_SUFFIX_MARK)
-    return f"{name}[{suffix}]" if mark else name
-
-
-def _text(metadata: dict[str, Metadatum], name: str) -> str:
-    entry = metadata.get(name)
-    return entry.value if entry is not None and isinstance(entry.value, str) else ""
-
-
-def _saved_as_half(metadata: Mapping[str, Metadatum]) -> bool:
-    entry = metadata.get("is_saved_as_half_float")
-    return entry is not None and entry.value is True
-
-
-def _known(text: str, words: frozenset[str], otherwise: str) -> str:
-    word = text.strip().lower()
+def _known(stored: str, words: frozenset[str], otherwise: str) -> str:
+    word = stored.strip().lower()
     return word if word in words else otherwise
 
 
-def _index_bounds(metadata: dict[str, Metadatum]) -> IndexBounds | None:
-    low, high = map(metadata.get, _BOUNDS)
-    if low is None or high is None or not low.type == high.type == "vec3i":
-        return None
-    return low.value, high.value  # type: ignore[return-value]
-
-
 def _value_type(tree_type: str) -> str:
-    """`float` of `Tree_float_5_4_3`; other forms are left as they are."""
+    """`float` for `Tree_float_5_4_3`; a type of another form as it is."""
     words = tree_type.split("_")
     while len(words) > 2 and words[-1].isdigit():
         words.pop()

@@ -1,4 +1,4 @@
-"""A stretch of a regular file, read on demand; nothing outside it is ever read or believed."""
+"""A part of a regular file, read on demand; nothing outside it is ever read or believed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 
 from usdvol_lint.volumefile.model import VolumeFileError
 
-# A FIFO must not hang, a descriptor not be inherited, Windows not translate line ends.
+# Opening a FIFO must not block, children must not inherit the descriptor, and Windows must not
+# translate line ends.
 _FLAGS = os.O_RDONLY | sum(
     getattr(os, name, 0) for name in ("O_NONBLOCK", "O_CLOEXEC", "O_NOINHERIT", "O_BINARY")
 )
@@ -18,7 +19,7 @@ _LENGTH = Struct("<I")
 
 
 class Note(NamedTuple):
-    """Something that a reader remarked on the way: what, and where in the file."""
+    """What a reader noted about `size` bytes at `position`, for `volumefile.recall`."""
 
     name: str
     position: int
@@ -26,11 +27,11 @@ class Note(NamedTuple):
 
 
 class Window:
-    """Bytes `[0, size)` of a volume file, wherever in a real file they lie.
+    """The bytes `[0, size)` of a volume file, which may lie inside another file.
 
     Reading starts at `position` and may not pass `limit`, which is `size` unless the caller
-    narrows it to a section; what lies beyond `size` is truncated, beyond `limit` invalid.
-    `status` is the state of the real file; `notes` are the reader's.
+    limits it to a section: bytes beyond `size` make a file truncated, beyond `limit` invalid.
+    `status` is that of the real file; `notes` are the reader's.
     """
 
     __slots__ = (
@@ -57,7 +58,7 @@ class Window:
         os.close(self._descriptor)
 
     def _take(self, count: int) -> int:
-        """Passes over the next `count` bytes, and says where in the buffer they are."""
+        """Moves past the next `count` bytes; returns their index in the buffer."""
         end = self.position + count
         if end > self.limit:
             raise self._beyond(end)
@@ -69,23 +70,24 @@ class Window:
         return first
 
     def read(self, count: int) -> bytes:
-        """The next `count` bytes: all of them, or an error."""
+        """The next `count` bytes; raises VolumeFileError unless there are as many."""
         first = self._take(count)
         return self._buffer[first : first + count]
 
     def peek(self, count: int) -> bytes:
-        """The next bytes, fewer where the file ends, without moving on."""
+        """The next `count` bytes, or fewer if the window ends, without moving."""
         here = self.position
         found = self.read(max(0, min(count, self.limit - here)))
         self.position = here
         return found
 
     def unpack(self, form: Struct) -> tuple[Any, ...]:
+        """The next values."""
         first = self._take(form.size)
         return form.unpack_from(self._buffer, first)
 
     def string(self, longest: int) -> str:
-        """A 32-bit length and as many bytes of text, in which any byte survives."""
+        """A text after its length in 32 bits; bytes that are not UTF-8 become lone surrogates."""
         first = self._take(_LENGTH.size)
         (length,) = _LENGTH.unpack_from(self._buffer, first)
         if length > longest:
@@ -101,12 +103,12 @@ class Window:
         self.position += count
 
     def require(self, count: int) -> None:
-        """Raises unless `count` more bytes lie ahead."""
+        """Raises VolumeFileError unless `count` more bytes follow."""
         if self.position + count > self.limit:
             raise self._beyond(self.position + count)
 
     def note(self, name: str, size: int) -> None:
-        """Remarks on the `size` bytes that were read last."""
+        """Notes something about the `size` bytes that were read last."""
         self.notes.append(Note(name, self.position - size, size))
 
     def _beyond(self, end: int) -> VolumeFileError:
@@ -140,7 +142,10 @@ class Window:
 
 
 def open_window(path: str, offset: int, size: int | None) -> Window:
-    """The `size` bytes of a file from `offset` on, or fewer if the file ends before."""
+    """The `size` bytes of a file from `offset` on, or fewer if the file ends.
+
+    Raises VolumeFileError for a file that can't be opened or is not a regular one.
+    """
     try:
         descriptor = os.open(path, _FLAGS)
     except (OSError, ValueError) as error:

@@ -200,21 +200,43 @@ def test_frames_are_recalled_as_they_are(tmp_path: Path, monkeypatch: pytest.Mon
 
     genuine = cache.read_window
     monkeypatch.setattr(cache, "read_window", counting)
-    kinds = set()
+    layouts = set()
     for number in range(200):
         path.write_bytes(frame(number))
         found = files.read(str(path), 0, len(frame(number)))
-        kinds.add(found.kind)
+        layouts.add(found.layout)
         assert as_kept(found) == plainly(path)
     assert parsed == 1
-    assert len(kinds) == 1
+    assert len(layouts) == 1
     path.write_bytes(frame(-8))
     empty = files.read(str(path))
     assert as_kept(empty) == plainly(path)
     assert empty.file
     assert empty.file.grids[0].is_empty
-    assert empty.kind not in kinds
+    assert empty.layout not in layouts
     assert parsed == 1
+
+
+def test_instances_have_the_bounds_of_their_own_frame(tmp_path: Path) -> None:
+    """Also with other offsets than OpenVDB writes, by which instances are not recalled."""
+    files, path = VolumeFiles(), tmp_path / "a.vdb"
+    for number in range(1, 4):
+        shown = {"name": w.string("a"), **w.bounds((0, 0, 0), (number,) * 3)}
+        instance = w.Grid("b", parent="a", offsets=lambda start, _, end: (start, end, end))
+        path.write_bytes(w.vdb(w.Grid("a", metadata=shown), instance))
+        os.utime(path, ns=(number, number))
+        assert as_kept(files.read(str(path))) == plainly(path)
+
+
+def test_bounds_may_be_told_twice(tmp_path: Path) -> None:
+    """Those of the whole file are not those of its grid."""
+    files, path = VolumeFiles(), tmp_path / "a.vdb"
+    for number in range(1, 4):
+        own = {"name": w.string("a"), **w.bounds((0, 0, 0), (number,) * 3)}
+        of_the_file = w.metadata(w.bounds((0, 0, 0), (5, 5, 5)))
+        path.write_bytes(w.vdb(w.Grid("a", metadata=own), metadata_bytes=of_the_file))
+        os.utime(path, ns=(number, number))
+        assert as_kept(files.read(str(path))) == plainly(path)
 
 
 def test_a_recalled_frame_may_lie(tmp_path: Path) -> None:

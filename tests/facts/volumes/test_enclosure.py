@@ -223,7 +223,7 @@ def test_an_extent_that_frames_stick_out_of_is_never_passed_over(
     boxes: list[Any], transforms: list[Transform], side: int, place: float
 ) -> None:
     grids = [
-        Grid("g", "g", 0, "float", "t", index_bounds=box, transform=transform)
+        Grid("g", "g", "float", "t", index_bounds=box, transform=transform)
         for box, transform in zip(boxes, transforms, strict=False)
     ]
     timeline = Mock(select_grids=True, grids=lambda: enumerate(grids))

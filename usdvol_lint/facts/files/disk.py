@@ -15,7 +15,6 @@ from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
-LFS_SIGNATURE = LFS_POINTER  # `engine.stage` knows it by this name
 _LFS_POINTER_LIMIT = 1024
 _NUMBER = re.compile(r"[0-9]+")
 

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, TypeVar
 from usdvol_lint.facts.files.assets import AssetSample
 from usdvol_lint.facts.grids.claims import Claim
 from usdvol_lint.volumefile import tokens
-from usdvol_lint.volumefile.cache import Fault, Reading
-from usdvol_lint.volumefile.model import Format, Grid, VolumeFile, quoted_short
+from usdvol_lint.volumefile.cache import Reading
+from usdvol_lint.volumefile.model import Fault, Format, Grid, VolumeFile, quoted_short
 
 _NAMES_SHOWN = 8
 _UNREAD = ("needs-h5py", "not-in-place")

@@ -16,8 +16,8 @@ from usdvol_lint.facts.grids.contents import Content, ContentClass
 from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.volumefile.cache import Fault, Reading, VolumeFiles
-from usdvol_lint.volumefile.model import Format
+from usdvol_lint.volumefile.cache import Reading, VolumeFiles
+from usdvol_lint.volumefile.model import Fault, Format
 
 _FORMATS: dict[str, Format] = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
 _READ_TOGETHER = 1024
@@ -92,7 +92,7 @@ class ContentReader:
 
     def _class_of(self, content: Content) -> ContentClass:
         _, claim, reading, wanted = content
-        key = (claim, reading.kind, wanted, content.unexpected_format)
+        key = (claim, reading.layout, wanted, content.unexpected_format)
         found = self._classes.get(key)
         if found is None:
             found = self._classes[key] = ContentClass(content)

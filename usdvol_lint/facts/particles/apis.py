@@ -7,7 +7,7 @@ from typing import Any
 
 from pxr import Usd
 
-from usdvol_lint import schema
+from usdvol_lint import schema, spelling
 from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
 
@@ -59,7 +59,7 @@ def read_particle_apis(prim: Any, kinds: PrimKinds) -> ParticleApis:
         for name in raw_apis(prim)
         if name not in applied and not is_registered(name.partition(":")[0])
     ]
-    intended = {name: schema.misspelt_api(name) for name in unregistered}
+    intended = {name: spelling.misspelt_api(name) for name in unregistered}
     return ParticleApis(
         applied=applied,
         third_party=tuple(name for name in unregistered if not intended[name]),

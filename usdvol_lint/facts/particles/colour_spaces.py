@@ -8,7 +8,8 @@ from typing import Any
 
 from pxr import Gf
 
-from usdvol_lint.schema import COLOUR_SPACES, closest_name
+from usdvol_lint.schema import COLOUR_SPACES
+from usdvol_lint.spelling import closest_name
 
 _NAME = "colorSpace:name"
 _DEFINITIONS = "colorSpaceDefinition"

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from pxr import Sdf
 
-from usdvol_lint import schema
+from usdvol_lint import schema, spelling
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
@@ -111,7 +111,7 @@ def _sort_by_schema(
         misspellings=tuple(
             (name, meant, candidates[meant].type_name)
             for name in sorted(undeclared)
-            if (meant := schema.misspelt_attribute(name, candidates))
+            if (meant := spelling.misspelt_attribute(name, candidates))
         ),
         is_layered=is_layered,
         is_clipped=is_clipped,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf
 
-from usdvol_lint import schema
+from usdvol_lint import spelling
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
@@ -85,7 +85,7 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
         if not attribute or not attribute.HasAuthoredValue():
             continue
         names_another = name.startswith("particleField:")
-        could_hold = names_another or schema.is_alike(str(attribute.GetTypeName()), wanted)
+        could_hold = names_another or spelling.is_alike(str(attribute.GetTypeName()), wanted)
         if could_hold and not prim.GetAttribute(intended).HasAuthoredValue():
             yield Misspelt(attribute, intended)
 
