@@ -106,12 +106,16 @@ class _Result:
     asset: str | None = None
 
     def __post_init__(self) -> None:
-        occurrence = self.at
+        occurrence, times = self.at, self.times
         if hasattr(occurrence, "at_default"):
+            times = occurrence.times
             object.__setattr__(self, "at", occurrence.attribute)
-            object.__setattr__(self, "times", occurrence.times)
             object.__setattr__(self, "at_default", occurrence.at_default)
             object.__setattr__(self, "asset", occurrence.asset)
+        object.__setattr__(self, "times", tuple(map(float, times)))
+        # What is no text here would fail where reports are written, for all stages at once.
+        if not all(isinstance(text, str) for text in (self.message, self.suggestion or "")):
+            raise TypeError("message and suggestion of a problem are text")
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,6 +229,8 @@ def rule(
     Raises ValueError for a `when` whose keys no wing declares, or whose options the rule lacks.
     """
 
+    if when is not None and not isinstance(when, When):
+        raise ValueError(f"{code}: `when` takes a When, not {when!r}")
     if when and not isinstance(when.keys, column | summary):
         raise ValueError(f"{code}: `when` names no column or summary of a wing, but {when.keys!r}")
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 
 from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
 from usdvol_lint.engine.check import StageCheck
+from usdvol_lint.engine.failures import still_holding
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
@@ -85,9 +87,7 @@ class Engine:
             found += self._sent(check.others(others, {stamped.identity for stamped in found}))
             stats["variant_selections"] = others.composed
             clock.lap("variants")
-        findings = with_fingerprints(
-            stamped.finding for stamped in found if not stamped.holds or stamped.holds()
-        )
+        findings = with_fingerprints(chain.from_iterable(map(still_holding, found)))
         clock.lap("check")
         return StageReport(
             display(path), Status.CHECKED, stats, findings, clock.seconds, particle_fields

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from pxr import Tf
@@ -18,6 +18,7 @@ from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.rule import NotChecked, Rule
 
 _LONGEST_MESSAGE = 300
+_OF_THE_RULE = "a bug of the rule, not of the stage; --verbose shows the traceback"
 
 
 @dataclass(slots=True)
@@ -91,12 +92,33 @@ class Failures:
                 site=sites.locate(NotChecked("", at=failure.prim)).site,
                 suggestion="the layer is probably corrupt: copy or export it again"
                 if by_usd
-                else "a bug of the rule, not of the stage; --verbose shows the traceback",
+                else _OF_THE_RULE,
                 help=help_for(code),
                 detail=failure.traceback,
                 faulty_rule=failure.rule.code if failure.of_precondition else None,
             )
             yield Stamped(finding, key)
+
+
+def still_holding(stamped: Stamped) -> Iterator[Finding]:
+    """The finding, if its rule stands by it now; if the rule can't say, also that it failed."""
+    try:
+        if not stamped.holds or stamped.holds():
+            yield stamped.finding
+    except Exception as error:  # a rule pack's code: reported
+        found = stamped.finding
+        said = " ".join(f"{type(error).__name__}: {error}".split())
+        yield found
+        yield replace(
+            found,
+            code=RULE_FAILED.code,
+            name=RULE_FAILED.name,
+            severity=Severity.ERROR,
+            message=f"rule {found.code} ({found.name}) failed here: {said}"[:_LONGEST_MESSAGE],
+            suggestion=_OF_THE_RULE,
+            help=help_for(RULE_FAILED),
+            detail=_traceback(error),
+        )
 
 
 def _line(error: Exception) -> int:

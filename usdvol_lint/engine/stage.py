@@ -6,7 +6,7 @@ import os
 import re
 from typing import Any
 
-from pxr import Sdf, Tf, Usd
+from pxr import Ar, Sdf, Tf, Usd
 
 from usdvol_lint.engine.diagnosis import CRATE_SIGNATURE, EXPORT_AGAIN, ZIP_SIGNATURE, read_head
 from usdvol_lint.engine.messages import messages
@@ -51,7 +51,9 @@ def _open(layer: Any, session: Any | None, policy: Any) -> Any:
     cache = Usd.StageCache()
     try:
         with Usd.StageCacheContext(cache):
-            return Usd.Stage.Open(layer, session, policy)
+            # Without the context, USD would take a session of None for one that searches nowhere.
+            context = Ar.GetResolver().CreateDefaultContextForAsset(layer.identifier)
+            return Usd.Stage.Open(layer, session, context, policy)
     except Tf.ErrorException as error:
         stage = next(iter(cache.GetAllStages()), None)
         if stage is None or not concerns_only_clips(error, stage):

@@ -361,3 +361,20 @@ def test_a_path_in_a_package_may_have_format_arguments(lint_text: Lint, tmp_path
     package(tmp_path / "shot.usdz", "#usda 1.0\n", {"a.vdb": CONTENT})
     path = "./shot.usdz[a.vdb]:SDF_FORMAT_ARGS:b=c"
     assert said(lint_text(volume(f"asset filePath = @{path}@"))) == []
+
+
+@pytest.mark.parametrize("where", [".", "elsewhere"])
+def test_the_search_path_begins_with_the_folder_of_the_stage(
+    where: str, engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A path without `./` in a layer of another folder, from whatever working directory."""
+    write(tmp_path, "shot/cloud.vdb")
+    for name, text in {
+        "shot/root.usda": "#usda 1.0\n(\n    subLayers = [@./fx/smoke.usda@]\n)\n",
+        "shot/fx/smoke.usda": volume("asset filePath = @cloud.vdb@"),
+    }.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / where)
+    assert said(engine.lint(str(tmp_path / "shot" / "root.usda"))) == []
