@@ -631,6 +631,8 @@ def test_each_instance_stands_where_it_stands(moved: str, lint: Lint) -> None:
         (OPS["wander"], "moved by (-4, 0, 0)", "3"),
         (OPS["none"], None, None),
         (OPS["size"].replace("(2, 3, 4)", "(0, 1, 1)"), None, None),
+        (OPS["size"].replace("(2, 3, 4)", "(1, 1.0001, 1)"), "rotated or scaled", None),
+        (OPS["size"].replace("(2, 3, 4)", "(1, 1.0000001, 1)"), None, None),
         (OPS["move"].replace("(1, 2, 3)", "(1e-7, 0, 0)"), None, None),
     ],
 )
