@@ -665,6 +665,11 @@ ONE, TWO = "./smoke/smoke.0001.vdb", "./smoke/smoke.0002.vdb"
         ([ONE, TWO], None, f"2 files at one time, '{ONE}' (a) and '{TWO}' (b), of"),
         ([ONE, TWO, ONE], None, f"2 files at one time, '{ONE}' (a, c) and '{TWO}' (b), of"),
         (
+            [ONE, TWO, "smoke/../smoke/smoke.0001.vdb"],
+            None,
+            f"2 files at one time, '{ONE}' (a, c) and '{TWO}' (b), of",
+        ),
+        (
             [ONE, TWO, SMALL, LARGE],
             None,
             f"4 files at one time, '{ONE}' (a), '{TWO}' (b) and 2 more, of",
