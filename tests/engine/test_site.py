@@ -107,6 +107,16 @@ def test_the_strongest_opinion_counts(locate: Locate) -> None:
     assert (found.layer, found.line, found.times) == ("over.usda", 4, (1.0,))
 
 
+def test_targets_are_an_opinion_and_a_bare_relationship_is_none(locate: Locate) -> None:
+    layers = {
+        "stage.usda": "(\n    subLayers = [@./weak.usda@]\n)\n"
+        'over "cloud"\n{\n    rel field:density\n}\n',
+        "weak.usda": 'def Volume "cloud"\n{\n    rel field:density = </gone>\n}\n',
+    }
+    site = locate("/cloud.field:density", layers).site
+    assert (site.layer, site.line) == ("weak.usda", 4)
+
+
 def test_times_are_the_stages_and_lines_those_of_the_layers_own_time(locate: Locate) -> None:
     layers = {
         "stage.usda": "(\n    subLayers = [@./base.usda@ (offset = 100; scale = 2)]\n)\n",

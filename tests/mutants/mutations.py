@@ -18,18 +18,19 @@ class DoesNotApplyError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Mutation:
-    """`old` in the module called `module` becomes `new`, and the tests named are to see it.
+    """`old` becomes `new`, wherever it stands, and the tests named are to see it.
 
-    Modules go by their names and not by their folders, so that a module which moves stays known.
+    `old` is found once in all code, so that it stays known in whatever module it moves to; where
+    several modules hold it, `module` names the one that is meant, by its name and not its folder.
     `seen_by` is, for each test module, what is handed to pytest as `-k`.
     Where `usd` is given, nothing but that version of usd-core shows the difference.
     """
 
     id: str
-    module: str
     old: str
     new: str
     seen_by: Mapping[str, str]
+    module: str = ""
     usd: str = ""
 
     def applied(self, root: Path) -> tuple[Path, str]:
@@ -37,9 +38,10 @@ class Mutation:
         texts = {path: path.read_text("utf-8") for path in _sources(root, self.module)}
         holders = [path for path, text in texts.items() if self.old in text]
         if len(holders) != 1 or texts[holders[0]].count(self.old) != 1:
+            where = f"modules called {self.module}" if self.module else "all modules"
             raise DoesNotApplyError(
-                f"{self.old!r} is not found exactly once in {self.module}.py, but "
-                f"{sum(text.count(self.old) for text in texts.values())} times"
+                f"{self.old!r} is not found exactly once, but "
+                f"{sum(text.count(self.old) for text in texts.values())} times in {where}"
             )
         return holders[0], texts[holders[0]].replace(self.old, self.new)
 
@@ -58,10 +60,10 @@ def module_of_tests(root: Path, name: str) -> Path:
 
 
 def _sources(root: Path, name: str) -> list[Path]:
-    """The modules of that name; a package goes by the name of its folder."""
+    """The modules of that name, or all; a package goes by the name of its folder."""
     return [
         path
         for folder in _SOURCES
         for path in sorted((root / folder).rglob("*.py"))
-        if name in (path.stem, path.parent.name if path.stem == "__init__" else "")
+        if not name or name in (path.stem, path.parent.name if path.stem == "__init__" else "")
     ]

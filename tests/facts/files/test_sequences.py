@@ -216,6 +216,8 @@ def test_a_range_that_ends_before_it_begins_is_none(lint_text: Lint) -> None:
     header = "(\n    startTimeCode = 10\n    endTimeCode = 1\n)"
     samples = [(float(frame), f"./s.{frame:04}.vdb") for frame in range(20, 23)]
     assert said(lint_text(sampled(samples, header)), "AST012") == []
+    one_frame = header.replace("10", "1")
+    assert len(said(lint_text(sampled(samples, one_frame)), "AST012")) == 1
 
 
 @pytest.mark.parametrize("kind", ["OpenVDBAsset", "Field3DAsset"])

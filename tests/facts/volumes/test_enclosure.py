@@ -631,6 +631,8 @@ def test_each_instance_stands_where_it_stands(moved: str, lint: Lint) -> None:
         (OPS["wander"], "moved by (-4, 0, 0)", "3"),
         (OPS["none"], None, None),
         (OPS["size"].replace("(2, 3, 4)", "(0, 1, 1)"), None, None),
+        (OPS["size"].replace("(2, 3, 4)", "(1, 1.0001, 1)"), "rotated or scaled", None),
+        (OPS["size"].replace("(2, 3, 4)", "(1, 1.0000001, 1)"), None, None),
         (OPS["move"].replace("(1, 2, 3)", "(1e-7, 0, 0)"), None, None),
     ],
 )
@@ -662,6 +664,11 @@ ONE, TWO = "./smoke/smoke.0001.vdb", "./smoke/smoke.0002.vdb"
         ([ONE, "./gone.vdb"], None, None),
         ([ONE, TWO], None, f"2 files at one time, '{ONE}' (a) and '{TWO}' (b), of"),
         ([ONE, TWO, ONE], None, f"2 files at one time, '{ONE}' (a, c) and '{TWO}' (b), of"),
+        (
+            [ONE, TWO, "smoke/../smoke/smoke.0001.vdb"],
+            None,
+            f"2 files at one time, '{ONE}' (a, c) and '{TWO}' (b), of",
+        ),
         (
             [ONE, TWO, SMALL, LARGE],
             None,

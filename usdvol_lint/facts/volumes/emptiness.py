@@ -36,7 +36,7 @@ def why_empty(relationship: Any) -> tuple[Emptiness, tuple[Any, ...]]:
         elif targets.GetAddedOrExplicitItems():
             emptiness = Emptiness.DELETED
         if targets.isExplicit:
-            if not added and not lost and emptiness is Emptiness.UNAUTHORED:
+            if emptiness is Emptiness.UNAUTHORED:
                 emptiness = Emptiness.BLOCKED
             break
     return (Emptiness.LOST, tuple(lost)) if lost else (emptiness, ())

@@ -46,7 +46,7 @@ class FieldIndex:
         closest = shared[max(shared)] if shared else []
         if len(closest) != 1:
             return None
-        above = {volume, *closest[0].GetPrefixes()} & self._volumes
+        above = self._volumes.intersection(closest[0].GetPrefixes())
         return closest[0] if above <= {volume} else None
 
 
