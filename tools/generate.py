@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from tools import coverage
 from usdvol_lint.command.cli import help_text
 from usdvol_lint.packs.catalog import Catalog, load
 from usdvol_lint.run.testing import all_words
@@ -45,7 +46,16 @@ def main(arguments: list[str]) -> int:
     Returns 1 if --check lists any, else 0.
     """
     check = "--check" in arguments
-    generated = {RULES / "README.md": rule_index(load()), HELP: help_text(), **all_words(RULES)}
+    catalog = load()
+    pages = {code: page for code in catalog.rules if (page := catalog.page(code))}
+    generated = {
+        RULES / "README.md": rule_index(catalog),
+        coverage.TARGET: coverage.coverage(
+            coverage.read_introduction(), coverage.read_sentences(), pages
+        ),
+        HELP: help_text(),
+        **all_words(RULES),
+    }
     stale = [
         path
         for path, text in generated.items()

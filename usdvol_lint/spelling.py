@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from usdvol_lint.nearest import CLOSE, closest_match
@@ -81,10 +82,30 @@ GUESSED_TOKENS: dict[str, dict[str, str]] = {
 }
 """For each attribute tokens of other libraries, folded, and its own for the same."""
 
+_LONG_NAME = 10
+_VERSION = re.compile(r"(.*?)_?v?[0-9]+")
+
 
 def misspelt_type(name: str) -> str | None:
     """The type of UsdVol that an unregistered type name is probably a misspelling of."""
     return PRE_STANDARD_TYPES.get(name) or closest_name(name, CONCRETE_TYPES)
+
+
+def is_slip(name: str, meant: str) -> bool:
+    """Whether a type name is near-certainly another one: but for case, a plural or few letters.
+
+    A few letters are two in a name of ten or more, and one in a shorter one; digits are none.
+    """
+    allowed = 2 if len(meant) >= _LONG_NAME else 1
+    same_digits = _digits(name) == _digits(meant)
+    return same_digits and _letters_apart(name.lower(), meant.lower()) <= allowed
+
+
+def versioned_type(name: str) -> str | None:
+    """The type of UsdVol that a type name is followed by a number of, as `OpenVDBAssetV2` is."""
+    types = {other.lower(): other for other in CONCRETE_TYPES}
+    version = _VERSION.fullmatch(name.lower())
+    return types.get(version[1]) if version else None
 
 
 def misspelt_api(name: str) -> str | None:
@@ -145,6 +166,17 @@ def closest_name(
     digits = _digits(name)
     comparable = (other for other in sorted(candidates) if digits in ("", _digits(other)))
     return closest_match(name, comparable, cutoff, _fold)
+
+
+def _letters_apart(one: str, other: str) -> int:
+    """How many letters have to be added, removed or replaced to make one word of the other."""
+    costs = list(range(len(other) + 1))
+    for row, letter in enumerate(one, start=1):
+        diagonal, costs[0] = costs[0], row
+        for column, wanted in enumerate(other, start=1):
+            cheapest = min(costs[column] + 1, costs[column - 1] + 1, diagonal + (letter != wanted))
+            diagonal, costs[column] = costs[column], cheapest
+    return costs[-1]
 
 
 def _array_and_text(type_name: str) -> tuple[bool, bool]:

@@ -1,4 +1,4 @@
-"""Stages of many prims, few of which are Volumes."""
+"""Stages of many prims, few of which are Volumes: in one layer, or assembled by references."""
 
 from __future__ import annotations
 
@@ -41,10 +41,48 @@ def many_prims(folder: Path, scale: float) -> Path:
     return stage
 
 
+def assembled(folder: Path, scale: float) -> Path:
+    """1,000 references to an asset of 200 prims, one of them a Volume with its field."""
+    from pxr import Sdf
+
+    shutil.copy(ROOT / "rules" / "assets" / "cloud.vdb", folder)
+    _write_asset(folder / "asset.usdc")
+    stage = folder / "assembled.usdc"
+    layer = Sdf.Layer.CreateNew(str(stage))
+    references = Sdf.ReferenceListOp.Create(prependedItems=[Sdf.Reference("./asset.usdc")])
+    with Sdf.ChangeBlock():
+        for number in range(max(1, round(1000 * scale))):
+            spec = Sdf.PrimSpec(layer, f"asset_{number}", Sdf.SpecifierDef)
+            spec.SetInfo("references", references)
+    layer.Save()
+    return stage
+
+
+def _write_asset(path: Path) -> None:
+    """200 prims: a root, a Volume and its field, and others below five groups."""
+    from pxr import Sdf
+
+    layer = Sdf.Layer.CreateNew(str(path))
+    with Sdf.ChangeBlock():
+        root = Sdf.PrimSpec(layer, "asset", Sdf.SpecifierDef, "Xform")
+        layer.defaultPrim = "asset"
+        add_volume(root, "cloud", "./cloud.vdb")
+        groups = [
+            Sdf.PrimSpec(root, f"group_{number}", Sdf.SpecifierDef, "Xform") for number in range(5)
+        ]
+        for number in range(200 - 3 - len(groups)):
+            group = groups[number % len(groups)]
+            Sdf.PrimSpec(
+                group, f"prim_{number}", Sdf.SpecifierDef, "Mesh" if number % 2 else "Xform"
+            )
+    layer.Save()
+
+
 _ONE_RULE = linter("--select", "AST002")
 _ALL_RULES = linter("--select", "ALL")
 
 CASES = (
     Case("prims", linter(), python(_TRAVERSE), 1.3, many_prims),
     Case("prims-all-rules", _ALL_RULES, _ONE_RULE, 1.1, many_prims),
+    Case("assembled", linter(), python(_TRAVERSE), 1.3, assembled),
 )

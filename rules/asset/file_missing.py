@@ -7,9 +7,14 @@ from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, 
 def file_missing(field: Prim, facts: Facts) -> Problems:
     missing = facts.files.paths(field).of(AssetState.MISSING)
     if missing:
+        fields = facts.files.sharing_missing_folder(field)
+        if fields and fields[0] != field:
+            return
         reason, similar = facts.files.absence(missing.anchored(), missing.first.path)
+        others = len(fields) - 1
+        shared = f", where {others} other field{'s' * (others > 1)} should have files too" if others > 0 else ""
         yield Problem(
-            f"no file at {missing.shown}{reason}{missing.count}",
+            f"no file at {missing.shown}{reason}{shared}{missing.count}",
             at=missing,
             suggestion=f"did you mean {quoted(similar)}?" if similar else None,
         )

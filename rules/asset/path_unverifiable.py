@@ -1,13 +1,13 @@
 """AST010: a path that nothing here resolves can't be checked, or not rendered elsewhere."""
 
-from usdvol_lint.rule import INFO, WARNING, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import ERROR, INFO, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
 
 @rule(
     "AST010",
     on="FieldAsset",
     when=file_paths(AssetState.LIVE_SESSION, AssetState.UNVERIFIABLE),
-    severity=WARNING,
+    severity=ERROR,
     since="0.1",
 )
 def path_unverifiable(field: Prim, facts: Facts) -> Problems:

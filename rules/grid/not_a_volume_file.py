@@ -11,7 +11,8 @@ def _unread(content: Content) -> str | None:
 
 
 def _stranger(content: Content) -> str | None:
-    return content.unexpected_format
+    # What the other type of field reads, by another extension, is AST006.
+    return None if content.swapped_format else content.unexpected_format
 
 
 def _fault(content: Content) -> tuple[str, bool] | None:

@@ -222,7 +222,7 @@ def test_a_frame_without_grids_hides_no_other(lint_text: Lint, tmp_path: Path) -
 @pytest.mark.parametrize(
     ("code", "one", "other", "lines"),
     [
-        ("FLD001", "smoke/smoke.0001.vdb", "cloud.vdb", (FLOAT,)),
+        ("FLD001", "grids/unnamed.vdb", "cloud.vdb", (FLOAT,)),
         ("FLD002", "grids/points.vdb", "smoke/smoke.0001.vdb", ()),
     ],
 )

@@ -142,6 +142,43 @@ def test_misspelt_type(name: str, meant: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "is_slip"),
+    [
+        ("OpenVdbAsset", True),
+        ("openVDBasset", True),
+        ("Volumes", True),
+        ("Volum", True),
+        ("Volmue", False),
+        ("Volumess", False),
+        ("OpenVBDAsset", True),
+        ("OpnVDBAset", True),
+        ("OpnVDBAst", False),
+        ("ParticleFieldGaussianSplat", False),
+        ("UsdVolVolume", False),
+    ],
+)
+def test_few_letters_are_a_slip(name: str, is_slip: bool) -> None:
+    meant = spelling.misspelt_type(name) or "Volume"
+    assert spelling.is_slip(name, meant) is is_slip
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("OpenVDBAsset2", "OpenVDBAsset"),
+        ("OpenVDBAsset_v3", "OpenVDBAsset"),
+        ("VolumeV10", "Volume"),
+        ("ParticleField3DGaussianSplatV2", "ParticleField3DGaussianSplat"),
+        ("OpenVDBAsset", None),
+        ("Field3DAsset", None),
+        ("Field3D2", None),
+    ],
+)
+def test_a_number_behind_a_type_is_a_version(name: str, meant: str | None) -> None:
+    assert spelling.versioned_type(name) == meant
+
+
+@pytest.mark.parametrize(
     "name",
     [
         "ParticleField2DGaussianSplat",

@@ -106,4 +106,14 @@ def other_schema(rng: Random) -> Prim:
     return prim
 
 
+@neighbour
+def later_version(rng: Random) -> Prim:
+    """Types with a version behind their names, which a plugin may declare elsewhere."""
+    field = Prim("density", rng.choice(("OpenVDBAsset2", "OpenVDBAssetV2")))
+    field.properties["filePath"] = Attribute("asset", "./there/is/none.vdb")
+    volume = Prim("later", "VolumeV2", children=[field])
+    volume.properties["field:density"] = Relationship(["/nowhere"])
+    return volume
+
+
 NEIGHBOURS = tuple(each for each in globals().values() if isinstance(each, Neighbour))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from usdvol_lint import schema
+from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
@@ -76,6 +79,14 @@ class Files(Wing):
 
         return find_absence(self._disk, path, authored)
 
+    def sharing_missing_folder(self, field: Any) -> list[Any]:
+        """The fields whose missing files all lie below the same missing folder, this one too.
+
+        None of them where no folder is missing.
+        """
+        folder = self._missing_folders.get(field)
+        return [] if folder is None else self._below_missing_folder[folder]
+
     def frames(self, found: Affected) -> list[tuple[int, str]]:
         """The frame numbers and paths of the files that a path with a placeholder stands for."""
         from usdvol_lint.facts.files.corrections import find_frames
@@ -111,6 +122,26 @@ class Files(Wing):
         from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
+
+    @cached_property
+    def _missing_folders(self) -> dict[Any, str]:
+        """By field, the one folder that is missing above all of its missing files."""
+        from usdvol_lint.facts.files.absences import common_missing_folder
+
+        found = (
+            (field, common_missing_folder(paths))
+            for field, paths in self.paths.readable(schema.FIELD_ASSET)
+            if AssetState.MISSING in paths.states
+        )
+        return {field: folder for field, folder in found if folder}
+
+    @cached_property
+    def _below_missing_folder(self) -> dict[str, list[Any]]:
+        """The fields by their missing folder, in the order of their paths."""
+        fields: dict[str, list[Any]] = defaultdict(list)
+        for field in sorted(self._missing_folders, key=lambda field: field.GetPath()):
+            fields[self._missing_folders[field]].append(field)
+        return fields
 
     @cached_property
     def _reader(self) -> AssetReader:

@@ -38,12 +38,21 @@ def find_absence(disk: Disk, path: str, authored: str) -> Absence:
     below = path[len(missing) :]
     shown = _with_end(authored, below, "") if below else authored
     similar = None if corrected else _closest_name(disk, folder, name)
-    if similar:
-        has_file = os.path.exists(os.path.join(folder, similar) + below)
+    has_file = bool(similar) and os.path.exists(f"{folder}/{similar}{below}")
+    moved = None if corrected or has_file else _moved(disk, path, missing, authored)
+    if moved:
+        corrected = _with_end(authored, *moved)
+    elif similar:
         corrected = _with_end(authored, name + below, similar + below if has_file else similar)
     if os.path.islink(missing):
         return Absence(f": {_broken_link(missing)}", corrected)
     return Absence(f": no folder {quoted(shown)}" if below else "", corrected)
+
+
+def missing_folder(path: str) -> str | None:
+    """The topmost folder that does not exist above an absolute path, if one does not."""
+    missing = _first_missing(path)
+    return None if missing == path or Ar.IsPackageRelativePath(path) else missing
 
 
 def correct_case(disk: Disk, path: str, authored: str) -> str | None:
@@ -83,8 +92,27 @@ def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
 
 def _closest_name(disk: Disk, folder: str, name: str) -> str | None:
     """The closest other name in a folder; a name with other numbers is no misspelling."""
-    others = disk.names_numbered_alike(folder, name)
-    return closest_match(name, (other for other in others if other != name))
+    others = [other for other in disk.names_numbered_alike(folder, name) if other != name]
+    swapped = {
+        f"{name[:at]}{name[at + 1]}{name[at]}{name[at + 2 :]}" for at in range(len(name) - 1)
+    }
+    return next(filter(swapped.__contains__, others), None) or closest_match(name, others)
+
+
+def _moved(disk: Disk, path: str, missing: str, authored: str) -> tuple[str, str] | None:
+    """The end of a path and what to write for it, if the very file lies in a sibling folder.
+
+    That is one beside the folder that is missing; or, where only the file is, beside its own.
+    Where that has a number, its neighbours in other folders are versions or takes of the frame.
+    The folder has to be named in the path: what lies beside that of the layer is another asset.
+    """
+    folder, name = os.path.split(missing) if missing == path else (missing, "")
+    if name and any(map(str.isdigit, name)):
+        return None
+    below = path[len(folder) :]
+    end = os.path.basename(folder) + below
+    sibling = disk.sibling_with(folder, below) if authored.endswith(end) else None
+    return (end, sibling + below) if sibling else None
 
 
 def _first_missing(path: str) -> str:

@@ -6,7 +6,7 @@ import os
 import re
 import stat
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, TypeAlias
 
 from pxr import Ar, Tf
@@ -17,6 +17,8 @@ from usdvol_lint.volumefile.signatures import LFS_POINTER
 
 _LFS_POINTER_LIMIT = 1024
 _NUMBER = re.compile(r"[0-9]+")
+_NAMES_TRIED = 10_000
+"""In so many folders, for all paths of a stage, a file is looked for that may have moved."""
 
 _Numbers: TypeAlias = tuple[int, ...]
 
@@ -34,6 +36,8 @@ class Disk:
         self._by_case: dict[str, dict[str, str]] = {}
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._ignores_case: dict[str, bool] = {}
+        self._siblings: dict[str, tuple[str, ...]] = {}
+        self._names_left = _NAMES_TRIED
 
     @property
     def checked(self) -> int:
@@ -69,6 +73,28 @@ class Disk:
         if folder not in self._by_numbers:
             self._by_numbers[folder] = _group_by_numbers(self.listing(folder))
         return self._by_numbers[folder].get(_numbers(name), ())
+
+    def sibling_with(self, folder: str, below: str) -> str | None:
+        """The name of the one folder beside another that has a file at the path `below`, `/a.vdb`.
+
+        Which folders come into question is looked for once for each `folder`, by the first file.
+        """
+        parent = os.path.dirname(folder)
+        if folder not in self._siblings:
+            self._siblings[folder] = tuple(self._siblings_with(folder, below))
+        found = [
+            name for name in self._siblings[folder] if os.path.isfile(f"{parent}/{name}{below}")
+        ]
+        return found[0] if len(found) == 1 else None
+
+    def _siblings_with(self, folder: str, below: str) -> Iterator[str]:
+        parent, own_name = os.path.split(folder)
+        names = () if os.path.dirname(parent) == parent else self.listing(parent)
+        if len(names) <= self._names_left:
+            self._names_left -= len(names)
+            for name in names:
+                if name != own_name and os.path.isfile(f"{parent}/{name}{below}"):
+                    yield name
 
     def in_case(self, path: str, count: int) -> str | None:
         """An absolute path with its last `count` names as the folders on disk spell them.

@@ -57,8 +57,22 @@ class Content(NamedTuple):
         file = self.reading.file
         if file is None or file.format == self.wanted:
             return None
-        extension = os.path.splitext(self.sample.resolved.rstrip("]"))[1].lower()
-        return None if _ANNOUNCED.get(extension) == file.format else file.format
+        return None if _ANNOUNCED.get(self._extension) == file.format else file.format
+
+    @property
+    def swapped_format(self) -> Format | None:
+        """The file's format, if it is OpenVDB for a Field3D field or the reverse; else None.
+
+        None also where the extension is that of the wanted format, so that only the content tells.
+        """
+        file = self.reading.file
+        if file is None or {file.format, self.wanted} != {"openvdb", "field3d"}:
+            return None
+        return None if _ANNOUNCED.get(self._extension) == self.wanted else file.format
+
+    @property
+    def _extension(self) -> str:
+        return os.path.splitext(self.sample.resolved.rstrip("]"))[1].lower()
 
     @property
     def file(self) -> VolumeFile | None:

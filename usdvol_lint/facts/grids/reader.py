@@ -92,7 +92,8 @@ class ContentReader:
 
     def _class_of(self, content: Content) -> ContentClass:
         _, claim, reading, wanted = content
-        key = (claim, reading.layout, wanted, content.unexpected_format)
+        formats = (wanted, content.unexpected_format, content.swapped_format)
+        key = (claim, reading.layout, formats)
         found = self._classes.get(key)
         if found is None:
             found = self._classes[key] = ContentClass(content)

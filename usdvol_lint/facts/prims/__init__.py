@@ -99,6 +99,12 @@ class Prims(Wing):
 
         return recognise(prim)
 
+    def has_data_of(self, prim: Any, type_name: str) -> bool:
+        """Whether properties are authored that a prim of this type of UsdVol is read for."""
+        from usdvol_lint.facts.prims.data import has_data_of
+
+        return has_data_of(prim, type_name)
+
     @column
     def limits(self, table: Table) -> Sequence[Limits]:
         """The `extent` of prims, all values as boxes."""

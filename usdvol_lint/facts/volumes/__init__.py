@@ -79,6 +79,10 @@ class Volumes(Wing):
         path = self._field_index.intended_by(binding)
         return shown_path(self._stage, path) if path else None
 
+    def is_target_of_unknown_type(self, prim: Any) -> bool:
+        """Whether a Volume targets a prim whose type is not registered."""
+        return prim.GetPath() in self._targets_of_unknown_type
+
     def unbound_fields(self, volume: Any) -> list[Any]:
         """The field prims below a Volume that no Volume targets."""
         from usdvol_lint.facts.volumes.usage import unbound_fields
@@ -145,6 +149,19 @@ class Volumes(Wing):
             for binding, target in self.bindings(volume).with_files()
         ]
         return find_mixed_files(named) if len(named) > 1 else None
+
+    @cached_property
+    def _targets_of_unknown_type(self) -> frozenset[Any]:
+        """The paths of the prims of unregistered types that Volumes target."""
+        from usdvol_lint.facts.usd.instances import in_prototype
+        from usdvol_lint.facts.volumes.states import TargetState
+
+        return frozenset(
+            in_prototype(target.prim).GetPath()
+            for volume, fields in self.bound_fields.readable(schema.VOLUME)
+            if TargetState.UNKNOWN_TYPE in fields.marks
+            for _, target in self.bindings(volume).with_target(TargetState.UNKNOWN_TYPE)
+        )
 
     @cached_property
     def _users(self) -> Counter[Slot]:
