@@ -106,4 +106,11 @@ def other_schema(rng: Random) -> Prim:
     return prim
 
 
+@neighbour
+def class_of_others(rng: Random) -> Prim:
+    """An arc to a class that nobody has authored yet."""
+    arc = rng.choice(("inherits", "specializes"))
+    return Prim("heir", "Xform", metadata=[(f"prepend {arc} = </_class_of_nobody>",)])
+
+
 NEIGHBOURS = tuple(each for each in globals().values() if isinstance(each, Neighbour))

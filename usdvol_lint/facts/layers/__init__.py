@@ -11,6 +11,7 @@ from usdvol_lint.facts.found import Wing
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
+    from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.clips import Clips
 
@@ -29,6 +30,21 @@ class Layers(Wing):
         return self._composition.missing_layers
 
     @property
+    def empty_arcs(self) -> tuple[EmptyArc, ...]:
+        """The references and payloads to prims that are not there."""
+        return self._composition.empty_arcs
+
+    def may_bring_ours(self, *names: str) -> bool:
+        """Whether Volumes, fields or particle fields are on the stage, or names speak of them."""
+        from usdvol_lint.facts.layers.words import speak_of_ours
+
+        return self._has_ours or speak_of_ours(names)
+
+    @cached_property
+    def _has_ours(self) -> bool:
+        return any(self.tables.prims(name) for name in schema.OURS)
+
+    @property
     def errors(self) -> tuple[CompositionError, ...]:
         """All other composition errors."""
         return self._composition.errors
@@ -40,11 +56,11 @@ class Layers(Wing):
 
     @property
     def are_whole(self) -> bool:
-        """Whether every layer that an arc names could be opened and was loaded."""
+        """Whether every arc could be followed and every payload was loaded."""
         return self._composition.is_whole
 
     def may_lack(self, prim: Any) -> bool:
-        """Whether a layer that failed to open may have opinions on a prim or those below it."""
+        """Whether an arc that brings nothing may have opinions on a prim or those below it."""
         return self._composition.may_lack(prim)
 
     def may_lack_values(self, prim: Any) -> bool:
