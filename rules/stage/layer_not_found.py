@@ -1,17 +1,6 @@
 """STG001: every layer that the stage names must open."""
 
-from usdvol_lint.rule import (
-    ERROR,
-    STAGE,
-    WARNING,
-    Facts,
-    NotChecked,
-    Prim,
-    Problem,
-    Problems,
-    quoted,
-    rule,
-)
+from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
 
 _NAMED = 3
 

@@ -53,7 +53,7 @@ def test_missing_layers_are_known_by_their_place(lint_text: Lint, tmp_path: Path
 
 def test_prims_that_are_not_there_are_known_by_their_place(lint_text: Lint, tmp_path: Path) -> None:
     (tmp_path / "lib.usda").write_text(
-        '#usda 1.0\ndef "a"\n{\n    def "c" (\n        references = </nope>\n    )\n    {\n    }\n}\n'
+        '#usda 1.0\ndef "a"\n{\n    def "c" (\n        references = </nope>\n    ) {\n    }\n}\n'
     )
     reference = 'def "p{}" (\n    references = @./lib.usda@</a>\n)\n{{\n}}\n'
     report = lint_text("#usda 1.0\n" + "".join(map(reference.format, range(3))))
@@ -116,8 +116,8 @@ def test_only_a_corrected_path_that_leads_to_a_prim_is_offered(
     lint_text: Lint, tmp_path: Path
 ) -> None:
     library = 'def "cloud"\n{\n    def "part"\n    {\n    }\n}\n'
-    arcs = "@./lib.usda@</clouds/part>", "@./lib.usda@</clouds/rain>"
-    assert advice(lint_text, tmp_path, library, *arcs) == [None, "did you mean </cloud/part>?"]
+    arcs = "@./lib.usda@</clouds/rain>", "@./lib.usda@</clouds/part>"
+    assert advice(lint_text, tmp_path, library, *arcs) == ["did you mean </cloud/part>?", None]
 
 
 def test_only_what_is_defined_is_offered_for_a_default_prim(

@@ -11,13 +11,14 @@ from usdvol_lint.facts.found import Wing
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
+    from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.clips import Clips
 
 
 class Layers(Wing):
-    """What USD could not compose, and the time range that the stage declares."""
+    """What USD could not compose, and what layers say of time."""
 
     def __init__(self, tables: Tables, stage: Any, clips: Clips) -> None:
         super().__init__(tables)
@@ -74,6 +75,21 @@ class Layers(Wing):
             return None
         start, end = self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
         return (start, end) if start <= end else None
+
+    @cached_property
+    def unsaid_rates(self) -> tuple[UnsaidRate, ...]:
+        """The layers that say no rate and whose samples the stage therefore has at other times."""
+        from usdvol_lint.facts.layers.rates import unsaid_rates
+
+        return unsaid_rates(self._stage, self.tables, self.time_range)
+
+    def rate_is_unsaid(self, attribute: Any) -> bool:
+        """Whether the samples of an attribute are at other times because no rate is said."""
+        return any(
+            attribute == displaced.attribute
+            for unsaid in self.unsaid_rates
+            for displaced in unsaid.displaced
+        )
 
     @cached_property
     def _composition(self) -> Composition:

@@ -1,0 +1,150 @@
+"""Layers that say no rate, and what USD makes of their time samples for that reason."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pxr import Tf
+
+from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.facts.usd.values import sample_times
+from usdvol_lint.schema import OURS
+
+_USUAL = 24.0
+"""The rate that USD takes for that of a layer that says none."""
+
+_FEW = 4
+"""Samples outside of the range count from a quarter of them on: some overhang at an end is none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Displaced:
+    """Time samples that land elsewhere because their layer says no rate.
+
+    `times`: those that land between frames, or else outside of the stage's time range.
+    `total`: the number of the attribute's samples.
+    """
+
+    attribute: Any
+    times: tuple[float, ...]
+    are_between: bool
+    total: int
+
+
+@dataclass(frozen=True, slots=True)
+class UnsaidRate:
+    """A layer that says neither timeCodesPerSecond nor framesPerSecond.
+
+    `rate`: the stage's; `scale`: that by which USD therefore scales times in the layer.
+    `displaced`: the attributes with samples in the layer, at least one, sorted by path.
+    """
+
+    layer: Any
+    rate: float
+    scale: float
+    displaced: tuple[Displaced, ...]
+
+
+def unsaid_rates(
+    stage: Any, tables: Tables, time_range: tuple[float, float] | None
+) -> tuple[UnsaidRate, ...]:
+    """The layers that say no rate and whose samples the stage therefore has at other times."""
+    rate = stage.GetTimeCodesPerSecond()
+    layers = _without_rate(stage) if rate != _USUAL else frozenset()
+    if not layers:
+        return ()
+    own = rate / _USUAL
+    found: dict[Any, list[Displaced]] = defaultdict(list)
+    for attribute in _animated(tables):
+        times = sample_times(attribute)
+        opinion = strongest_opinion(attribute, times[0])
+        if opinion and opinion.spec.layer in layers and not _is_undone(opinion.offset.scale, own):
+            start = opinion.offset.offset
+            displaced = _displaced(
+                attribute, times, lambda time, start=start: start + (time - start) / own, time_range
+            )
+            if displaced:
+                found[opinion.spec.layer].append(displaced)
+    return tuple(
+        UnsaidRate(layer, rate, own, tuple(sorted(all_of_layer, key=_path)))
+        for layer, all_of_layer in sorted(found.items(), key=lambda item: item[0].identifier)
+    )
+
+
+def _path(displaced: Displaced) -> Any:
+    return displaced.attribute.GetPath()
+
+
+def _without_rate(stage: Any) -> frozenset[Any]:
+    return frozenset(
+        layer
+        for layer in stage.GetUsedLayers()
+        if not layer.HasTimeCodesPerSecond() and not layer.HasFramesPerSecond()
+    )
+
+
+def _animated(tables: Tables) -> Iterator[Any]:
+    """The attributes of ours that have two time samples at least, none of them in clips."""
+    for prims, authored in tables.authored(*OURS):
+        if authored.is_clipped:
+            continue
+        for name in authored.declared:
+            for prim in prims:
+                attribute = prim.GetAttribute(name)
+                if _count(attribute) > 1:
+                    yield attribute
+
+
+def _count(attribute: Any) -> int:
+    try:
+        return int(attribute.GetNumTimeSamples())
+    except Tf.ErrorException:  # reported by those who read the values
+        return 0
+
+
+def _is_undone(scale: float, own: float) -> bool:
+    """Whether the scales that arcs author undo that which USD adds by itself.
+
+    `scale` is all of them together.  A slow motion may come on top: then the whole is an even
+    multiple or fraction, and what was authored is none.
+    """
+    written = scale / own
+    return _is_close(scale, 1) or (
+        not _is_close(written, 1) and _is_even(scale) and not _is_even(written)
+    )
+
+
+def _displaced(
+    attribute: Any,
+    times: Sequence[float],
+    meant: Callable[[float], float],
+    time_range: tuple[float, float] | None,
+) -> Displaced | None:
+    """The samples that are not on frames, or not in the range, though they are meant to be."""
+    between = [time for time in times if not _is_frame(time) and _is_frame(meant(time))]
+    if between:
+        return Displaced(attribute, tuple(between), True, len(times))
+    if time_range is None:
+        return None
+    start, end = time_range
+    beyond = [time for time in times if not start <= time <= end and start <= meant(time) <= end]
+    if len(beyond) > 1 and len(beyond) * _FEW >= len(times):
+        return Displaced(attribute, tuple(beyond), False, len(times))
+    return None
+
+
+def _is_frame(time: float) -> bool:
+    return _is_close(time, round(time))
+
+
+def _is_even(scale: float) -> bool:
+    return scale > 0 and _is_frame(max(scale, 1 / scale))
+
+
+def _is_close(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=1e-6, abs_tol=1e-6)
