@@ -35,6 +35,10 @@ class Placed(NamedTuple):
         return self.path + "".join(f"/{name}" for name in path.split("/")[2:])
 
 
+RATE = "timeCodesPerSecond"
+UNDONE = 'doc = "undoes the rate for what it references"'
+UNSAID = 'doc = "says no rate"'
+
 Wrap = Callable[[Scene, Placed, str, Random], Placed]
 
 
@@ -195,6 +199,30 @@ def internal_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> 
     copy = Prim(name, metadata=[(f"references = </{source.name}/part>",)])
     layer = _new(scene, name, rng, [source, copy])
     return _below(layer, placed, f"/{name}")
+
+
+@arc
+def rate_undone(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """A rate that is not 24, and a scale that undoes it for layers that say none."""
+    rate = rng.choice((25, 30))
+    kind = rng.choice(("references", "payload"))
+    line = (f"prepend {kind} = ", *_target(placed), f" (offset = 5; scale = {24 / rate!r})")
+    placed = _composed(scene, placed, name, rng, line)
+    assert placed.layer
+    said = [each for each in placed.layer.metadata if RATE not in str(each[0])]
+    placed.layer.metadata = [*said, (f"{RATE} = {rate}",), (UNDONE,)]
+    return placed
+
+
+def say_rates(contents: list[Content], root: str) -> None:
+    """Below a root layer whose rate is not 24, layers say that theirs is, unless that is undone."""
+    layers = [layer for content in contents for layer in content.layers]
+    [top] = [layer.metadata for layer in layers if layer.path == root] or [[]]
+    if not any(RATE in str(line[0]) for line in top) or (UNDONE,) in top:
+        return
+    for layer in layers:
+        if not any(RATE in str(line[0]) or line == (UNSAID,) for line in layer.metadata):
+            layer.metadata.append((f"{RATE} = 24",))
 
 
 @arc

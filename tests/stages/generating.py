@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 from typing import Any, NamedTuple
 
-from .arcs import ARCS, Arc, Placed, place
+from .arcs import ARCS, Arc, Placed, place, say_rates
 from .defects import DEFECTS
 from .defects.declaration import Defect
 from .model import Expected, File, Layer, Prim, Scene
@@ -102,7 +102,13 @@ class _Making:
         return self._result(expected, defect.name)
 
     def _result(self, expected: Expected, defect: str | None) -> Generated:
+        self._say_rates()
         return Generated(self.scene, expected, frozenset(self.features), defect)
+
+    def _say_rates(self) -> None:
+        package = self.scene.packages.get(self.scene.root)
+        root = package.layers[0].path if package else self.scene.root
+        say_rates([self.scene, *self.scene.packages.values()], root)
 
     def _arcs(self, most: int) -> list[Arc]:
         return [self.rng.choice(ARCS) for _ in range(self.rng.randint(0, most))]
