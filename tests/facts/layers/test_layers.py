@@ -99,6 +99,47 @@ def test_two_arcs_to_nothing_are_two_findings(lint_text: Lint) -> None:
     assert [(f.site.line, f.code) for f in findings(report)] == [(3, "STG004")] * 2
 
 
+def rates(lint_text: Lint, tmp_path: Path, header: str, times: list[float]) -> list[str]:
+    """What is said of a stage with this header and a layer that says no rate."""
+    samples = ", ".join(f"{time}: [(0, 0, 0), (1, 1, 1)]" for time in times)
+    (tmp_path / "lib.usda").write_text(
+        f'#usda 1.0\ndef Volume "v"\n{{\n    float3[] extent.timeSamples = {{ {samples} }}\n}}\n'
+    )
+    report = lint_text(
+        f'#usda 1.0\n({header})\ndef "v" (\n    references = @./lib.usda@</v>\n)\n{{\n}}\n'
+    )
+    return [finding.message for finding in findings(report) if finding.code == "STG008"]
+
+
+def rated(rate: int, start: int = 0, end: int = 1000) -> str:
+    return f"timeCodesPerSecond = {rate}\nstartTimeCode = {start}\nendTimeCode = {end}"
+
+
+def test_a_scale_that_comes_of_the_rate_of_the_stage_alone(lint_text: Lint, tmp_path: Path) -> None:
+    """At 48 USD scales by 2, which nobody wrote."""
+    assert rates(lint_text, tmp_path, rated(48, end=4), [1, 2, 3, 4])
+
+
+def test_subframes_are_between_frames_all_the_same(lint_text: Lint, tmp_path: Path) -> None:
+    assert not rates(lint_text, tmp_path, rated(30), [0.5, 1.5])
+    assert rates(lint_text, tmp_path, rated(30), [0.5, 1])
+
+
+def test_an_overhang_at_the_end_of_the_range(lint_text: Lint, tmp_path: Path) -> None:
+    times: list[float] = list(range(1, 11))
+    assert not rates(lint_text, tmp_path, rated(48, end=19), times)
+    assert not rates(lint_text, tmp_path, rated(48, end=17), times)
+    assert rates(lint_text, tmp_path, rated(48, end=15), times)
+
+
+def test_samples_out_of_the_range_all_the_same(lint_text: Lint, tmp_path: Path) -> None:
+    assert not rates(lint_text, tmp_path, rated(48, 1, 5), [101, 102, 103])
+
+
+def test_one_sample_has_no_rate(lint_text: Lint, tmp_path: Path) -> None:
+    assert not rates(lint_text, tmp_path, rated(30), [1])
+
+
 def advice(lint_text: Lint, tmp_path: Path, library: str, *arcs: str) -> list[str | None]:
     """What is said to mend each arc, on a prim called `/fog`."""
     (tmp_path / "lib.usda").write_text(f"#usda 1.0\n{library}")
@@ -116,7 +157,7 @@ def test_only_a_corrected_path_that_leads_to_a_prim_is_offered(
     lint_text: Lint, tmp_path: Path
 ) -> None:
     library = 'def "cloud"\n{\n    def "part"\n    {\n    }\n}\n'
-    arcs = "@./lib.usda@</clouds/rain>", "@./lib.usda@</clouds/part>"
+    arcs = "@./lib.usda@</clouds/part>", "@./lib.usda@</clouds/rain>"
     assert advice(lint_text, tmp_path, library, *arcs) == ["did you mean </cloud/part>?", None]
 
 

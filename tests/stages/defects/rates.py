@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from ..arcs import RATE, UNSAID
+from ..arcs import RATE, UNITS, UNSAID, UP_AXIS
 from ..model import Attribute, File, Layer, Line, Prim, Scene
 from .declaration import on_scene
 
@@ -33,3 +33,16 @@ def rate_unsaid(scene: Scene, layer: Layer, rng: Random) -> Prim:
     start, step = rng.choice((0, 1, 1001)), rng.choice((1, 1, 0.5))
     extent = Attribute("float3[]", samples={start + n * step: _BOX for n in range(8)})
     return _referenced(scene, layer, rng, extent, (UNSAID,))
+
+
+@on_scene("STG009")
+def units_of_another(scene: Scene, layer: Layer, rng: Random) -> Prim:
+    _say(layer, UNITS, 1)
+    said = (f"{UNITS} = {rng.choice((0.01, 0.001, 100))}",)
+    return _referenced(scene, layer, rng, Attribute("float3[]", _BOX), said)
+
+
+@on_scene("STG009")
+def up_axis_of_another(scene: Scene, layer: Layer, rng: Random) -> Prim:
+    _say(layer, UP_AXIS, '"Y"')
+    return _referenced(scene, layer, rng, Attribute("float3[]", _BOX), (f'{UP_AXIS} = "Z"',))

@@ -12,13 +12,14 @@ from usdvol_lint.facts.found import Wing
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
     from usdvol_lint.facts.layers.rates import UnsaidRate
+    from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.clips import Clips
 
 
 class Layers(Wing):
-    """What USD could not compose, and what layers say of time."""
+    """What USD could not compose, and what layers say of time, up axis and units."""
 
     def __init__(self, tables: Tables, stage: Any, clips: Clips) -> None:
         super().__init__(tables)
@@ -90,6 +91,13 @@ class Layers(Wing):
             for unsaid in self.unsaid_rates
             for displaced in unsaid.displaced
         )
+
+    @cached_property
+    def unlike_stage(self) -> tuple[UnlikeStage, ...]:
+        """The layers that say another up axis or other units, and bring what nothing corrects."""
+        from usdvol_lint.facts.layers.units import layers_unlike_stage
+
+        return layers_unlike_stage(self._stage, self.tables)
 
     @cached_property
     def _composition(self) -> Composition:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -65,9 +65,8 @@ def unsaid_rates(
         opinion = strongest_opinion(attribute, times[0])
         if opinion and opinion.spec.layer in layers and not _is_undone(opinion.offset.scale, own):
             start = opinion.offset.offset
-            displaced = _displaced(
-                attribute, times, lambda time, start=start: start + (time - start) / own, time_range
-            )
+            meant = [start + (time - start) / own for time in times]
+            displaced = _displaced(attribute, list(zip(times, meant, strict=True)), time_range)
             if displaced:
                 found[opinion.spec.layer].append(displaced)
     return tuple(
@@ -120,21 +119,23 @@ def _is_undone(scale: float, own: float) -> bool:
 
 
 def _displaced(
-    attribute: Any,
-    times: Sequence[float],
-    meant: Callable[[float], float],
-    time_range: tuple[float, float] | None,
+    attribute: Any, times: Sequence[tuple[float, float]], time_range: tuple[float, float] | None
 ) -> Displaced | None:
-    """The samples that are not on frames, or not in the range, though they are meant to be."""
-    between = [time for time in times if not _is_frame(time) and _is_frame(meant(time))]
+    """The samples that are not on frames, or not in the range, though they are meant to be.
+
+    `times`: where each is, and where it would be without the scale that USD adds.
+    """
+    between = tuple(time for time, meant in times if not _is_frame(time) and _is_frame(meant))
     if between:
-        return Displaced(attribute, tuple(between), True, len(times))
+        return Displaced(attribute, between, True, len(times))
     if time_range is None:
         return None
     start, end = time_range
-    beyond = [time for time in times if not start <= time <= end and start <= meant(time) <= end]
+    beyond = tuple(
+        time for time, meant in times if not start <= time <= end and start <= meant <= end
+    )
     if len(beyond) > 1 and len(beyond) * _FEW >= len(times):
-        return Displaced(attribute, tuple(beyond), False, len(times))
+        return Displaced(attribute, beyond, False, len(times))
     return None
 
 
