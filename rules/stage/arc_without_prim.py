@@ -29,7 +29,7 @@ def _said(empty: Any) -> str:
     if empty.default:
         return (
             f"the {empty.arc} names no prim and brings nothing: the defaultPrim of {layer} is "
-            f"{quoted(empty.default.removeprefix('/'))}, and there is no such prim"
+            f"{quoted(empty.default)}, and there is no such prim"
         )
     return f"the {empty.arc} names no prim and brings nothing: {layer} has no defaultPrim"
 
@@ -38,7 +38,8 @@ def _advice(empty: Any) -> str | None:
     if empty.target:
         return f"did you mean <{empty.similar}>?" if empty.similar else None
     if empty.similar:
-        return f"did you mean 'defaultPrim = \"{empty.similar.removeprefix('/')}\"'?"
+        name = empty.similar if empty.similar.count("/") > 1 else empty.similar[1:]
+        return f"did you mean 'defaultPrim = \"{name}\"'?"
     if len(empty.roots) == 1:
         return f"write 'defaultPrim = \"{empty.roots[0]}\"' into the metadata of that layer"
     if not empty.roots:

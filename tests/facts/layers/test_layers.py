@@ -170,6 +170,26 @@ def test_only_what_is_defined_is_offered_for_a_default_prim(
     ]
 
 
+@pytest.mark.parametrize(
+    ("default", "meant"),
+    [("/cloud/prat", "did you mean 'defaultPrim = \"/cloud/part\"'?"), ("my cloud", None)],
+)
+def test_a_default_prim_that_leads_nowhere(
+    default: str, meant: str | None, lint_text: Lint, tmp_path: Path
+) -> None:
+    library = (
+        f'(\n    defaultPrim = "{default}"\n)\n'
+        'def "cloud"\n{\n    def "part"\n    {\n    }\n}\ndef "b"\n{\n}\n'
+    )
+    (tmp_path / "lib.usda").write_text(f"#usda 1.0\n{library}")
+    report = lint_text('#usda 1.0\ndef "a" (\n    references = @./lib.usda@\n)\n{\n}\n')
+    [finding] = findings(report)
+    assert f"the defaultPrim of './lib.usda' is '{default}', and there is" in finding.message
+    assert finding.suggestion == (
+        meant or "name the prim, one of </cloud>, </b>, or write a defaultPrim into that layer"
+    )
+
+
 def test_beside_a_volume_any_arc_counts(lint_text: Lint) -> None:
     report = lint_text(volume("") + 'def "tree" (\n    references = </three>\n)\n{\n}\n')
     levels = {f.code: f.severity.label for f in findings(report)}

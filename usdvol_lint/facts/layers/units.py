@@ -10,7 +10,7 @@ from typing import Any
 from pxr import UsdGeom
 
 from usdvol_lint import schema
-from usdvol_lint.facts.layers.corrections import Corrections
+from usdvol_lint.facts.layers.turns import Corrections
 from usdvol_lint.facts.prims.tables import Tables
 
 UP_AXIS = "upAxis"

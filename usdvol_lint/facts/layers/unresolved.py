@@ -29,7 +29,7 @@ class EmptyArc:
 
     `arc`, `asset` and `spec` are as in `LayerArc`; `asset` is "" for an arc inside a layer stack.
     `target`: the prim's path as authored, or "" for the layer's default prim.
-    `default`: the `defaultPrim` that leads to no prim, or "" if the layer has none.
+    `default`: the `defaultPrim` that leads to no prim, as authored; "" if the layer has none.
     `similar`: the path of the prim that was probably meant, if there is one.
     `roots`: the names of the prims that are defined at the root of the layer.
     `prims`: those of the stage that are composed without it, at least one.
@@ -88,7 +88,8 @@ class Targets:
 
     def empty_arc(self, arc: PrimArc, prims: tuple[Any, ...]) -> EmptyArc:
         """What is known of an arc to a prim that is not there."""
-        default = "" if arc.target else arc.wanted
+        layer = Sdf.Layer.Find(arc.path)
+        default = "" if arc.target or not layer else layer.defaultPrim
         _, similar, roots = self._seek(arc)
         if similar and not arc.asset and _are_nested(similar, arc.spec.path):
             similar = None  # USD would call it a cycle
