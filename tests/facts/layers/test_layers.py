@@ -172,7 +172,7 @@ def test_only_what_is_defined_is_offered_for_a_default_prim(
 
 @pytest.mark.parametrize(
     ("default", "meant"),
-    [("/cloud/prat", "did you mean 'defaultPrim = \"/cloud/part\"'?"), ("my cloud", None)],
+    [("/cloud/parts", "did you mean 'defaultPrim = \"/cloud/part\"'?"), ("my cloud", None)],
 )
 def test_a_default_prim_that_leads_nowhere(
     default: str, meant: str | None, lint_text: Lint, tmp_path: Path

@@ -82,7 +82,7 @@ class Layers(Wing):
         """The layers that say no rate and whose samples the stage therefore has at other times."""
         from usdvol_lint.facts.layers.rates import unsaid_rates
 
-        return unsaid_rates(self._stage, self.tables, self.time_range)
+        return unsaid_rates(self._stage, self.tables, self._clips, self.time_range)
 
     def rate_is_unsaid(self, attribute: Any) -> bool:
         """Whether the samples of an attribute are at other times because no rate is said."""

@@ -11,7 +11,8 @@ from typing import Any
 from pxr import Tf
 
 from usdvol_lint.facts.prims.tables import Tables
-from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.facts.usd.clips import Clips
+from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import sample_times
 from usdvol_lint.schema import OURS
 
@@ -51,24 +52,21 @@ class UnsaidRate:
 
 
 def unsaid_rates(
-    stage: Any, tables: Tables, time_range: tuple[float, float] | None
+    stage: Any, tables: Tables, clips: Clips, time_range: tuple[float, float] | None
 ) -> tuple[UnsaidRate, ...]:
     """The layers that say no rate and whose samples the stage therefore has at other times."""
     rate = stage.GetTimeCodesPerSecond()
     layers = _without_rate(stage) if rate != _USUAL else frozenset()
-    if not layers:
-        return ()
     own = rate / _USUAL
     found: dict[Any, list[Displaced]] = defaultdict(list)
-    for attribute in _animated(tables):
-        times = sample_times(attribute)
-        opinion = strongest_opinion(attribute, times[0])
-        if opinion and opinion.spec.layer in layers and not _is_undone(opinion.offset.scale, own):
-            start = opinion.offset.offset
+    for attribute, times in _animated(tables) if layers else ():
+        layer, offset = _source(attribute, times[0], clips)
+        if layer in layers and not _is_undone(offset.scale, own):
+            start = offset.offset
             meant = [start + (time - start) / own for time in times]
             displaced = _displaced(attribute, list(zip(times, meant, strict=True)), time_range)
             if displaced:
-                found[opinion.spec.layer].append(displaced)
+                found[layer].append(displaced)
     return tuple(
         UnsaidRate(layer, rate, own, tuple(sorted(all_of_layer, key=_path)))
         for layer, all_of_layer in sorted(found.items(), key=lambda item: item[0].identifier)
@@ -82,28 +80,43 @@ def _path(displaced: Displaced) -> Any:
 def _without_rate(stage: Any) -> frozenset[Any]:
     return frozenset(
         layer
-        for layer in stage.GetUsedLayers()
+        for layer in stage.GetUsedLayers(includeClipLayers=False)
         if not layer.HasTimeCodesPerSecond() and not layer.HasFramesPerSecond()
     )
 
 
-def _animated(tables: Tables) -> Iterator[Any]:
-    """The attributes of ours that have two time samples at least, none of them in clips."""
+def _animated(tables: Tables) -> Iterator[tuple[Any, list[float]]]:
+    """The attributes of ours that have two time samples at least, and the times of these."""
     for prims, authored in tables.authored(*OURS):
-        if authored.is_clipped:
-            continue
         for name in authored.declared:
             for prim in prims:
                 attribute = prim.GetAttribute(name)
-                if _count(attribute) > 1:
-                    yield attribute
+                times = _times(attribute)
+                if len(times) > 1:
+                    yield attribute, times
 
 
-def _count(attribute: Any) -> int:
+def _times(attribute: Any) -> list[float]:
     try:
-        return int(attribute.GetNumTimeSamples())
-    except Tf.ErrorException:  # reported by those who read the values
-        return 0
+        return sample_times(attribute)
+    except Tf.ErrorException:  # clips that do not open: reported by another rule
+        return []
+
+
+def _source(attribute: Any, time: float, clips: Clips) -> tuple[Any | None, Any]:
+    """The layer whose times are meant by the samples, and the offset from them to the stage's.
+
+    Those of value clips are in the times of the layer that names the clips, whatever these say.
+    """
+    if not is_from_clips(attribute, time):
+        opinion = strongest_opinion(attribute, time)
+        return (opinion.spec.layer, opinion.offset) if opinion else (None, None)
+    for clip_set in clips.reaching(attribute.GetPrim()):
+        named = clip_set.spec_with("templateAssetPath" if clip_set.template else "times")
+        for spec, offset in clip_set.prim.GetPrimStackWithLayerOffsets():
+            if spec == named:
+                return spec.layer, offset
+    return None, None
 
 
 def _is_undone(scale: float, own: float) -> bool:
