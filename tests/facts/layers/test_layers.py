@@ -99,15 +99,16 @@ def test_two_arcs_to_nothing_are_two_findings(lint_text: Lint) -> None:
     assert [(f.site.line, f.code) for f in findings(report)] == [(3, "STG004")] * 2
 
 
-def rates(lint_text: Lint, tmp_path: Path, header: str, times: list[float]) -> list[str]:
+def rates(
+    lint_text: Lint, tmp_path: Path, header: str, times: list[float], scale: float = 1
+) -> list[str]:
     """What is said of a stage with this header and a layer that says no rate."""
     samples = ", ".join(f"{time}: [(0, 0, 0), (1, 1, 1)]" for time in times)
     (tmp_path / "lib.usda").write_text(
         f'#usda 1.0\ndef Volume "v"\n{{\n    float3[] extent.timeSamples = {{ {samples} }}\n}}\n'
     )
-    report = lint_text(
-        f'#usda 1.0\n({header})\ndef "v" (\n    references = @./lib.usda@</v>\n)\n{{\n}}\n'
-    )
+    arc = f"references = @./lib.usda@</v> (scale = {scale})"
+    report = lint_text(f'#usda 1.0\n({header})\ndef "v" (\n    {arc}\n)\n{{\n}}\n')
     return [finding.message for finding in findings(report) if finding.code == "STG008"]
 
 
@@ -118,6 +119,14 @@ def rated(rate: int, start: int = 0, end: int = 1000) -> str:
 def test_a_scale_that_comes_of_the_rate_of_the_stage_alone(lint_text: Lint, tmp_path: Path) -> None:
     """At 48 USD scales by 2, which nobody wrote."""
     assert rates(lint_text, tmp_path, rated(48, end=4), [1, 2, 3, 4])
+
+
+def test_a_scale_that_undoes_it(lint_text: Lint, tmp_path: Path) -> None:
+    """On top of it may come a slow motion, which the range cuts off."""
+    times: list[float] = list(range(41, 61))
+    assert rates(lint_text, tmp_path, rated(48, end=50), times)
+    assert not rates(lint_text, tmp_path, rated(48, end=50), times, scale=0.5)
+    assert not rates(lint_text, tmp_path, rated(30, end=100), times, scale=1.6)
 
 
 def test_subframes_are_between_frames_all_the_same(lint_text: Lint, tmp_path: Path) -> None:

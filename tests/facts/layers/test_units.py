@@ -55,6 +55,32 @@ def test_a_word_that_names_no_axis(lint_text: Lint, tmp_path: Path) -> None:
     assert not found(lint_text, tmp_path, VOLUME % "", axis="up")
 
 
+ANIMATED = """
+    {type} xformOp:{op}.timeSamples = {{
+        1: {first},
+        2: {last},
+    }}
+    uniform token[] xformOpOrder = ["xformOp:{op}"]
+"""
+SCALED = ANIMATED.format(type="float3", op="scale", first="(1, 1, 1)", last="(2, 2, 2)")
+TURNED = ANIMATED.format(type="float", op="rotateZ", first=0, last=90)
+
+
+@pytest.mark.parametrize(
+    ("body", "left"), [(SCALED, ["upAxis"]), (TURNED, ["metersPerUnit"]), ("", ["me", "up"])]
+)
+def test_what_is_animated_turns_or_scales_but_not_both(
+    body: str, left: list[str], lint_text: Lint, tmp_path: Path
+) -> None:
+    header = '#usda 1.0\n(\n    metersPerUnit = {}\n    upAxis = "{}"\n)\n'
+    (tmp_path / "lib.usda").write_text(header.format(0.01, "Z") + VOLUME % "")
+    stage = f'def "v" (\n    references = @./lib.usda@</v>\n)\n{{\n{body}}}\n'
+    report = lint_text(header.format(1, "Y") + stage)
+    found = sorted(f.message for f in report.findings if f.code == "STG009")
+    assert len(found) == len(left)
+    assert all(f"the layer's {key}" in each for each, key in zip(found, left, strict=True))
+
+
 @pytest.mark.parametrize("body", ["", TURN])
 def test_instances(body: str, lint_text: Lint, tmp_path: Path) -> None:
     stage = (

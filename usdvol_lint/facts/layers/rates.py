@@ -125,10 +125,7 @@ def _is_undone(scale: float, own: float) -> bool:
     `scale` is all of them together.  A slow motion may come on top: then the whole is an even
     multiple or fraction, and what was authored is none.
     """
-    written = scale / own
-    return _is_close(scale, 1) or (
-        not _is_close(written, 1) and _is_even(scale) and not _is_even(written)
-    )
+    return _is_close(scale, 1) or (_is_even(scale) and not _is_even(scale / own))
 
 
 def _displaced(
