@@ -40,9 +40,8 @@ class Corrections:
         key = prim, is_rotation
         if key not in self._known:
             self._known[key] = False  # should instancers lead round in a circle
-            self._known[key] = _corrects(prim, is_rotation) or any(
-                self.reach(above, is_rotation) for above in self._above(prim)
-            )
+            from_above = any(self.reach(above, is_rotation) for above in self._above(prim))
+            self._known[key] = from_above or _corrects(prim, is_rotation)
         return self._known[key]
 
     def _above(self, prim: Any) -> Iterator[Any]:
@@ -78,6 +77,8 @@ def _has_value(attribute: Any) -> bool:
 
 
 def _ops(prim: Any) -> list[Any]:
+    if not _has_value(prim.GetAttribute("xformOpOrder")):
+        return []
     xformable = UsdGeom.Xformable(prim)
     return list(xformable.GetOrderedXformOps()) if xformable else []
 

@@ -73,18 +73,23 @@ def _uncorrected(
 
     A Volume is corrected where its fields are.
     """
-    brought = [
-        (prim, layer, is_sublayer)
-        for prim in (_ours(tables) if unlike else ())
-        for layer, is_sublayer in _bringing(stage, prim, unlike, key)
-    ]
-    corrected = {
-        path
-        for prim, _, _ in brought
-        if corrections.reach(prim, key == UP_AXIS)
-        for path in prim.GetPath().GetPrefixes()
-    }
-    return (each for each in brought if each[0].GetPath() not in corrected)
+    left: list[Any] = []
+    corrected: set[Any] = set()
+    for prim in _ours(tables) if unlike else ():
+        if corrections.reach(prim, key == UP_AXIS):
+            _add_with_ancestors(prim.GetPath(), corrected)
+        else:
+            left.append(prim)
+    for prim in left:
+        if prim.GetPath() not in corrected:
+            for layer, is_sublayer in _bringing(stage, prim, unlike, key):
+                yield prim, layer, is_sublayer
+
+
+def _add_with_ancestors(path: Any, paths: set[Any]) -> None:
+    while path not in paths:
+        paths.add(path)
+        path = path.GetParentPath()
 
 
 def _order(item: tuple[tuple[Any, str, bool], Any]) -> tuple[str, str, bool]:
