@@ -66,10 +66,11 @@ class _Making:
     def valid(self, turn: int) -> Generated:
         """One to three subjects, in arcs of every kind."""
         first = ARCS[turn % len(ARCS)]
-        needs = {"files": FILES[turn % len(FILES)], "pattern": PATTERNS[turn % len(PATTERNS)]}
+        pattern = PATTERNS[turn // len(FILES) % len(PATTERNS)]
+        needs = {"files": FILES[turn % len(FILES)], "pattern": pattern}
         placed = []
         for index in range(self.rng.choice((1, 1, 2, 3))):
-            is_volume = turn % 3 if index == 0 else self.rng.random() < 0.5
+            is_volume = turn % 4 if index == 0 else self.rng.random() < 0.5
             subject = self._subject("volume" if is_volume else "particles", index, needs)
             placed.append(self._arranged(subject, index, [first, *self._arcs(2)]))
             first, needs = self.rng.choice(ARCS), {}
