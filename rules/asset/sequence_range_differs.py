@@ -15,6 +15,8 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         f"the stage's range is {format_time(start)}-{format_time(end)}"
     )
     attribute = field.GetAttribute("filePath")
+    if facts.layers.rate_is_unsaid(attribute):
+        return
     if last < start or first > end:
         shift = format_time(start - first)
         yield Problem(

@@ -1,6 +1,6 @@
 """STG001: every layer that the stage names must open."""
 
-from usdvol_lint.rule import ERROR, STAGE, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
 
 _NAMED = 3
 
@@ -21,11 +21,13 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
         reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"
         absence = facts.files.absence(missing.path, missing.asset)
         similar = None if missing.reason else absence.similar
+        concerns_ours = facts.layers.may_bring_ours(missing.asset, str(missing.spec.path))
         yield Problem(
             f"{layer} {reason}; what it holds was not checked{where}",
             at=missing.prim,
             spec=missing.spec,
             asset=missing.asset,
+            severity=None if concerns_ours else WARNING,
             suggestion=f"did you mean {quoted(similar)}?" if similar else None,
         )
     unloaded = [str(prim.GetPath()) for prim in facts.layers.unloaded]

@@ -234,7 +234,7 @@ def test_composition_errors_in_a_variant(lint: Lint) -> None:
     assert found(report) == [
         ("STG001", "/model", "/model{look=gone}"),
         ("STG001", "/model", "/model{look=parse}"),
-        ("STG002", "/model", "/model{look=prim}"),
+        ("STG004", "/model", "/model{look=prim}"),
     ]
     assert all(each.site.layer == "stage.usda" and each.site.line for each in report.findings)
     assert not any("anon" in each.message for each in report.findings)

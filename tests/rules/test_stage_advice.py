@@ -21,7 +21,9 @@ POSITIONED = 'prepend apiSchemas = ["ParticleFieldPositionAttributeAPI"]'
 LAYERS = {
     "empty": "",
     "lib": 'def Xform "rocks"\n{\n    def Mesh "one"\n    {\n    }\n}\n'
-    'def "lost" (references = @./gone.usda@)\n{\n}\n',
+    'def "lost" (references = @./gone.usda@)\n{\n}\n'
+    'def "cut" (references = </rocks> (scale = 0))\n{\n}\n',
+    "many": "".join(f'def "{name}"\n{{\n}}\n' for name in "abcd"),
 }
 
 
@@ -101,8 +103,29 @@ def splats(line: str) -> str:
             "'./gone.usda' does not exist; what it holds was not checked (on 2 prims)",
             "",
         ),
-        ("STG002", prims("references = </nope>"), "unresolved reference prim path", ""),
-        ("STG002", prims("references = </nope>", "references = </a>"), " (on 2 prims)", ""),
+        ("STG002", prims("references = @./lib.usda@</lost> (scale = 0)"), "invalid reference", ""),
+        ("STG002", prims(*["references = @./lib.usda@</cut>"] * 2), " (on 2 prims)", ""),
+        ("STG004", prims("references = </nope>"), "is no prim </nope> in this layer; what it", ""),
+        (
+            "STG004",
+            prims("references = @./lib.usda@</rokcs/one>"),
+            "there is no prim </rokcs/one> in './lib.usda'",
+            "did you mean </rocks/one>?",
+        ),
+        ("STG004", prims("references = </nope>", "references = </a>"), " (on 2 prims)", ""),
+        ("STG004", prims("references = @./empty.usda@"), "'./empty.usda' has no defaultPrim", ""),
+        (
+            "STG004",
+            prims("payload = @./lib.usda@"),
+            "the payload names no prim and brings nothing: './lib.usda' has no defaultPrim",
+            "name the prim, one of </rocks>, </lost>, </cut>, or write a defaultPrim into",
+        ),
+        (
+            "STG004",
+            prims("references = @./many.usda@"),
+            "has no defaultPrim",
+            "one of </a>, </b>, </c>, …, or",
+        ),
         ("STG003", "", "no prims at all in this layer", ""),
         ("STG003", "(subLayers = [@./empty.usda@])", "in this layer, nor in its sublayers", ""),
         ("VOL013", cloud("(0, 0, 0), (0.1, 0.1, 0.1)"), "reaches out of the extent by 0.5", ""),

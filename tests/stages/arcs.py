@@ -35,6 +35,12 @@ class Placed(NamedTuple):
         return self.path + "".join(f"/{name}" for name in path.split("/")[2:])
 
 
+UNITS = "metersPerUnit"
+UP_AXIS = "upAxis"
+RATE = "timeCodesPerSecond"
+UNDONE = 'doc = "undoes the rate for what it references"'
+UNSAID = 'doc = "says no rate"'
+
 Wrap = Callable[[Scene, Placed, str, Random], Placed]
 
 
@@ -195,6 +201,46 @@ def internal_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> 
     copy = Prim(name, metadata=[(f"references = </{source.name}/part>",)])
     layer = _new(scene, name, rng, [source, copy])
     return _below(layer, placed, f"/{name}")
+
+
+@arc
+def rate_undone(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """A rate that is not 24, and a scale that undoes it for layers that say none."""
+    rate = rng.choice((25, 30))
+    kind = rng.choice(("references", "payload"))
+    line = (f"prepend {kind} = ", *_target(placed), f" (offset = 5; scale = {24 / rate!r})")
+    placed = _composed(scene, placed, name, rng, line)
+    assert placed.layer
+    said = [each for each in placed.layer.metadata if RATE not in str(each[0])]
+    placed.layer.metadata = [*said, (f"{RATE} = {rate}",), (UNDONE,)]
+    return placed
+
+
+@arc
+def units_corrected(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """Another up axis and other units, which a group around the reference makes up for."""
+    if placed.layer and not any(UNITS in str(line[0]) for line in placed.layer.metadata):
+        placed.layer.metadata += [(f"{UNITS} = 0.01",), (f'{UP_AXIS} = "Z"',)]
+    inner = Prim(name, metadata=[("prepend references = ", *_target(placed))])
+    group = Prim(f"{name}_turned", "Xform", children=[inner])
+    ops = {"rotateX": ("float", -90), "scale": ("float3", (0.01, 0.01, 0.01))}
+    group.properties = {f"xformOp:{op}": Attribute(*said) for op, said in ops.items()}
+    names = [f"xformOp:{op}" for op in ops]
+    group.properties["xformOpOrder"] = Attribute("token[]", names, is_uniform=True)
+    layer = _new(scene, name, rng, [group])
+    layer.metadata += [(f"{UNITS} = 1",), (f'{UP_AXIS} = "Y"',)]
+    return _below(layer, placed, f"/{group.name}", f"/{group.name}/{name}")
+
+
+def say_rates(contents: list[Content], root: str) -> None:
+    """Below a root layer whose rate is not 24, layers say that theirs is, unless that is undone."""
+    layers = [layer for content in contents for layer in content.layers]
+    [top] = [layer.metadata for layer in layers if layer.path == root] or [[]]
+    if not any(RATE in str(line[0]) for line in top) or (UNDONE,) in top:
+        return
+    for layer in layers:
+        if not any(RATE in str(line[0]) or line == (UNSAID,) for line in layer.metadata):
+            layer.metadata.append((f"{RATE} = 24",))
 
 
 @arc

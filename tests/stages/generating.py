@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 from typing import Any, NamedTuple
 
-from .arcs import ARCS, Arc, Placed, place
+from .arcs import ARCS, Arc, Placed, place, say_rates
 from .defects import DEFECTS
 from .defects.declaration import Defect
 from .model import Expected, File, Layer, Prim, Scene
@@ -66,10 +66,11 @@ class _Making:
     def valid(self, turn: int) -> Generated:
         """One to three subjects, in arcs of every kind."""
         first = ARCS[turn % len(ARCS)]
-        needs = {"files": FILES[turn % len(FILES)], "pattern": PATTERNS[turn % len(PATTERNS)]}
+        pattern = PATTERNS[turn // len(FILES) % len(PATTERNS)]
+        needs = {"files": FILES[turn % len(FILES)], "pattern": pattern}
         placed = []
         for index in range(self.rng.choice((1, 1, 2, 3))):
-            is_volume = turn % 3 if index == 0 else self.rng.random() < 0.5
+            is_volume = turn % 4 if index == 0 else self.rng.random() < 0.5
             subject = self._subject("volume" if is_volume else "particles", index, needs)
             placed.append(self._arranged(subject, index, [first, *self._arcs(2)]))
             first, needs = self.rng.choice(ARCS), {}
@@ -102,7 +103,13 @@ class _Making:
         return self._result(expected, defect.name)
 
     def _result(self, expected: Expected, defect: str | None) -> Generated:
+        self._say_rates()
         return Generated(self.scene, expected, frozenset(self.features), defect)
+
+    def _say_rates(self) -> None:
+        package = self.scene.packages.get(self.scene.root)
+        root = package.layers[0].path if package else self.scene.root
+        say_rates([self.scene, *self.scene.packages.values()], root)
 
     def _arcs(self, most: int) -> list[Arc]:
         return [self.rng.choice(ARCS) for _ in range(self.rng.randint(0, most))]

@@ -116,4 +116,10 @@ def later_version(rng: Random) -> Prim:
     return volume
 
 
+def class_of_others(rng: Random) -> Prim:
+    """An arc to a class that nobody has authored yet."""
+    arc = rng.choice(("inherits", "specializes"))
+    return Prim("heir", "Xform", metadata=[(f"prepend {arc} = </_class_of_nobody>",)])
+
+
 NEIGHBOURS = tuple(each for each in globals().values() if isinstance(each, Neighbour))

@@ -77,7 +77,7 @@ _BREAK = _tokens(
     plain=(rb"\)", rb"\]", rb"\}", b";", b"\n", b"\r"),
 )
 _COMMENT = re.compile(_BLOCK_COMMENT)
-_ASSET = _tokens(*_ASSETS, plain=(*_STRINGS, *_COMMENTS, *_PATHS))
+_ASSET = _tokens(*_ASSETS, *_PATHS, plain=(*_STRINGS, *_COMMENTS))
 _SAMPLES = re.compile(_BRACE_VALUE + _PADDING)
 _ARRAY = rb"\[" + _either(rb"[^\]\"'@#/<]++", *_OPAQUE) + b"*+"
 _SAMPLE = re.compile(
@@ -129,7 +129,8 @@ class TextLayer:
         That of a prim is its specifier, of a variant its name, of a property its first statement,
         of a target its property, and of `/` the top.  `time` asks for the key of the time sample,
         or for `timeSamples` where the text has no such key; `asset` asks for the first `@asset@`
-        in the spec, or in that sample.  What is not found is replaced by what encloses it.
+        in the spec, or in that sample, or for `</prim>` or `@asset@</prim>` if it has a prim path
+        in such brackets.  What is not found is replaced by what encloses it.
         """
         spec = self._spec(path)
         if spec is None:
@@ -399,12 +400,19 @@ def _bracket_stop(data: bytes, position: int, stop: int) -> int:
 
 
 def _assets(data: bytes, spans: Iterable[_Span]) -> dict[str, int]:
-    """The offset of the first occurrence of each asset path."""
+    """The offset of the first occurrence of each asset path, and of each with a prim path."""
     found: dict[str, int] = {}
     for span in spans:
+        asset, start, stop = "", span.start, -1
         for token in _ASSET.finditer(data, *span):
-            if token.lastindex:
-                found.setdefault(_asset_path(token[0]), token.start())
+            if token.lastindex and token.lastindex <= len(_ASSETS):
+                asset, start, stop = _asset_path(token[0]), *token.span()
+                found.setdefault(asset, start)
+            elif token.lastindex:
+                follows = token.start() == stop
+                target = token[0].decode("utf-8", "replace")
+                key = f"{asset}{target}" if follows else target
+                found.setdefault(key, start if follows else token.start())
     return found
 
 

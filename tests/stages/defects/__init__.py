@@ -1,14 +1,16 @@
-"""Every kind of defect, by the family of the rule that finds it.
+"""Every known kind of defect: each changes one thing of a scene that is right.
 
 Add one by writing a function in the module of its family, with a decorator of `declaration`.
 """
 
-from . import array, asset, field, grid, particle, schema, slips, stage, volume
+from importlib import import_module
+from pkgutil import iter_modules
+
 from .declaration import Defect
 
 DEFECTS = tuple(
     each
-    for module in (volume, field, asset, grid, schema, particle, array, stage, slips)
-    for each in vars(module).values()
+    for module in sorted(iter_modules(__path__), key=lambda module: module.name)
+    for each in vars(import_module(f"{__name__}.{module.name}")).values()
     if isinstance(each, Defect)
 )

@@ -25,11 +25,13 @@ def sublayer_gone(scene: Scene, layer: Layer, rng: Random) -> None:
     layer.metadata.append(("subLayers = [@./gone.usda@]",))
 
 
-@on_scene("STG002")
-def reference_to_no_prim(scene: Scene, layer: Layer, rng: Random) -> Prim:
-    prim = Prim("empty", "Xform", metadata=[("prepend references = </no/such/prim>",)])
-    layer.prims.append(prim)
-    return prim
+@on_scene("STG002", perhaps=("STG002",))
+def references_in_a_circle(scene: Scene, layer: Layer, rng: Random) -> Prim:
+    prims = [Prim(f"circle_{one}") for one in "xy"]
+    for prim, other in zip(prims, reversed(prims), strict=True):
+        prim.metadata = [(f"prepend references = </{other.name}>",)]
+    layer.prims += prims
+    return prims[0]
 
 
 @on_scene("STG003")

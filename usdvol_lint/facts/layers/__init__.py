@@ -11,12 +11,15 @@ from usdvol_lint.facts.found import Wing
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
+    from usdvol_lint.facts.layers.rates import UnsaidRate
+    from usdvol_lint.facts.layers.units import UnlikeStage
+    from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.clips import Clips
 
 
 class Layers(Wing):
-    """What USD could not compose, and the time range that the stage declares."""
+    """What USD could not compose, and what layers say of time, up axis and units."""
 
     def __init__(self, tables: Tables, stage: Any, clips: Clips) -> None:
         super().__init__(tables)
@@ -27,6 +30,21 @@ class Layers(Wing):
     def missing(self) -> tuple[MissingLayer, ...]:
         """The layers that an arc or a clip set names, and that USD can't open."""
         return self._composition.missing_layers
+
+    @property
+    def empty_arcs(self) -> tuple[EmptyArc, ...]:
+        """The references and payloads to prims that are not there."""
+        return self._composition.empty_arcs
+
+    def may_bring_ours(self, *names: str) -> bool:
+        """Whether Volumes, fields or particle fields are on the stage, or names speak of them."""
+        from usdvol_lint.facts.layers.words import speak_of_ours
+
+        return self._has_ours or speak_of_ours(names)
+
+    @cached_property
+    def _has_ours(self) -> bool:
+        return any(self.tables.prims(name) for name in schema.OURS)
 
     @property
     def errors(self) -> tuple[CompositionError, ...]:
@@ -40,11 +58,11 @@ class Layers(Wing):
 
     @property
     def are_whole(self) -> bool:
-        """Whether every layer that an arc names could be opened and was loaded."""
+        """Whether every arc could be followed and every payload was loaded."""
         return self._composition.is_whole
 
     def may_lack(self, prim: Any) -> bool:
-        """Whether a layer that failed to open may have opinions on a prim or those below it."""
+        """Whether an arc that brings nothing may have opinions on a prim or those below it."""
         return self._composition.may_lack(prim)
 
     def may_lack_values(self, prim: Any) -> bool:
@@ -58,6 +76,28 @@ class Layers(Wing):
             return None
         start, end = self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
         return (start, end) if start <= end else None
+
+    @cached_property
+    def unsaid_rates(self) -> tuple[UnsaidRate, ...]:
+        """The layers that say no rate and whose samples the stage therefore has at other times."""
+        from usdvol_lint.facts.layers.rates import unsaid_rates
+
+        return unsaid_rates(self._stage, self.tables, self._clips, self.time_range)
+
+    def rate_is_unsaid(self, attribute: Any) -> bool:
+        """Whether the samples of an attribute are at other times because no rate is said."""
+        return any(
+            attribute == displaced.attribute
+            for unsaid in self.unsaid_rates
+            for displaced in unsaid.displaced
+        )
+
+    @cached_property
+    def unlike_stage(self) -> tuple[UnlikeStage, ...]:
+        """The layers that say another up axis or other units, and bring what nothing corrects."""
+        from usdvol_lint.facts.layers.units import layers_unlike_stage
+
+        return layers_unlike_stage(self._stage, self.tables)
 
     @cached_property
     def _composition(self) -> Composition:

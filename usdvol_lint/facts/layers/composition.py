@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -14,12 +14,15 @@ from usdvol_lint.facts.files.paths import is_uri
 from usdvol_lint.facts.layers.error_texts import (
     ARCS,
     LayerArc,
+    PrimArc,
     as_sentence,
     blamed_spec,
     missing_arc,
     reason_in,
+    unresolved_arc,
 )
 from usdvol_lint.facts.layers.unopened import missing_clips, unopened_reason
+from usdvol_lint.facts.layers.unresolved import EmptyArc, Fault, Targets
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.instances import in_prototype
 
@@ -80,16 +83,17 @@ class Composition:
     """
 
     missing_layers: tuple[MissingLayer, ...]
+    empty_arcs: tuple[EmptyArc, ...]
     errors: tuple[CompositionError, ...]
     unloaded: tuple[Any, ...]
 
     @property
     def is_whole(self) -> bool:
-        """Whether every layer that an arc names could be opened and was loaded."""
+        """Whether every arc could be followed and every payload was loaded."""
         return not self.unloaded and not self._lack_opinions
 
     def may_lack(self, prim: Any) -> bool:
-        """Whether a layer that failed to open may have opinions on a prim or those below it."""
+        """Whether an arc that brings nothing may have opinions on a prim or those below it."""
         return _is_at_or_below(prim, self._lack_opinions)
 
     def may_lack_values(self, prim: Any) -> bool:
@@ -98,7 +102,8 @@ class Composition:
 
     @cached_property
     def _lack_opinions(self) -> frozenset[Any]:
-        return _as_walked(missing for missing in self.missing_layers if missing.arc in ARCS)
+        missing = [missing for missing in self.missing_layers if missing.arc in ARCS]
+        return _as_walked([*missing, *self.empty_arcs])
 
     @cached_property
     def _lack_clips(self) -> frozenset[Any]:
@@ -110,28 +115,62 @@ def read_composition(stage: Any, clip_sets: Iterable[ClipSet]) -> Composition:
 
     An error in a layer that many prims compose becomes one error, known by its spec.
     """
-    missing: dict[LayerArc, list[Any]] = defaultdict(list)
-    reported: dict[str, set[str]] = defaultdict(set)
-    errors: dict[tuple[str, Any], list[Any]] = defaultdict(list)
+    found = _Found()
+    targets = Targets()
     for arc, prim in missing_clips(clip_sets):
-        missing[arc].append(prim)
-    for error, prim in _errors(stage):
-        text = str(error)
-        unopened = missing_arc(text) if error.errorType in _ASSET_ERRORS else None
+        found.missing[arc].append(prim)
+    for fault, prims in _faults(stage, targets).items():
+        for prim in prims:
+            found.add(fault, prim)
+    return Composition(
+        _missing_layers(found.missing, found.reasons),
+        _empty_arcs(found.empty, targets),
+        _others(found.errors),
+        _unloaded(stage),
+    )
+
+
+class _Found:
+    """The composition errors by what they are about, with the prims where they occur."""
+
+    def __init__(self) -> None:
+        self.missing: dict[LayerArc, list[Any]] = defaultdict(list)
+        self.reasons: dict[str, set[str]] = defaultdict(set)
+        self.empty: dict[PrimArc, list[Any]] = defaultdict(list)
+        self.errors: dict[tuple[str, Any], list[Any]] = defaultdict(list)
+
+    def add(self, fault: Fault, prim: Any) -> None:
+        """Adds an error that occurs at a prim."""
+        text = fault.text
+        unopened = missing_arc(text) if fault.type in _ASSET_ERRORS else None
+        is_unresolved = fault.type == Pcp.ErrorType_UnresolvedPrimPath
+        empty = unresolved_arc(text) if is_unresolved else None
         if unopened:
-            missing[unopened].append(prim)
-            reported[unopened.path].add(reason_in(text, unopened.path))
+            self.missing[unopened].append(prim)
+            self.reasons[unopened.path].add(reason_in(text, unopened.path))
+        elif empty:
+            self.empty[empty].append(prim)
         else:
-            errors[as_sentence(text), blamed_spec(text)].append(prim)
-    return Composition(_missing_layers(missing, reported), _others(errors), _unloaded(stage))
+            self.errors[as_sentence(text), blamed_spec(text)].append(prim)
 
 
-def _errors(stage: Any) -> Iterator[tuple[Any, Any]]:
-    """The composition errors, each with the prim where it occurs; none of inactive prims."""
+def _faults(stage: Any, targets: Targets) -> dict[Fault, list[Any]]:
+    """The composition errors, each with the prims where it occurs; none of inactive prims.
+
+    USD blames some on prims that are not on the stage, because an arc leads to one below them.
+    """
+    own: dict[Fault, list[Any]] = defaultdict(list)
+    behind_arcs: dict[Fault, list[Any]] = defaultdict(list)
+    elsewhere: dict[Fault, list[Any]] = {}
     for error in stage.GetCompositionErrors():
-        prim = stage.GetPrimAtPath(error.rootSite.path) or stage.GetPseudoRoot()
-        if prim.IsActive():
-            yield error, prim
+        prim = stage.GetPrimAtPath(error.rootSite.path)
+        fault = Fault(str(error), error.errorType)
+        if not prim:
+            elsewhere[fault] = [stage.GetPseudoRoot()]
+        elif prim.IsActive():
+            for cause in targets.causes(fault):
+                (own if cause == fault else behind_arcs)[cause].append(prim)
+    return elsewhere | behind_arcs | own
 
 
 def _missing_layers(
@@ -150,6 +189,17 @@ def _missing_order(missing: MissingLayer) -> tuple[str, ...]:
     return (str(missing.prim.GetPath()), spec.layer.identifier, str(spec.path), missing.asset)
 
 
+def _empty_arcs(empty: Mapping[PrimArc, Iterable[Any]], targets: Targets) -> tuple[EmptyArc, ...]:
+    arcs = (targets.empty_arc(arc, _sorted(prims)) for arc, prims in empty.items())
+    return tuple(sorted(arcs, key=_empty_order))
+
+
+def _empty_order(arc: EmptyArc) -> tuple[str, ...]:
+    spec = arc.spec
+    where = (str(arc.prim.GetPath()), spec.layer.identifier, str(spec.path))
+    return (*where, arc.asset, arc.target)
+
+
 def _others(errors: Mapping[tuple[str, Any], Iterable[Any]]) -> tuple[CompositionError, ...]:
     found = (CompositionError(*error, _sorted(prims)) for error, prims in errors.items())
     return tuple(sorted(found, key=lambda error: (str(error.prim.GetPath()), error.message)))
@@ -166,9 +216,9 @@ def _sorted(prims: Iterable[Any]) -> tuple[Any, ...]:
     return tuple(sorted(dict.fromkeys(prims), key=lambda prim: prim.GetPath()))
 
 
-def _as_walked(missing_layers: Iterable[MissingLayer]) -> frozenset[Any]:
+def _as_walked(lacking: Iterable[MissingLayer | EmptyArc]) -> frozenset[Any]:
     """The paths of the prims as the walk visits them: those in instances are in prototypes."""
-    prims = [prim for missing in missing_layers for prim in missing.prims]
+    prims = [prim for each in lacking for prim in each.prims]
     prims += [prim.GetPrototype() for prim in prims if prim.IsInstance()]
     return frozenset(in_prototype(prim).GetPath() for prim in prims)
 

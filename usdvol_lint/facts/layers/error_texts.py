@@ -15,6 +15,7 @@ ARCS = ("sublayer", "reference", "payload")
 
 _QUOTED = re.compile(r"@(.+?)@(?:<([^>]*)>)?")
 _INTRODUCED = re.compile(r"introduced by @(.+?)@<([^>]*)>")
+_UNRESOLVED = re.compile(r"Unresolved (reference|payload) prim path @(.+?)@<([^>]*)>")
 _IN_LAYER = re.compile(r" at (?P<path>/\S*) in @(?P<layer>.+?)@")
 _ABSOLUTE = re.compile(r"(?<=@)/[^@]+(?=@)")
 _ANONYMOUS = re.compile(r"(?:,@)?anon:0x[0-9a-f]+(?::[^@>\s]*)?@?")
@@ -31,6 +32,38 @@ class LayerArc(NamedTuple):
     asset: str
     path: str
     spec: Any
+
+
+class PrimArc(NamedTuple):
+    """A reference or payload to a prim, and the spec that holds it.
+
+    `arc`, `asset`, `path` and `spec` are as in `LayerArc`.
+    `target`: the prim's path as authored; "" asks for the default prim of the layer.
+    `wanted`: the path that USD looked for; "" if the layer says no default prim.
+    """
+
+    arc: str
+    asset: str
+    path: str
+    target: str
+    wanted: str
+    spec: Any
+
+
+def unresolved_arc(text: str) -> PrimArc | None:
+    """The arc in an error about a prim that is not there; None if its spec can't be found.
+
+    All supported versions of USD use the same words.
+    """
+    named = _UNRESOLVED.match(text)
+    introduced = _INTRODUCED.search(text)
+    spec = _spec(introduced[1], introduced[2]) if introduced else None
+    if not named or spec is None:
+        return None
+    arc, path, wanted = named.groups()
+    wanted = wanted if wanted.startswith("/") else ""
+    asset, target = _authored_target(spec, arc, path, wanted)
+    return PrimArc(arc, asset, path, target, wanted, spec)
 
 
 def missing_arc(text: str) -> LayerArc | None:
@@ -96,6 +129,23 @@ def _authored(spec: Any, resolved: str) -> str:
             return str(asset)
     expressions = [asset for asset in named if Sdf.VariableExpression.IsExpression(asset)]
     return expressions[0] if len(expressions) == 1 else display(resolved)
+
+
+def _authored_target(spec: Any, arc: str, path: str, wanted: str) -> tuple[str, str]:
+    """The asset path and the prim path of an arc as authored; USD's text has what they led to."""
+    prim = spec.layer.GetPrimAtPath(spec.path)
+    listed = (prim.referenceList if arc == "reference" else prim.payloadList) if prim else None
+    items = listed.GetAddedOrExplicitItems() if listed else ()
+    for target in (wanted, ""):
+        for item in items:
+            if str(item.primPath) == target and _leads_to(spec.layer, item.assetPath, path):
+                return str(item.assetPath), target
+    return ("" if path == spec.layer.identifier else display(path)), wanted
+
+
+def _leads_to(layer: Any, asset: str, path: str) -> bool:
+    """Whether an asset path in a layer is that of the layer at a path; "" is the layer's own."""
+    return not asset or path in (asset, layer.ComputeAbsolutePath(asset))
 
 
 def _assets_named(spec: Any) -> Iterator[str]:

@@ -1,0 +1,161 @@
+"""Layers that say no rate, and what USD makes of their time samples for that reason."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pxr import Tf
+
+from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.clips import Clips
+from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
+from usdvol_lint.facts.usd.values import sample_times
+from usdvol_lint.schema import OURS
+
+_USUAL = 24.0
+"""The rate that USD takes for that of a layer that says none."""
+
+_FEW = 4
+"""Samples outside of the range count from a quarter of them on: some overhang at an end is none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Displaced:
+    """Time samples that land elsewhere because their layer says no rate.
+
+    `times`: those that land between frames, or else outside of the stage's time range.
+    `total`: the number of the attribute's samples.
+    """
+
+    attribute: Any
+    times: tuple[float, ...]
+    are_between: bool
+    total: int
+
+
+@dataclass(frozen=True, slots=True)
+class UnsaidRate:
+    """A layer that says neither timeCodesPerSecond nor framesPerSecond.
+
+    `rate`: the stage's; `scale`: that by which USD therefore scales times in the layer.
+    `displaced`: the attributes with samples in the layer, at least one, sorted by path.
+    """
+
+    layer: Any
+    rate: float
+    scale: float
+    displaced: tuple[Displaced, ...]
+
+
+def unsaid_rates(
+    stage: Any, tables: Tables, clips: Clips, time_range: tuple[float, float] | None
+) -> tuple[UnsaidRate, ...]:
+    """The layers that say no rate and whose samples the stage therefore has at other times."""
+    rate = stage.GetTimeCodesPerSecond()
+    layers = _without_rate(stage) if rate != _USUAL else frozenset()
+    own = rate / _USUAL
+    found: dict[Any, list[Displaced]] = defaultdict(list)
+    for attribute, times in _animated(tables) if layers else ():
+        layer, offset = _source(attribute, times[0], clips)
+        if layer in layers and not _is_undone(offset.scale, own):
+            start = offset.offset
+            meant = [start + (time - start) / own for time in times]
+            displaced = _displaced(attribute, list(zip(times, meant, strict=True)), time_range)
+            if displaced:
+                found[layer].append(displaced)
+    return tuple(
+        UnsaidRate(layer, rate, own, tuple(sorted(all_of_layer, key=_path)))
+        for layer, all_of_layer in sorted(found.items(), key=lambda item: item[0].identifier)
+    )
+
+
+def _path(displaced: Displaced) -> Any:
+    return displaced.attribute.GetPath()
+
+
+def _without_rate(stage: Any) -> frozenset[Any]:
+    return frozenset(
+        layer
+        for layer in stage.GetUsedLayers(includeClipLayers=False)
+        if not layer.HasTimeCodesPerSecond() and not layer.HasFramesPerSecond()
+    )
+
+
+def _animated(tables: Tables) -> Iterator[tuple[Any, list[float]]]:
+    """The attributes of ours that have two time samples at least, and the times of these."""
+    for prims, authored in tables.authored(*OURS):
+        for name in authored.declared:
+            for prim in prims:
+                attribute = prim.GetAttribute(name)
+                times = _times(attribute)
+                if len(times) > 1:
+                    yield attribute, times
+
+
+def _times(attribute: Any) -> list[float]:
+    try:
+        return sample_times(attribute)
+    except Tf.ErrorException:  # clips that do not open: reported by another rule
+        return []
+
+
+def _source(attribute: Any, time: float, clips: Clips) -> tuple[Any | None, Any]:
+    """The layer whose times are meant by the samples, and the offset from them to the stage's.
+
+    Those of value clips are in the times of the layer that names the clips, whatever these say.
+    """
+    if not is_from_clips(attribute, time):
+        opinion = strongest_opinion(attribute, time)
+        return (opinion.spec.layer, opinion.offset) if opinion else (None, None)
+    for clip_set in clips.reaching(attribute.GetPrim()):
+        named = clip_set.spec_with("templateAssetPath" if clip_set.template else "times")
+        for spec, offset in clip_set.prim.GetPrimStackWithLayerOffsets():
+            if spec == named:
+                return spec.layer, offset
+    return None, None
+
+
+def _is_undone(scale: float, own: float) -> bool:
+    """Whether the scales that arcs author undo that which USD adds by itself.
+
+    `scale` is all of them together.  A slow motion may come on top: then the whole is an even
+    multiple or fraction, and what was authored is none.
+    """
+    return _is_close(scale, 1) or (_is_even(scale) and not _is_even(scale / own))
+
+
+def _displaced(
+    attribute: Any, times: Sequence[tuple[float, float]], time_range: tuple[float, float] | None
+) -> Displaced | None:
+    """The samples that are not on frames, or not in the range, though they are meant to be.
+
+    `times`: where each is, and where it would be without the scale that USD adds.
+    """
+    between = tuple(time for time, meant in times if not _is_frame(time) and _is_frame(meant))
+    if between:
+        return Displaced(attribute, between, True, len(times))
+    if time_range is None:
+        return None
+    start, end = time_range
+    beyond = tuple(
+        time for time, meant in times if not start <= time <= end and start <= meant <= end
+    )
+    if len(beyond) > 1 and len(beyond) * _FEW >= len(times):
+        return Displaced(attribute, beyond, False, len(times))
+    return None
+
+
+def _is_frame(time: float) -> bool:
+    return _is_close(time, round(time))
+
+
+def _is_even(scale: float) -> bool:
+    return scale > 0 and _is_frame(max(scale, 1 / scale))
+
+
+def _is_close(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=1e-6, abs_tol=1e-6)

@@ -1,0 +1,165 @@
+"""Layers whose up axis or units are not the stage's, and what they bring without a correction."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pxr import UsdGeom
+
+from usdvol_lint import schema
+from usdvol_lint.facts.layers.turns import Corrections
+from usdvol_lint.facts.prims.tables import Tables
+
+UP_AXIS = "upAxis"
+UNITS = "metersPerUnit"
+_AXES = ("X", "Y", "Z")
+_PLACED_TYPES = frozenset(
+    name for name in schema.CONCRETE_TYPES if "VolumeFieldBase" not in schema.TYPE_BASES[name]
+)
+_PLACED = frozenset({"extent", "filePath", *schema.attributes_of(schema.API_ATTRIBUTES)})
+"""The attributes whose values have a place or a size."""
+
+
+@dataclass(frozen=True, slots=True)
+class UnlikeStage:
+    """A layer that says another up axis or other units than the stage.
+
+    `key`: the name of that metadata, with the value in the `layer` and that of the `stage`.
+    `is_sublayer`: whether no reference or payload brings it, but a sublayer of the stage or of a
+    layer that agrees with the stage.
+    `prims`: those of ours that it brings without a rotation or scale up to the root, at least one.
+    """
+
+    layer: Any
+    key: str
+    said: Any
+    stage_says: Any
+    is_sublayer: bool
+    prims: tuple[Any, ...]
+
+    @property
+    def prim(self) -> Any:
+        """The first of the prims."""
+        return self.prims[0]
+
+
+def layers_unlike_stage(stage: Any, tables: Tables) -> tuple[UnlikeStage, ...]:
+    """The layers that say another up axis or other units, and bring what nothing corrects."""
+    wanted = {key: stage.GetMetadata(key) for key in _said_by(stage)}
+    layers = stage.GetUsedLayers() if wanted else ()
+    unlike = {key: _unlike(layers, key, value) for key, value in wanted.items()}
+    if not any(unlike.values()):
+        return ()
+    corrections = Corrections(stage)
+    found: dict[tuple[Any, str, bool], list[Any]] = defaultdict(list)
+    for key, layers_of_key in unlike.items():
+        for prim, layer, is_sublayer in _uncorrected(
+            stage, tables, corrections, key, layers_of_key
+        ):
+            found[layer, key, is_sublayer].append(prim)
+    return tuple(
+        UnlikeStage(layer, key, unlike[key][layer], wanted[key], is_sublayer, _sorted(prims))
+        for (layer, key, is_sublayer), prims in sorted(found.items(), key=_order)
+    )
+
+
+def _uncorrected(
+    stage: Any, tables: Tables, corrections: Corrections, key: str, unlike: Mapping[Any, Any]
+) -> Iterator[tuple[Any, Any, bool]]:
+    """The prims of ours that are brought by layers unlike the stage, and that nothing corrects.
+
+    A Volume is corrected where its fields are.
+    """
+    left: list[Any] = []
+    corrected: set[Any] = set()
+    for prim in _ours(tables) if unlike else ():
+        if corrections.reach(prim, key == UP_AXIS):
+            _add_with_ancestors(prim.GetPath(), corrected)
+        else:
+            left.append(prim)
+    for prim in left:
+        if prim.GetPath() not in corrected:
+            for layer, is_sublayer in _bringing(stage, prim, unlike, key):
+                yield prim, layer, is_sublayer
+
+
+def _add_with_ancestors(path: Any, paths: set[Any]) -> None:
+    while path not in paths:
+        paths.add(path)
+        path = path.GetParentPath()
+
+
+def _order(item: tuple[tuple[Any, str, bool], Any]) -> tuple[str, str, bool]:
+    layer, key, is_sublayer = item[0]
+    return layer.identifier, key, is_sublayer
+
+
+def _sorted(prims: list[Any]) -> tuple[Any, ...]:
+    return tuple(sorted(dict.fromkeys(prims), key=lambda prim: prim.GetPath()))
+
+
+def _said_by(stage: Any) -> list[str]:
+    return [key for key in (UP_AXIS, UNITS) if stage.HasAuthoredMetadata(key)]
+
+
+def _unlike(layers: Any, key: str, wanted: Any) -> dict[Any, Any]:
+    """The layers that say something else than is wanted, with what they say."""
+    said = {layer: _said(layer, key) for layer in layers}
+    return {
+        layer: value
+        for layer, value in said.items()
+        if value is not None and not _are_equal(key, value, wanted)
+    }
+
+
+def _said(layer: Any, key: str) -> Any | None:
+    return layer.pseudoRoot.GetInfo(key) if layer.pseudoRoot.HasInfo(key) else None
+
+
+def _are_equal(key: str, one: Any, other: Any) -> bool:
+    if key == UNITS:
+        return bool(one <= 0 or other <= 0 or UsdGeom.LinearUnitsAre(one, other))
+    return bool(one == other or one not in _AXES or other not in _AXES)
+
+
+def _ours(tables: Tables) -> Iterator[Any]:
+    for prims, _ in tables.authored(*schema.OURS):
+        yield from prims
+
+
+def _bringing(
+    stage: Any, prim: Any, unlike: Mapping[Any, Any], key: str
+) -> Iterator[tuple[Any, bool]]:
+    """The layers unlike the stage that say where a prim is or how large, and which are sublayers.
+
+    What the root layer of a referenced layer stack says goes for its sublayers that say nothing.
+    """
+    own = stage.GetRootLayer()
+    for node in _nodes(prim.GetPrimIndex().rootNode):
+        top = node.layerStack.identifier.rootLayer
+        for layer in node.layerStack.layers:
+            if not _brings_a_place(layer.GetPrimAtPath(node.path)):
+                continue
+            if layer in unlike:
+                yield layer, top == own or (layer != top and top not in unlike)
+            elif top in unlike and _said(layer, key) is None:
+                yield top, False
+
+
+def _nodes(node: Any) -> Iterator[Any]:
+    if node.hasSpecs and not node.isInert:
+        yield node
+    for child in node.children:
+        yield from _nodes(child)
+
+
+def _brings_a_place(spec: Any | None) -> bool:
+    if not spec:
+        return False
+    return spec.typeName in _PLACED_TYPES or any(
+        name in _PLACED or name.startswith("xformOp:")
+        for name in spec.properties.keys()  # noqa: SIM118
+    )
