@@ -115,6 +115,16 @@ def reference(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
 
 
 @arc
+def typed_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """A reference on a prim that says the type again which the referenced one has."""
+    roots = placed.layer.prims if placed.layer else []
+    types = [prim.type for prim in roots if f"/{prim.name}" == placed.root]
+    line = ("prepend references = ", *_target(placed), _offset(rng))
+    prim = Prim(name, types[0] if types else "", metadata=[line])
+    return _below(_new(scene, name, rng, [prim]), placed, f"/{name}")
+
+
+@arc
 def default_prim(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     if placed.layer is None:
         return reference.wrap(scene, placed, name, rng)

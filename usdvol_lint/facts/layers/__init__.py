@@ -11,17 +11,20 @@ from usdvol_lint.facts.found import Wing
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
+    from usdvol_lint.facts.layers.retyping import Retyped
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.kinds import PrimKinds
 
 
 class Layers(Wing):
     """What USD could not compose, and the time range that the stage declares."""
 
-    def __init__(self, tables: Tables, stage: Any, clips: Clips) -> None:
+    def __init__(self, tables: Tables, stage: Any, clips: Clips, kinds: PrimKinds) -> None:
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
+        self._kinds = kinds
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
@@ -50,6 +53,23 @@ class Layers(Wing):
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
         return self._composition.may_lack_values(prim)
+
+    @property
+    def retyped(self) -> tuple[Retyped, ...]:
+        """The prims of which a stronger type hides that they are Volumes or fields, by path."""
+        return tuple(self._retyped.values())
+
+    def hides_ours(self, prim: Any) -> bool:
+        """Whether the type of a prim hides that it is a Volume, field or particle field."""
+        from usdvol_lint.facts.usd.instances import in_prototype
+
+        return in_prototype(prim).GetPath() in self._retyped
+
+    @cached_property
+    def _retyped(self) -> dict[Any, Retyped]:
+        from usdvol_lint.facts.layers.retyping import retyped_prims
+
+        return retyped_prims(self._stage, self._kinds)
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:

@@ -97,9 +97,10 @@ class Volumes(Wing):
 
         What uses a field under this selection is added to `used`, for the selections to come.
         There are none where part of the stage can't be read.  Fields are left out that a faulty
-        Volume accounts for: those below it, and those that its relationships probably intended.
+        Volume accounts for, also one whose type is hidden: those below it, and those that its
+        relationships probably intended.
         """
-        from usdvol_lint.facts.volumes.usage import accounted_for
+        from usdvol_lint.facts.volumes.usage import accounted_for, accounted_for_by_hidden
 
         slots, used = self.tables.field_slots, self._users
         self._used.add(path for path, slot in slots.items() if slot in used)
@@ -112,6 +113,8 @@ class Volumes(Wing):
             self._used.add(
                 accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
             )
+        for retyped in self._layers.retyped:
+            self._used.add(accounted_for_by_hidden(retyped.prim, self._kinds))
         return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:

@@ -1,0 +1,71 @@
+"""Where several specs may make up a prim: at composition arcs, and where sublayers overlap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from pxr import Pcp, Sdf, Usd
+
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
+from usdvol_lint.facts.usd.instances import in_prototype
+
+_DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
+
+
+def prims_with_arcs(stage: Any) -> list[Any]:
+    """The prims on which an arc is authored in any layer, as the walk meets them, by path.
+
+    USD's cache of compositions knows them: to ask every prim would take as long as the walk.
+    """
+    cache = stage._GetPcpCache()
+    root = Sdf.Path.absoluteRootPath
+    stacks = {
+        stack
+        for layer in stage.GetUsedLayers()
+        for stack in cache.FindAllLayerStacksUsingLayer(layer)
+    }
+    paths = {
+        dependency.indexPath
+        for stack in stacks
+        for dependency in cache.FindSiteDependencies(stack, root, _DIRECT, True, False, True)
+    }
+    prims = map(stage.GetPrimAtPath, sorted(paths))
+    return list(dict.fromkeys(in_prototype(prim) for prim in prims if prim))
+
+
+def layered_prims(stage: Any) -> Iterator[tuple[Any, list[Any]]]:
+    """The live prims that several specs make up, each with these, strongest first."""
+    local = [layer.pseudoRoot for layer in stage.GetLayerStack()]
+    pending = _children_of_several(stage.GetPseudoRoot(), local)
+    pending += prims_with_arcs(stage)
+    seen = set()
+    while pending:
+        prim = in_prototype(pending.pop())
+        if prim in seen or not _is_live(prim):
+            continue
+        seen.add(prim)
+        specs = get_prim_stack(prim)
+        if len(specs) > 1:
+            yield prim, specs
+            pending += _children_of_several(prim, specs)
+
+
+def _children_of_several(prim: Any, specs: Iterable[Any]) -> list[Any]:
+    """The live children of a prim of which several of its specs say something."""
+    parents = [spec.nameChildren for spec in specs if spec.nameChildren]
+    if len(parents) < 2:
+        return []  # nearly always: the names of many children are read only where they matter
+    seen: set[str] = set()
+    shared: set[str] = set()
+    for children in parents:
+        names = set(children.keys())
+        shared |= names & seen
+        seen |= names
+    return [
+        child for child in prim.GetFilteredChildren(WITH_INSTANCES) if child.GetName() in shared
+    ]
+
+
+def _is_live(prim: Any) -> bool:
+    return bool(Usd.PrimDefaultPredicate(prim))
