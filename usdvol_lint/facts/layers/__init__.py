@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from usdvol_lint.facts.found import Wing
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
+    from usdvol_lint.facts.layers.instancing import LostOverrides
     from usdvol_lint.facts.layers.retyping import Retyped
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.clips import Clips
@@ -64,6 +66,15 @@ class Layers(Wing):
         from usdvol_lint.facts.usd.instances import in_prototype
 
         return in_prototype(prim).GetPath() in self._retyped
+
+    @property
+    def lost_overrides(self) -> Iterator[LostOverrides]:
+        """The overrides below instances that USD passes over, by the paths of the instances."""
+        if self._stage.GetPrototypes():
+            from usdvol_lint.facts.layers.instancing import lost_overrides
+
+            ours = chain.from_iterable(map(self.tables.prims, sorted(schema.OURS)))
+            yield from lost_overrides(self._stage, self._kinds, ours)
 
     @cached_property
     def _retyped(self) -> dict[Any, Retyped]:
