@@ -217,6 +217,23 @@ def inherited(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
 
 
 @arc
+def turned(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """Below a group that turns about a pivot, in a layer whose time range has one end."""
+    inner = Prim("inner", metadata=[("prepend references = ", *_target(placed))])
+    group = Prim(name, "Xform", children=[inner])
+    pivot = "xformOp:translate:pivot"
+    order = ["!resetXformStack!", pivot, "xformOp:rotateXYZ", f"!invert!{pivot}"]
+    group.properties = {
+        pivot: Attribute("double3", (2, 0, 0)),
+        "xformOp:rotateXYZ": Attribute("float3", samples={1: (0, 0, 0), 90: (0, 360, 0)}),
+        "xformOpOrder": Attribute("token[]", order, is_uniform=True),
+    }
+    layer = _new(scene, name, rng, [group])
+    layer.metadata.append((rng.choice(("startTimeCode = 1001", "endTimeCode = -5")),))
+    return _below(layer, placed, f"/{name}", f"/{name}/inner")
+
+
+@arc
 def internal_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     """From a prim of the same layer, which no other may be drawn from: an over."""
     source = Prim(f"{name}_library", specifier="over")

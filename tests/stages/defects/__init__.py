@@ -3,12 +3,12 @@
 Add one by writing a function in the module of its family, with a decorator of `declaration`.
 """
 
-from . import array, asset, field, grid, overriding, particle, schema, stage, volume
+from . import array, asset, field, geometry, grid, overriding, particle, schema, stage, volume
 from .declaration import Defect
 
 DEFECTS = tuple(
     each
-    for module in (volume, field, asset, grid, schema, particle, array, stage, overriding)
+    for module in (volume, field, asset, grid, schema, particle, array, stage, overriding, geometry)
     for each in vars(module).values()
     if isinstance(each, Defect)
 )

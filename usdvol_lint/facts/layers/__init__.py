@@ -85,10 +85,15 @@ class Layers(Wing):
     @cached_property
     def time_range(self) -> tuple[float, float] | None:
         """startTimeCode and endTimeCode; None unless both are authored, in ascending order."""
+        authored = self.authored_time_range
+        return authored if authored and authored[0] <= authored[1] else None
+
+    @cached_property
+    def authored_time_range(self) -> tuple[float, float] | None:
+        """startTimeCode and endTimeCode, in whatever order; None unless both are authored."""
         if not self._stage.HasAuthoredTimeCodeRange():
             return None
-        start, end = self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
-        return (start, end) if start <= end else None
+        return self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
 
     @cached_property
     def _composition(self) -> Composition:

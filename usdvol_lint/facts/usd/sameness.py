@@ -27,7 +27,9 @@ def says_the_same(spec: Any, attribute: Any) -> bool:
 def _said(spec: Any) -> list[Any]:
     samples = spec.GetInfo("timeSamples") if spec.HasInfo("timeSamples") else {}
     values = [samples[time] for time in sorted(samples)] or [spec.default]
-    return [_comparable(value, spec.layer) for value in values]
+    return [
+        _UNKNOWN if _is_expression(value) else _comparable(value, spec.layer) for value in values
+    ]
 
 
 def _held(attribute: Any) -> list[Any]:
@@ -43,11 +45,13 @@ def _comparable(value: Any, layer: Any) -> Any:
         return None
     if not isinstance(value, Sdf.AssetPath):
         return value
-    if Sdf.VariableExpression.IsExpression(value.authoredPath or value.path):
-        return _UNKNOWN
     path = value.resolvedPath or (layer.ComputeAbsolutePath(value.path) if layer else value.path)
     return str(Ar.GetResolver().Resolve(path)) or path
 
 
-def _may_be_equal(one: Any, other: Any) -> bool:
-    return one is _UNKNOWN or other is _UNKNOWN or bool(one == other)
+def _is_expression(value: Any) -> bool:
+    return isinstance(value, Sdf.AssetPath) and Sdf.VariableExpression.IsExpression(value.path)
+
+
+def _may_be_equal(said: Any, held: Any) -> bool:
+    return said is _UNKNOWN or bool(said == held)
