@@ -164,18 +164,18 @@ def instanced_later(scene: Scene, placed: Placed, name: str, rng: Random) -> Pla
     """A stronger layer makes an instance of a prim below which a weaker one has an over."""
     if placed.has_clips:
         return reference.wrap(scene, placed, name, rng)
-    prim = Prim(name, metadata=[("prepend references = ", *_target(placed))])
+    prim = Prim("inner", metadata=[("prepend references = ", *_target(placed))])
     inner = prim
     for part in placed.path[len(placed.root) :].split("/")[1:]:
         inner.children.append(Prim(part, specifier="over"))
         inner = inner.children[0]
     if inner is not prim:
         inner.properties["visibility"] = Attribute("token", "invisible")
-    weaker = _new(scene, f"{name}_layout", rng, [prim])
-    over = Prim(name, specifier="over", metadata=[("instanceable = true",)])
-    layer = _new(scene, name, rng, [over])
+    weaker = _new(scene, f"{name}_layout", rng, [Prim(name, "Xform", children=[prim])])
+    shared = Prim("inner", specifier="over", metadata=[("instanceable = true",)])
+    layer = _new(scene, name, rng, [Prim(name, specifier="over", children=[shared])])
     layer.metadata.append(("subLayers = [", File(weaker.path), "]"))
-    return _below(layer, placed, f"/{name}")._replace(holds_instances=True)
+    return _below(layer, placed, f"/{name}", f"/{name}/inner")._replace(holds_instances=True)
 
 
 @arc

@@ -3,12 +3,36 @@
 Add one by writing a function in the module of its family, with a decorator of `declaration`.
 """
 
-from . import array, asset, field, geometry, grid, overriding, particle, schema, stage, volume
+from . import (
+    array,
+    asset,
+    field,
+    geometry,
+    grid,
+    overriding,
+    particle,
+    schema,
+    stage,
+    untyped,
+    volume,
+)
 from .declaration import Defect
 
 DEFECTS = tuple(
     each
-    for module in (volume, field, asset, grid, schema, particle, array, stage, overriding, geometry)
+    for module in (
+        volume,
+        field,
+        asset,
+        grid,
+        schema,
+        particle,
+        array,
+        stage,
+        overriding,
+        geometry,
+        untyped,
+    )
     for each in vars(module).values()
     if isinstance(each, Defect)
 )

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import get_prim_stack
+from usdvol_lint.facts.usd.instances import is_live
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.sameness import says_the_same
 
@@ -34,7 +35,7 @@ def lost_overrides(stage: Any, kinds: PrimKinds, ours: Iterable[Any]) -> Iterato
     found = []
     for prototype in _prototypes_of(stage, ours):
         for instance in prototype.GetInstances():
-            overrides = tuple(_below(instance, kinds))
+            overrides = tuple(_below(instance, kinds)) if is_live(instance) else ()
             if overrides:
                 found.append(LostOverrides(instance, overrides))
     yield from sorted(found, key=lambda each: each.instance.GetPath())

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from pxr import Pcp, Sdf, Usd
+from pxr import Pcp, Sdf
 
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
-from usdvol_lint.facts.usd.instances import in_prototype
+from usdvol_lint.facts.usd.instances import in_prototype, is_live
 
 _DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
 
@@ -42,7 +42,7 @@ def layered_prims(stage: Any) -> Iterator[tuple[Any, list[Any]]]:
     seen = set()
     while pending:
         prim = in_prototype(pending.pop())
-        if prim in seen or not _is_live(prim):
+        if prim in seen or not is_live(prim):
             continue
         seen.add(prim)
         specs = get_prim_stack(prim)
@@ -65,7 +65,3 @@ def _children_of_several(prim: Any, specs: Iterable[Any]) -> list[Any]:
     return [
         child for child in prim.GetFilteredChildren(WITH_INSTANCES) if child.GetName() in shared
     ]
-
-
-def _is_live(prim: Any) -> bool:
-    return bool(Usd.PrimDefaultPredicate(prim))

@@ -46,8 +46,8 @@ def accounted_for(
         yield from filter(None, map(index.intended_by, bindings.bindings))
 
 
-def accounted_for_by_hidden(prim: Any, kinds: PrimKinds) -> Iterator[Any]:
-    """The paths of fields that a prim uses, or would if another type did not hide its own."""
+def accounted_for_by_other(prim: Any, kinds: PrimKinds) -> Iterator[Any]:
+    """The paths of the fields that a prim of another type would use if it were a Volume."""
     yield from (in_prototype(field).GetPath() for field in _fields_below(prim, kinds))
     for relationship in prim.GetAuthoredPropertiesInNamespace(schema.FIELD_NAMESPACE):
         if isinstance(relationship, Usd.Relationship):
