@@ -62,6 +62,7 @@ def _below(instance: Any, kinds: PrimKinds) -> Iterator[LostOverride]:
     pending = [
         (child, instance.GetPath().AppendChild(child.name))
         for spec in reversed(_strong_specs(instance))
+        if spec.HasInfo("primChildren")
         for child in spec.nameChildren
     ]
     while pending:

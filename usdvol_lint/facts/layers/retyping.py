@@ -7,6 +7,7 @@ from typing import Any
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.arcs import layered_prims
+from usdvol_lint.facts.usd.calls import get_type
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.paths import display
 
@@ -42,7 +43,8 @@ def retyped_prims(stage: Any, kinds: PrimKinds) -> dict[Any, Retyped]:
     """
     found = []
     for prim, specs in layered_prims(stage):
-        if prim.GetTypeName() and not _is_ours(kinds, kinds.key(prim)):
+        type_name = get_type(prim)
+        if type_name and not _is_ours(kinds, (type_name,)):
             found.append(_retyped(prim, specs, kinds))
     by_path = {each.prim.GetPath(): each for each in found if each}
     return dict(sorted(by_path.items()))

@@ -14,7 +14,7 @@ _DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
 
 
 def prims_with_arcs(stage: Any) -> list[Any]:
-    """The prims on which an arc is authored in any layer, as the walk meets them, by path.
+    """The prims on which an arc is authored in any layer, in no certain order.
 
     USD's cache of compositions knows them: to ask every prim would take as long as the walk.
     """
@@ -30,12 +30,14 @@ def prims_with_arcs(stage: Any) -> list[Any]:
         for stack in stacks
         for dependency in cache.FindSiteDependencies(stack, root, _DIRECT, True, False, True)
     }
-    prims = map(stage.GetPrimAtPath, sorted(paths))
-    return list(dict.fromkeys(in_prototype(prim) for prim in prims if prim))
+    return list(filter(None, map(stage.GetPrimAtPath, paths)))
 
 
 def layered_prims(stage: Any) -> Iterator[tuple[Any, list[Any]]]:
-    """The live prims that several specs make up, each with these, strongest first."""
+    """The live prims that several specs make up, each with these, strongest first.
+
+    Prims in instances are those of the prototypes, as the walk meets them.
+    """
     local = [layer.pseudoRoot for layer in stage.GetLayerStack()]
     pending = _children_of_several(stage.GetPseudoRoot(), local)
     pending += prims_with_arcs(stage)
@@ -53,13 +55,13 @@ def layered_prims(stage: Any) -> Iterator[tuple[Any, list[Any]]]:
 
 def _children_of_several(prim: Any, specs: Iterable[Any]) -> list[Any]:
     """The live children of a prim of which several of its specs say something."""
-    parents = [spec.nameChildren for spec in specs if spec.nameChildren]
+    parents = [spec for spec in specs if spec.HasInfo("primChildren")]
     if len(parents) < 2:
         return []  # nearly always: the names of many children are read only where they matter
     seen: set[str] = set()
     shared: set[str] = set()
-    for children in parents:
-        names = set(children.keys())
+    for spec in parents:
+        names = set(spec.nameChildren.keys())
         shared |= names & seen
         seen |= names
     return [
