@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.instancing import LostOverrides
     from usdvol_lint.facts.layers.retyping import Retyped
     from usdvol_lint.facts.prims.tables import Tables
+    from usdvol_lint.facts.usd.arcs import Layered
     from usdvol_lint.facts.usd.clips import Clips
     from usdvol_lint.facts.usd.kinds import PrimKinds
 
@@ -74,13 +75,19 @@ class Layers(Wing):
             from usdvol_lint.facts.layers.instancing import lost_overrides
 
             ours = chain.from_iterable(map(self.tables.prims, sorted(schema.OURS)))
-            yield from lost_overrides(self._stage, self._kinds, ours)
+            yield from lost_overrides(self._stage, self._layered, self._kinds, ours)
+
+    @cached_property
+    def _layered(self) -> tuple[Layered, ...]:
+        from usdvol_lint.facts.usd.arcs import layered_prims
+
+        return tuple(layered_prims(self._stage))
 
     @cached_property
     def _retyped(self) -> dict[Any, Retyped]:
         from usdvol_lint.facts.layers.retyping import retyped_prims
 
-        return retyped_prims(self._stage, self._kinds)
+        return retyped_prims(self._layered, self._kinds)
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 from usdvol_lint import schema
+from usdvol_lint.facts.usd.arcs import Layered
 from usdvol_lint.facts.usd.calls import get_prim_stack
-from usdvol_lint.facts.usd.instances import is_live
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.sameness import says_the_same
 
@@ -26,23 +26,26 @@ class LostOverrides(NamedTuple):
     overrides: tuple[LostOverride, ...]
 
 
-def lost_overrides(stage: Any, kinds: PrimKinds, ours: Iterable[Any]) -> Iterator[LostOverrides]:
+def lost_overrides(
+    stage: Any, layered: Iterable[Layered], kinds: PrimKinds, ours: Iterable[Any]
+) -> Iterator[LostOverrides]:
     """The overrides below instances that show some of our prims, by the instances' paths.
 
     Only specs count that are at least as strong as the one that makes the prim an instance: who
     wrote them could know that it is one.
     """
+    holders = _prototypes_of(stage, ours)
     found = []
-    for prototype in _prototypes_of(stage, ours):
-        for instance in prototype.GetInstances():
-            overrides = tuple(_below(instance, kinds)) if is_live(instance) else ()
+    for instance, specs in layered:
+        if instance.IsInstance() and instance.GetPrototype().GetPath() in holders:
+            overrides = tuple(_below(instance, _strong_specs(specs), kinds))
             if overrides:
                 found.append(LostOverrides(instance, overrides))
     yield from sorted(found, key=lambda each: each.instance.GetPath())
 
 
-def _prototypes_of(stage: Any, ours: Iterable[Any]) -> list[Any]:
-    """The prototypes that hold some of these prims, also in instances of other prototypes."""
+def _prototypes_of(stage: Any, ours: Iterable[Any]) -> set[Any]:
+    """The paths of the prototypes that hold some of these prims, also in other instances."""
     pending = {_root(prim) for prim in ours if prim.IsInPrototype()}
     found: set[Any] = set()
     while pending:
@@ -50,18 +53,18 @@ def _prototypes_of(stage: Any, ours: Iterable[Any]) -> list[Any]:
         found.add(path)
         instances = stage.GetPrimAtPath(path).GetInstances()
         pending |= {_root(each) for each in instances if each.IsInPrototype()} - found
-    return [stage.GetPrimAtPath(path) for path in found]
+    return found
 
 
 def _root(prim: Any) -> Any:
     return prim.GetPath().GetPrefixes()[0]
 
 
-def _below(instance: Any, kinds: PrimKinds) -> Iterator[LostOverride]:
+def _below(instance: Any, specs: list[Any], kinds: PrimKinds) -> Iterator[LostOverride]:
     stage = instance.GetStage()
     pending = [
         (child, instance.GetPath().AppendChild(child.name))
-        for spec in reversed(_strong_specs(instance))
+        for spec in reversed(specs)
         if spec.HasInfo("primChildren")
         for child in spec.nameChildren
     ]
@@ -74,10 +77,10 @@ def _below(instance: Any, kinds: PrimKinds) -> Iterator[LostOverride]:
         yield from _changed(spec, prim, kinds)
 
 
-def _strong_specs(instance: Any) -> list[Any]:
+def _strong_specs(stack: Iterable[Any]) -> list[Any]:
     """The specs down to the one that makes the prim an instance; none if a variant says it."""
     specs: list[Any] = []
-    for spec in get_prim_stack(instance):
+    for spec in stack:
         if spec.path.ContainsPrimVariantSelection():
             if spec.HasInfo("instanceable"):
                 return []

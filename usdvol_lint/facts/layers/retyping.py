@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.arcs import layered_prims
+from usdvol_lint.facts.usd.arcs import Layered
 from usdvol_lint.facts.usd.calls import get_type
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.paths import display
@@ -36,13 +37,13 @@ class Retyped:
         return display(self.hidden.layer.realPath or self.hidden.layer.identifier)
 
 
-def retyped_prims(stage: Any, kinds: PrimKinds) -> dict[Any, Retyped]:
+def retyped_prims(layered: Iterable[Layered], kinds: PrimKinds) -> dict[Any, Retyped]:
     """By path: the prims that would be a Volume, field or particle field but for a stronger type.
 
     What USD takes a prim for counts, so a type with a fallback of ours hides nothing.
     """
     found = []
-    for prim, specs in layered_prims(stage):
+    for prim, specs in layered:
         type_name = get_type(prim)
         if type_name and not _is_ours(kinds, (type_name,)):
             found.append(_retyped(prim, specs, kinds))

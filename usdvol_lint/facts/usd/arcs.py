@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf
 
@@ -11,6 +11,13 @@ from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
 from usdvol_lint.facts.usd.instances import in_prototype, is_live
 
 _DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
+
+
+class Layered(NamedTuple):
+    """A live prim that several specs make up, strongest first."""
+
+    prim: Any
+    specs: list[Any]
 
 
 def prims_with_arcs(stage: Any) -> list[Any]:
@@ -33,11 +40,8 @@ def prims_with_arcs(stage: Any) -> list[Any]:
     return list(filter(None, map(stage.GetPrimAtPath, paths)))
 
 
-def layered_prims(stage: Any) -> Iterator[tuple[Any, list[Any]]]:
-    """The live prims that several specs make up, each with these, strongest first.
-
-    Prims in instances are those of the prototypes, as the walk meets them.
-    """
+def layered_prims(stage: Any) -> Iterator[Layered]:
+    """The live prims that several specs make up; those in instances as the walk meets them."""
     local = [layer.pseudoRoot for layer in stage.GetLayerStack()]
     pending = _children_of_several(stage.GetPseudoRoot(), local)
     pending += prims_with_arcs(stage)
@@ -49,7 +53,7 @@ def layered_prims(stage: Any) -> Iterator[tuple[Any, list[Any]]]:
         seen.add(prim)
         specs = get_prim_stack(prim)
         if len(specs) > 1:
-            yield prim, specs
+            yield Layered(prim, specs)
             pending += _children_of_several(prim, specs)
 
 
