@@ -36,8 +36,9 @@ def lost_overrides(
     """
     holders = _prototypes_of(stage, ours)
     found = []
-    for instance, specs in layered:
-        if instance.IsInstance() and instance.GetPrototype().GetPath() in holders:
+    for instance, specs, parents in layered:
+        is_overridden = len(parents) > 1 and instance.IsInstance()
+        if is_overridden and instance.GetPrototype().GetPath() in holders:
             overrides = tuple(_below(instance, _strong_specs(specs), kinds))
             if overrides:
                 found.append(LostOverrides(instance, overrides))
@@ -65,7 +66,6 @@ def _below(instance: Any, specs: list[Any], kinds: PrimKinds) -> Iterator[LostOv
     pending = [
         (child, instance.GetPath().AppendChild(child.name))
         for spec in reversed(specs)
-        if spec.HasInfo("primChildren")
         for child in spec.nameChildren
     ]
     while pending:

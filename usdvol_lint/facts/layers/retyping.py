@@ -43,7 +43,7 @@ def retyped_prims(layered: Iterable[Layered], kinds: PrimKinds) -> dict[Any, Ret
     What USD takes a prim for counts, so a type with a fallback of ours hides nothing.
     """
     found = []
-    for prim, specs in layered:
+    for prim, specs, _ in layered:
         type_name = get_type(prim)
         if type_name and not _is_ours(kinds, (type_name,)):
             found.append(_retyped(prim, specs, kinds))

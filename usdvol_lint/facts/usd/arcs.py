@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf
@@ -14,10 +14,11 @@ _DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
 
 
 class Layered(NamedTuple):
-    """A live prim that several specs make up, strongest first."""
+    """A live prim that several specs make up, strongest first; `parents` have children."""
 
     prim: Any
     specs: list[Any]
+    parents: list[Any]
 
 
 def prims_with_arcs(stage: Any) -> list[Any]:
@@ -53,13 +54,13 @@ def layered_prims(stage: Any) -> Iterator[Layered]:
         seen.add(prim)
         specs = get_prim_stack(prim)
         if len(specs) > 1:
-            yield Layered(prim, specs)
-            pending += _children_of_several(prim, specs)
+            parents = [spec for spec in specs if spec.HasInfo("primChildren")]
+            yield Layered(prim, specs, parents)
+            pending += _children_of_several(prim, parents)
 
 
-def _children_of_several(prim: Any, specs: Iterable[Any]) -> list[Any]:
+def _children_of_several(prim: Any, parents: Sequence[Any]) -> list[Any]:
     """The live children of a prim of which several of its specs say something."""
-    parents = [spec for spec in specs if spec.HasInfo("primChildren")]
     if len(parents) < 2:
         return []  # nearly always: the names of many children are read only where they matter
     seen: set[str] = set()
