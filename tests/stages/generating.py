@@ -66,7 +66,10 @@ class _Making:
     def valid(self, turn: int) -> Generated:
         """One to three subjects, in arcs of every kind."""
         first = ARCS[turn % len(ARCS)]
-        needs = {"files": FILES[turn % len(FILES)], "pattern": PATTERNS[turn % len(PATTERNS)]}
+        round_, number = divmod(turn, len(FILES))
+        # Moved on by one after all patterns: else some of them would never meet a Volume.
+        pattern = (round_ + round_ // len(PATTERNS)) % len(PATTERNS)
+        needs = {"files": FILES[number], "pattern": PATTERNS[pattern]}
         placed = []
         for index in range(self.rng.choice((1, 1, 2, 3))):
             is_volume = turn % 3 if index == 0 else self.rng.random() < 0.5
