@@ -100,14 +100,14 @@ class Attribute(NamedTuple):
 
 ATTRIBUTES: dict[str, dict[str, Attribute]] = {
     "Imageable": {
-        "visibility": Attribute("token"),
-        "purpose": Attribute("token", uniform=True),
+        "visibility": Attribute("token", tokens=("inherited", "invisible")),
+        "purpose": Attribute("token", uniform=True, tokens=("default", "render", "proxy", "guide")),
     },
     "Xformable": {"xformOpOrder": Attribute("token[]", uniform=True)},
     "Boundable": {"extent": Attribute("float3[]")},
     "Gprim": {
         "doubleSided": Attribute("bool", uniform=True),
-        "orientation": Attribute("token", uniform=True),
+        "orientation": Attribute("token", uniform=True, tokens=("rightHanded", "leftHanded")),
         "primvars:displayColor": Attribute("color3f[]"),
         "primvars:displayOpacity": Attribute("float[]"),
     },
@@ -171,7 +171,7 @@ ATTRIBUTES: dict[str, dict[str, Attribute]] = {
 }
 """The attributes that each schema adds to those of its bases or declares anew, bases first.
 
-Those that a Volume inherits from UsdGeom are here too, but without UsdGeom's tokens.
+Those that a Volume inherits from UsdGeom are here too.
 """
 
 SCALAR_DATA_TYPES = frozenset(

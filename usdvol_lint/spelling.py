@@ -78,6 +78,10 @@ GUESSED_TOKENS: dict[str, dict[str, str]] = {
         "boolean": "bool",
     },
     "vectorDataRoleHint": {"colour": "Color"},
+    "visibility": {
+        **dict.fromkeys(("hidden", "off", "none"), "invisible"),
+        **dict.fromkeys(("visible", "on"), "inherited"),
+    },
     "sortingModeHint": {"depth": "zDepth", "distance": "cameraDistance"},
 }
 """For each attribute tokens of other libraries, folded, and its own for the same."""

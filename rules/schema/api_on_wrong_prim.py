@@ -7,7 +7,7 @@ from usdvol_lint.spelling import misspelt_type
 
 @rule("SCH010", on=PARTICLE_FIELD_ONLY_APIS, severity=ERROR, since="0.1")
 def api_on_wrong_prim(prim: Prim, facts: Facts) -> Problems:
-    if facts.prims.is_a(prim, PARTICLE_FIELD):
+    if facts.prims.is_a(prim, PARTICLE_FIELD) or facts.layers.hides_ours(prim):
         return
     type_name = prim.GetTypeName()
     applied = [api for api in facts.particles.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS]

@@ -11,11 +11,12 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Prims, Problem, Problems, Whe
     since="0.1",
 )
 def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
-    for attribute, meant in facts.prims.misspelt(prim):
+    for attribute, meant, overridden in facts.prims.misspelt(prim):
         if facts.prims.encoding(prim):
             return
         yield Problem(
-            f"{prim.GetTypeName()} has no attribute {attribute.GetName()!r}",
+            f"{prim.GetTypeName()} has no attribute {attribute.GetName()!r}"
+            + (f", so {meant!r} keeps the value of a weaker layer" if overridden else ""),
             at=attribute,
             suggestion=f"did you mean {meant!r}?",
         )

@@ -14,6 +14,8 @@ from usdvol_lint.spelling import misspelt_type
 def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
     bindings = facts.volumes.bindings(volume)
     for binding, target in bindings.with_target(TargetState.NOT_A_FIELD):
+        if facts.layers.hides_ours(target.prim):
+            continue
         type_name = target.type_name
         meant = facts.volumes.intended_field(binding)
         advice = None if type_name else "give it a type, such as 'OpenVDBAsset'"
@@ -25,7 +27,8 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
         )
     for binding, target in bindings.with_target(TargetState.UNKNOWN_TYPE):
         type_name = target.type_name
-        if not misspelt_type(type_name) and not facts.prims.encoding(target.prim):
+        is_reported = facts.prims.encoding(target.prim) or facts.layers.hides_ours(target.prim)
+        if not misspelt_type(type_name) and not is_reported:
             yield NotChecked(
                 f"'field:{binding.name}' targets <{target.shown}> of type {type_name!r}, which no "
                 "installed plugin declares",

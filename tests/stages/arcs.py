@@ -121,6 +121,16 @@ def reference(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
 
 
 @arc
+def typed_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """A reference on a prim that says the type again which the referenced one has."""
+    roots = placed.layer.prims if placed.layer else []
+    types = [prim.type for prim in roots if f"/{prim.name}" == placed.root]
+    line = ("prepend references = ", *_target(placed), _offset(rng))
+    prim = Prim(name, types[0] if types else "", metadata=[line])
+    return _below(_new(scene, name, rng, [prim]), placed, f"/{name}")
+
+
+@arc
 def default_prim(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     if placed.layer is None:
         return reference.wrap(scene, placed, name, rng)
@@ -153,6 +163,25 @@ def instance(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     layer = _new(scene, name, rng, [Prim(name, "Xform", children=copies)])
     placed = placed._replace(holds_instances=True)
     return _below(layer, placed, f"/{name}", f"/{name}/{copies[0].name}")
+
+
+@arc
+def instanced_later(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """A stronger layer makes an instance of a prim below which a weaker one has an over."""
+    if placed.has_clips:
+        return reference.wrap(scene, placed, name, rng)
+    prim = Prim("inner", metadata=[("prepend references = ", *_target(placed))])
+    inner = prim
+    for part in placed.path[len(placed.root) :].split("/")[1:]:
+        inner.children.append(Prim(part, specifier="over"))
+        inner = inner.children[0]
+    if inner is not prim:
+        inner.properties["visibility"] = Attribute("token", "invisible")
+    weaker = _new(scene, f"{name}_layout", rng, [Prim(name, "Xform", children=[prim])])
+    shared = Prim("inner", specifier="over", metadata=[("instanceable = true",)])
+    layer = _new(scene, name, rng, [Prim(name, specifier="over", children=[shared])])
+    layer.metadata.append(("subLayers = [", File(weaker.path), "]"))
+    return _below(layer, placed, f"/{name}", f"/{name}/inner")._replace(holds_instances=True)
 
 
 @arc
@@ -194,6 +223,23 @@ def inherited(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
 
 
 @arc
+def turned(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """Below a group that turns about a pivot, in a layer whose time range has one end."""
+    inner = Prim("inner", metadata=[("prepend references = ", *_target(placed))])
+    group = Prim(name, "Xform", children=[inner])
+    pivot = "xformOp:translate:pivot"
+    order = ["!resetXformStack!", pivot, "xformOp:rotateXYZ", f"!invert!{pivot}"]
+    group.properties = {
+        pivot: Attribute("double3", (2, 0, 0)),
+        "xformOp:rotateXYZ": Attribute("float3", samples={1: (0, 0, 0), 90: (0, 360, 0)}),
+        "xformOpOrder": Attribute("token[]", order, is_uniform=True),
+    }
+    layer = _new(scene, name, rng, [group])
+    layer.metadata.append((rng.choice(("startTimeCode = 1001", "endTimeCode = -5")),))
+    return _below(layer, placed, f"/{name}", f"/{name}/inner")
+
+
+@arc
 def internal_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     """From a prim of the same layer, which no other may be drawn from: an over."""
     source = Prim(f"{name}_library", specifier="over")
@@ -206,7 +252,7 @@ def internal_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> 
 @arc
 def rate_undone(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     """A rate that is not 24, and a scale that undoes it for layers that say none."""
-    rate = rng.choice((25, 30))
+    rate = rng.choice((12, 48))  # exact scales: others USD may round to the sample before
     kind = rng.choice(("references", "payload"))
     line = (f"prepend {kind} = ", *_target(placed), f" (offset = 5; scale = {24 / rate!r})")
     placed = _composed(scene, placed, name, rng, line)

@@ -66,8 +66,10 @@ class _Making:
     def valid(self, turn: int) -> Generated:
         """One to three subjects, in arcs of every kind."""
         first = ARCS[turn % len(ARCS)]
-        pattern = PATTERNS[turn // len(FILES) % len(PATTERNS)]
-        needs = {"files": FILES[turn % len(FILES)], "pattern": pattern}
+        round_, number = divmod(turn, len(FILES))
+        # Moved on by one after all patterns: else some of them would never meet a Volume.
+        pattern = (round_ + round_ // len(PATTERNS)) % len(PATTERNS)
+        needs = {"files": FILES[number], "pattern": PATTERNS[pattern]}
         placed = []
         for index in range(self.rng.choice((1, 1, 2, 3))):
             is_volume = turn % 4 if index == 0 else self.rng.random() < 0.5

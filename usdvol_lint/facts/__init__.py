@@ -81,7 +81,7 @@ class Facts:
         self.tables = tables
         self.prims = Prims(tables, kinds)
         self.files = Files(tables, stage, clips, disk, advance)
-        self.layers = Layers(tables, stage, clips)
+        self.layers = Layers(tables, stage, clips, kinds)
         self.grids = Grids(tables, self.files, depth.content, volume_files, advance)
         self.volumes = Volumes(
             tables, stage, kinds, self.prims, self.files, self.layers, self.grids, used

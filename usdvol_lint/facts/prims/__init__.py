@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.extents import Limits
     from usdvol_lint.facts.prims.nesting import Nested, Nesting
     from usdvol_lint.facts.prims.tables import Table, Tables
+    from usdvol_lint.facts.prims.transforms import TransformFaults
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
 
@@ -91,6 +92,21 @@ class Prims(Wing):
         from usdvol_lint.facts.prims.contradictions import unlisted_tokens
 
         return unlisted_tokens(prim, self.authored(prim))
+
+    def transform_faults(self, prim: Any) -> TransformFaults:
+        """The transform ops of a prim that are not there or not finite; none where USD has none."""
+        from usdvol_lint.facts.prims.transforms import TransformFaults, transform_faults
+
+        is_placed = self.is_a(prim, "Xformable")
+        return transform_faults(prim) if is_placed else TransformFaults()
+
+    @cached_property
+    def above_ours(self) -> list[Any]:
+        """The prims above Volumes and particle fields with a purpose, visibility or transform."""
+        from usdvol_lint.facts.prims.ancestors import ancestors_of
+
+        tables = self.tables.of(schema.VOLUME, schema.PARTICLE_FIELD)
+        return ancestors_of((table.batch for table in tables), self._kinds)
 
     @fact
     def encoding(self, prim: Any) -> Encoding | None:

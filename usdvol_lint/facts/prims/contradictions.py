@@ -12,6 +12,7 @@ from usdvol_lint import spelling
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
+from usdvol_lint.facts.usd.sameness import says_the_same
 from usdvol_lint.facts.usd.values import Values, values_of
 
 
@@ -29,10 +30,14 @@ class Mistyped(NamedTuple):
 
 
 class Misspelt(NamedTuple):
-    """An attribute that no schema declares, and the name that was probably intended."""
+    """An attribute that no schema declares, and the name that was probably intended.
+
+    `overridden`: the attribute of that name in a weaker layer, whose value stays.
+    """
 
     attribute: Any
     intended: str
+    overridden: Any | None = None
 
 
 class Unlisted(NamedTuple):
@@ -78,16 +83,33 @@ def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
 def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
     """The attributes with values that are not read because their names are misspelt.
 
-    Skipped if the intended attribute has a value too, or if its type can't hold the value.
+    Skipped if the type of the intended attribute can't hold the value, or if it has a value too,
+    unless the misspelt one is of the same type, in a stronger layer, and says something else.
     """
     for name, intended, wanted in authored.misspellings:
         attribute = prim.GetAttribute(name)
         if not attribute or not attribute.HasAuthoredValue():
             continue
+        right = prim.GetAttribute(intended)
+        if right.HasAuthoredValue():
+            if authored.is_layered and _fails_to_override(attribute, right, wanted):
+                yield Misspelt(attribute, intended, right)
+            continue
         names_another = name.startswith("particleField:")
-        could_hold = names_another or spelling.is_alike(str(attribute.GetTypeName()), wanted)
-        if could_hold and not prim.GetAttribute(intended).HasAuthoredValue():
+        if names_another or spelling.is_alike(str(attribute.GetTypeName()), wanted):
             yield Misspelt(attribute, intended)
+
+
+def _fails_to_override(misspelt: Any, right: Any, wanted: str) -> bool:
+    """Whether a misspelt attribute was probably meant to override the right one of that type."""
+    said, held = misspelt.GetPropertyStack(), right.GetPropertyStack()
+    if str(misspelt.GetTypeName()) != wanted or not said or not held:
+        return False  # in value clips there are no specs
+    if any(spec.layer == said[0].layer for spec in held):
+        return False  # who wrote it knows the right name too
+    stack = get_prim_stack(right.GetPrim())
+    is_stronger = stack.index(said[0].owner) < stack.index(held[0].owner)
+    return is_stronger and not says_the_same(said[0], right)
 
 
 def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from pxr import Usd
+
 
 class Shown(NamedTuple):
     """The first of the stage paths at which a prim appears, and through how many instances."""
@@ -56,3 +58,13 @@ def _prototype(prim: Any) -> Any:
 def in_prototype(prim: Any) -> Any:
     """The prim of the prototype for an instance proxy; any other prim itself."""
     return prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
+
+
+def is_live(prim: Any) -> bool:
+    """Whether a prim is active, loaded, defined and not abstract, as a traversal asks."""
+    return bool(Usd.PrimDefaultPredicate(prim))
+
+
+def live_prototypes(stage: Any) -> list[Any]:
+    """The prototypes with an instance that a traversal visits, or that lies in a prototype."""
+    return [each for each in stage.GetPrototypes() if any(map(is_live, each.GetInstances()))]

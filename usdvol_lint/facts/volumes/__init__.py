@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
     from usdvol_lint.facts.volumes.enclosure import Enclosure
     from usdvol_lint.facts.volumes.intended import FieldIndex
+    from usdvol_lint.facts.volumes.lookalikes import Lookalike
     from usdvol_lint.facts.volumes.mixture import MixedFiles
     from usdvol_lint.facts.volumes.placement import Displacement
     from usdvol_lint.facts.volumes.reading import BindingReader
@@ -101,9 +102,10 @@ class Volumes(Wing):
 
         What uses a field under this selection is added to `used`, for the selections to come.
         There are none where part of the stage can't be read.  Fields are left out that a faulty
-        Volume accounts for: those below it, and those that its relationships probably intended.
+        Volume accounts for, also one whose type is hidden or missing: those below it, and those
+        that its relationships probably intended.
         """
-        from usdvol_lint.facts.volumes.usage import accounted_for
+        from usdvol_lint.facts.volumes.usage import accounted_for, accounted_for_by_other
 
         slots, used = self.tables.field_slots, self._users
         self._used.add(path for path, slot in slots.items() if slot in used)
@@ -116,7 +118,26 @@ class Volumes(Wing):
             self._used.add(
                 accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
             )
+        others = [each.prim for each in self._layers.retyped]
+        for prim in (*others, *(each.prim for each in self.lookalikes)):
+            self._used.add(accounted_for_by_other(prim, self._kinds))
         return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
+
+    @cached_property
+    def lookalikes(self) -> list[Lookalike]:
+        """The prims of no type, Xforms and Scopes with the data of a Volume or splat, by path.
+
+        Left out are those whose type is hidden, and those that may lack opinions.
+        """
+        from usdvol_lint.facts.volumes.lookalikes import lookalikes
+
+        slots, users = self.tables.field_slots, self._users
+        unbound = {path for path, slot in slots.items() if slot not in users}
+        return [
+            each
+            for each in lookalikes(self._stage, unbound)
+            if not self._layers.may_lack(each.prim) and not self._layers.hides_ours(each.prim)
+        ]
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:
         """A predicate for later: whether no variant selection until then uses the field."""

@@ -46,6 +46,14 @@ def accounted_for(
         yield from filter(None, map(index.intended_by, bindings.bindings))
 
 
+def accounted_for_by_other(prim: Any, kinds: PrimKinds) -> Iterator[Any]:
+    """The paths of the fields that a prim of another type would use if it were a Volume."""
+    yield from (in_prototype(field).GetPath() for field in _fields_below(prim, kinds))
+    for relationship in prim.GetAuthoredPropertiesInNamespace(schema.FIELD_NAMESPACE):
+        if isinstance(relationship, Usd.Relationship):
+            yield from relationship.GetForwardedTargets()
+
+
 def unbound_fields(
     volume: Any, kinds: PrimKinds, slots: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> list[Any]:
@@ -65,7 +73,7 @@ def is_shared(
     return bool(instanced and shown(volume).instances > 1)
 
 
-def _fields_below(volume: Any, kinds: PrimKinds) -> list[Any]:
-    """The field prims below a Volume, also inside instances."""
-    below = Usd.PrimRange(volume, Usd.TraverseInstanceProxies())
-    return [prim for prim in below if kinds.is_a(prim, schema.FIELD)]
+def _fields_below(prim: Any, kinds: PrimKinds) -> list[Any]:
+    """The field prims below a prim, also inside instances."""
+    below = Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
+    return [each for each in below if kinds.is_a(each, schema.FIELD)]

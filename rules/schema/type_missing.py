@@ -1,0 +1,20 @@
+"""SCH014: what makes a Volume or splat is nothing on a prim of another type, or of none."""
+
+from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.schema import PARTICLE_FIELD_ONLY_APIS
+
+
+@rule("SCH014", on=STAGE, severity=WARNING, since="0.1")
+def type_missing(stage: Prim, facts: Facts) -> Problems:
+    for prim, binding in facts.volumes.lookalikes:
+        if not set(facts.particles.apis(prim).applied).isdisjoint(PARTICLE_FIELD_ONLY_APIS):
+            continue  # SCH010 says it
+        type_name = prim.GetTypeName()
+        wanted = "Volume" if binding else "ParticleField3DGaussianSplat"
+        yield Problem(
+            (f"{binding.GetName()!r} to a field" if binding else "all the arrays of a splat")
+            + (f" on a prim of type {type_name!r}" if type_name else " on a prim without a type")
+            + ": nothing is drawn",
+            at=prim,
+            suggestion=f'make it a {wanted}: def {wanted} "{prim.GetName()}"',
+        )

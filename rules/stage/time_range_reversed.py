@@ -1,0 +1,16 @@
+"""STG007: a time range begins before it ends."""
+
+from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, format_time, rule
+from usdvol_lint.schema import OURS
+
+
+@rule("STG007", on=STAGE, severity=WARNING, since="0.1")
+def time_range_reversed(root: Prim, facts: Facts) -> Problems:
+    authored = facts.layers.authored_time_range
+    if authored and authored[0] > authored[1] and any(map(facts.prims.of, sorted(OURS))):
+        start, end = map(format_time, authored)
+        yield Problem(
+            f"startTimeCode {start} is after endTimeCode {end}, so the stage has no frames",
+            at=root,
+            suggestion=f"say 'startTimeCode = {end}' and 'endTimeCode = {start}'",
+        )

@@ -1,0 +1,40 @@
+"""The prims above Volumes and particle fields, whose purpose, visibility and transform count."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from usdvol_lint import schema
+from usdvol_lint.facts.usd.batches import PrimBatch
+from usdvol_lint.facts.usd.calls import get_parent, get_property_names
+from usdvol_lint.facts.usd.instances import is_live
+from usdvol_lint.facts.usd.kinds import PrimKinds
+
+_INHERITED = frozenset({"purpose", "visibility", "xformOpOrder"})
+
+
+def ancestors_of(batches: Iterable[PrimBatch], kinds: PrimKinds) -> list[Any]:
+    """The prims above those of the batches that author what is inherited, by path.
+
+    Above a prototype there are its instances.  Prims of our types are left out: rules get these
+    by themselves.
+    """
+    seen: set[Any] = set()
+    pending: list[Any] = []
+    for batch in batches:
+        last = None
+        for parent in batch.parents:
+            if parent != last:  # siblings come one after the other, and hashing a prim takes long
+                pending.append(parent)
+                last = parent
+    while pending:
+        prim = pending.pop()
+        if prim.IsPseudoRoot() or prim in seen:
+            continue
+        seen.add(prim)
+        is_shared = prim.IsPrototype()
+        pending += filter(is_live, prim.GetInstances()) if is_shared else (get_parent(prim),)
+    authors = (prim for prim in seen if not _INHERITED.isdisjoint(get_property_names(prim)))
+    groups = (prim for prim in authors if schema.OURS.isdisjoint(kinds.names(kinds.key(prim))))
+    return sorted(groups, key=lambda prim: prim.GetPath())
