@@ -76,6 +76,7 @@ def add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
     if choice.files == "template clips" or rng.random() < 0.7:
         manifests.append(_clip(subject, f"{stem}.manifest.usda", {}))
     subject.content.layers += [*clips, *manifests]
+    left_out = _left_out() if rng.random() < 0.3 else []
     bearer = subject.root if choice.place == "beside" else subject.prim
     bearer.metadata += [
         ("clips = {",),
@@ -84,11 +85,23 @@ def add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
         *_clip_set(choice, clips, each, len(frames)),
         *(("        asset manifestAssetPath = ", File(each.path)) for each in manifests),
         ("    }",),
+        *left_out,
         ("}",),
+        *([('clipSets = ["default"]',)] if left_out else []),
     ]
     for part in subject.fields:
         part.prim.properties.pop("fieldClass", None)
         part.prim.attribute("fieldDataType").value = "float"
+
+
+def _left_out() -> list[Line]:
+    """A set that USD would not use if `clipSets` did not leave it out anyway."""
+    return [
+        ("    dictionary old = {",),
+        ('        asset[] assetPaths = ["./old.usda"]'.replace('"', "@"),),
+        ('        string primPath = "/old"',),
+        ("    }",),
+    ]
 
 
 def _clip_set(choice: Choice, clips: list[Layer], each: int, count: int) -> list[Line]:
