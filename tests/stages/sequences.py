@@ -10,7 +10,7 @@ from .files import FRAME, FRAMES, original
 from .model import Attribute, File, Layer, Line, Prim
 from .subjects import Choice, VolumeSubject
 
-PATTERNS = ("plain", "held", "looped", "blocked", "rest frame", "every file twice")
+PATTERNS = ("plain", "held", "looped", "blocked", "blinking", "rest frame", "every file twice")
 """How a sequence of its own goes through its files."""
 
 
@@ -37,6 +37,8 @@ def _ordered(frames: list[File], pattern: str) -> Sequence[File | None]:
         return frames * 2
     if pattern == "blocked":
         return [*frames[:-1], None]
+    if pattern == "blinking":
+        return [each for frame in frames for each in (frame, None)]
     if pattern == "every file twice":
         return [frame for frame in frames for _ in range(2)]
     return frames

@@ -212,3 +212,14 @@ def manifest_without_path(subject: VolumeSubject, rng: Random) -> Prim:
 @on_volume("AST015", needs={**ONE_FILE, "fields": 1}, within="package", also=("AST002",))
 def outside_package(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "../../../../elsewhere/cloud.vdb")
+
+
+@on_volume("AST018", needs=A_RUN)
+def hole(subject: VolumeSubject, rng: Random) -> Prim:
+    part = any_field(subject, rng)
+    samples = part.prim.attribute("filePath").samples
+    times = sorted(samples)
+    first = rng.randrange(1, len(times) - 3)
+    for time in times[first : first + rng.randint(1, 2)]:
+        samples[time] = rng.choice((None, ""))
+    return part.prim

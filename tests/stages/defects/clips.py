@@ -65,3 +65,12 @@ def clips_left_behind(subject: VolumeSubject, rng: Random) -> Prim:
     taken = Prim("taken", metadata=[(f"references = <{rng.choice(subject.fields).path}>",)])
     subject.root.children.append(taken)
     return taken
+
+
+@on_volume("AST018", needs={"files": "clips", "fields": 1})
+def clip_without_value(subject: VolumeSubject, rng: Random) -> Prim:
+    """A clip in the middle that has nothing for the field; it may bring several frames."""
+    [part] = subject.fields
+    middle = rng.choice(part.clips[1:-1])
+    middle.samples.clear()
+    return part.prim

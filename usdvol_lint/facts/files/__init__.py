@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.corrections import Absence
     from usdvol_lint.facts.files.disk import Disk
     from usdvol_lint.facts.files.gaps import Missing
+    from usdvol_lint.facts.files.holes import Holes
     from usdvol_lint.facts.files.letter_case import Recased
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
@@ -69,6 +70,13 @@ class Files(Wing):
 
         sequence = self.sequence(field)
         return find_out_of_order(sequence) if sequence else None
+
+    def holes(self, field: Any) -> Holes | None:
+        """The samples of `filePath` that name nothing between others that name files."""
+        from usdvol_lint.facts.files.holes import find_holes
+
+        sequence = self.sequence(field)
+        return find_holes(sequence, self._clips.reaching(field)) if sequence else None
 
     def absence(self, path: str, authored: str) -> Absence:
         """Why nothing is at an absolute path; `authored` is the text that it comes from."""

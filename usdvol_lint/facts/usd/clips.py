@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain
@@ -34,6 +35,11 @@ class ClipSet:
     manifest: Any | None
     template: str | None
 
+    @property
+    def key(self) -> str:
+        """The key that names the clips."""
+        return "templateAssetPath" if self.template else "assetPaths"
+
     def path_in_layers(self, attribute: Any) -> Any:
         """The path in the clips of an attribute of this prim or of one below it."""
         path = attribute.GetPrim().GetPath().ReplacePrefix(self.prim.GetPath(), self.prim_path)
@@ -47,6 +53,21 @@ class ClipSet:
             if layer and layer.GetNumTimeSamplesForPath(path):
                 return layer
         return None
+
+    def clip_at(self, time: float) -> str | None:
+        """The authored path of the clip that is active at a time of the stage."""
+        api = Usd.ClipsAPI(self.prim)
+        if self.template:
+            start, stride = (
+                api.GetClipTemplateStartTime(self.name),
+                api.GetClipTemplateStride(self.name),
+            )
+            number = int(start + max(time - start, 0) // stride * stride)
+            return re.sub("#+", lambda marks: f"{number:0{len(marks[0])}}", self.template, count=1)
+        active = sorted(map(tuple, api.GetClipActive(self.name) or ()))
+        before = [index for start, index in active if start <= time]
+        clip = self.clips[int(before[-1])] if before else None
+        return (authored_path(clip) or str(clip.path)) if clip else None
 
     def spec_with(self, key: str) -> Any:
         """The strongest spec of the prim that authors a key of the clip set, or the strongest."""
@@ -65,7 +86,7 @@ class ClipSet:
         weaker layers.
         """
         stack = self.prim.GetPrimStack()
-        own = self.spec_with("templateAssetPath" if self.template else "assetPaths")
+        own = self.spec_with(self.key)
         ranks = (
             rank
             for rank, other in enumerate(stack)
