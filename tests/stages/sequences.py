@@ -6,7 +6,7 @@ import posixpath
 from collections.abc import Mapping, Sequence
 from random import Random
 
-from .files import FRAME, FRAMES, original
+from .files import FRAME, FRAMES, Source, original
 from .model import Attribute, File, Layer, Line, Prim
 from .subjects import Choice, VolumeSubject
 
@@ -59,6 +59,16 @@ def _own_frames(subject: VolumeSubject, rng: Random) -> list[File]:
     paths = [f"{stem}{separator}{number:0{digits}}.vdb" for number in numbers]
     subject.content.files.update(dict.fromkeys(paths, original(FRAME.path).read_bytes()))
     return list(map(File, paths))
+
+
+def version_of(subject: VolumeSubject, source: Source, rng: Random) -> File:
+    """One of several files that are numbered, but not by frames."""
+    stem = posixpath.join(posixpath.dirname(subject.layer.path), subject.prim.name)
+    words, step = rng.choice((("_v{:03}", 1), ("_lod.{:04}", 1), (".take{:04}", 1), (".{:04}", 64)))
+    paths = [f"{stem}{words.format(step * number)}.vdb" for number in range(1, 6)]
+    data = original(source.path).read_bytes()
+    subject.content.files.update(dict.fromkeys(paths, data))
+    return File(rng.choice(paths))
 
 
 def add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:

@@ -7,6 +7,7 @@ from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from usdvol_lint import schema
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
+    from usdvol_lint.facts.files.stillness import Packs, Still
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
 
@@ -119,6 +121,23 @@ class Files(Wing):
         from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
+
+    def still(self, field: Any, time_range: tuple[float, float] | None) -> Still | None:
+        """The file of a sequence on disk that `filePath` names at all times.
+
+        None also where it hides its own animation, which `hidden_animation` tells.
+        """
+        from usdvol_lint.facts.files.stillness import find_still
+
+        clips = self._clips.reaching(field)
+        found = find_still(self.paths(field), self._disk, self._packs, clips, time_range)
+        return None if found and self.hidden_animation(field) else found
+
+    @cached_property
+    def _packs(self) -> Packs:
+        from usdvol_lint.facts.files.stillness import Packs
+
+        return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
     def _reader(self) -> AssetReader:
