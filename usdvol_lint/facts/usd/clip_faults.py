@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd, Vt
@@ -44,15 +44,26 @@ def used_sets(prim: Any) -> dict[str, Keys]:
     """The clip sets authored on a prim, by name, without those that `clipSets` leaves out."""
     clips = Usd.ClipsAPI(prim).GetClips() or {}
     sets = {name: keys for name, keys in clips.items() if isinstance(keys, dict)}
-    # ClipsAPI.GetClipSets ends the process where the list is authored in a sublayer (26.11).
-    chosen = prim.GetMetadata("clipSets") if prim.HasAuthoredMetadata("clipSets") else None
+    # ClipsAPI.GetClipSets ends the process where the list is authored in a sublayer, and the prim's
+    # metadata lack the sets that count because nothing leaves them out (26.11).
+    chosen = [spec.GetInfo("clipSets") for spec in _stack(prim) if spec.HasInfo("clipSets")]
     return {name: sets[name] for name in sorted(sets) if _is_chosen(name, chosen)}
 
 
-def _is_chosen(name: str, chosen: Any | None) -> bool:
-    if chosen is None:
-        return True
-    return name in chosen.explicitItems if chosen.isExplicit else name not in chosen.deletedItems
+def _stack(prim: Any) -> Any:
+    return prim.GetPrimStack() if prim.HasAuthoredMetadata("clipSets") else ()
+
+
+def _is_chosen(name: str, lists: Iterable[Any]) -> bool:
+    """Whether lists of clip sets, strongest first, leave a set in."""
+    for each in lists:
+        if each.isExplicit:
+            return name in each.explicitItems
+        if name in each.deletedItems:
+            return False
+        if name in each.GetAddedOrExplicitItems():
+            return True
+    return True
 
 
 def keys_without_set(prim: Any) -> Keys:
