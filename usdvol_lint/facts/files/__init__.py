@@ -129,12 +129,19 @@ class Files(Wing):
         """
         from usdvol_lint.facts.files.stillness import find_still
 
+        sequence = self.sequence(field)
+        if sequence and sequence.is_animated:
+            return None  # nearly always
         clips = self._clips.reaching(field)
-        found = find_still(self.paths(field), self._disk, self._packs, clips, time_range)
+        found = find_still(self.paths(field), self._disk, self._find_packs, clips, time_range)
         return None if found and self.hidden_animation(field) else found
+
+    def _find_packs(self) -> Packs:
+        return self._packs
 
     @cached_property
     def _packs(self) -> Packs:
+        """The files that all fields show, which few stages need to know."""
         from usdvol_lint.facts.files.stillness import Packs
 
         return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.files.assets import Affected, AssetSample
 from usdvol_lint.facts.files.numbering import find_numbering
+from usdvol_lint.facts.files.paths import is_packaged, split_path
 from usdvol_lint.facts.files.sequences import SampleSequence
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.clips import ClipSet
@@ -120,6 +122,15 @@ def _paths(sequence: SampleSequence, hole: _Hole) -> tuple[str, ...]:
     pace = (last - first) / (end - start)
     numbers = [first + pace * ((sample.time or 0.0) - start) for sample in hole.samples]
     paths = [numbering.renumbered(hole.before.path, number) for number in numbers]
-    there = [path for path in paths if path and sequence.exists(hole.before, path)]
+    there = [path for path in paths if path and _exists(sequence, hole.before, path)]
     is_new = {hole.before.path, hole.after.path}.isdisjoint(there)
     return tuple(there) if is_new and len(there) == len(paths) else ()
+
+
+def _exists(sequence: SampleSequence, sample: AssetSample, path: str) -> bool:
+    """Whether there is a file at a path that is authored as that of a sample is."""
+    folder, name = split_path(path)
+    if folder != split_path(sample.path)[0] or is_packaged(sample.resolved):
+        return sequence.exists(sample, path)
+    # USD does not tell which clip a value comes from where a layer offset scales time (26.11).
+    return os.path.isfile(os.path.join(os.path.dirname(sample.resolved), name))

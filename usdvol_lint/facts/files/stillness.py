@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from pxr import Sdf
@@ -70,7 +70,7 @@ class Packs:
 def find_still(
     paths: AssetSamples,
     disk: Disk,
-    packs: Packs,
+    packs: Callable[[], Packs],
     clips: Sequence[ClipSet],
     time_range: tuple[float, float] | None,
 ) -> Still | None:
@@ -85,7 +85,7 @@ def find_still(
         return None
     if frames.on_disk.keys().isdisjoint((frames.name.number - 1, frames.name.number + 1)):
         return None
-    if packs.are_shown(frames, paths.attribute.GetPrim()):
+    if packs().are_shown(frames, paths.attribute.GetPrim()):
         return None
     is_certain = _fills(frames, time_range) or _is_animated_below(paths, frames, clips)
     low, high = time_range
@@ -94,7 +94,7 @@ def find_still(
 
 
 def _animated_in_name_only(
-    paths: AssetSamples, sample: AssetSample, disk: Disk, packs: Packs
+    paths: AssetSamples, sample: AssetSample, disk: Disk, packs: Callable[[], Packs]
 ) -> Still | None:
     """Several samples that all name one file, where their times are the numbers of the others."""
     frames = _frames(sample, disk, is_lost=False) or _frames(sample, disk, is_lost=True)
@@ -105,7 +105,7 @@ def _animated_in_name_only(
     if not frames.name.digits:
         is_still = are_numbers or frames.name.has_dots
     else:
-        is_still = are_numbers and not packs.are_shown(frames, paths.attribute.GetPrim())
+        is_still = are_numbers and not packs().are_shown(frames, paths.attribute.GetPrim())
     numbers = [int(time) for time in times] if are_numbers else []
     return _still(paths, sample, frames, numbers, is_certain=True) if is_still else None
 
