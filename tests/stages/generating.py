@@ -72,7 +72,7 @@ class _Making:
         needs = {"files": FILES[number], "pattern": PATTERNS[pattern]}
         placed = []
         for index in range(self.rng.choice((1, 1, 2, 3))):
-            is_volume = turn % 4 if index == 0 else self.rng.random() < 0.5
+            is_volume = turn % 5 if index == 0 else self.rng.random() < 0.5
             subject = self._subject("volume" if is_volume else "particles", index, needs)
             placed.append(self._arranged(subject, index, [first, *self._arcs(2)]))
             first, needs = self.rng.choice(ARCS), {}

@@ -6,11 +6,11 @@ import posixpath
 from collections.abc import Mapping, Sequence
 from random import Random
 
-from .files import FRAME, FRAMES, original
+from .files import FRAME, FRAMES, Source, original
 from .model import Attribute, File, Layer, Line, Prim
 from .subjects import Choice, VolumeSubject
 
-PATTERNS = ("plain", "held", "looped", "blocked", "rest frame", "every file twice")
+PATTERNS = ("plain", "held", "looped", "blocked", "blinking", "rest frame", "every file twice")
 """How a sequence of its own goes through its files."""
 
 
@@ -37,6 +37,8 @@ def _ordered(frames: list[File], pattern: str) -> Sequence[File | None]:
         return frames * 2
     if pattern == "blocked":
         return [*frames[:-1], None]
+    if pattern == "blinking":
+        return [each for frame in frames for each in (frame, None)]
     if pattern == "every file twice":
         return [frame for frame in frames for _ in range(2)]
     return frames
@@ -59,6 +61,16 @@ def _own_frames(subject: VolumeSubject, rng: Random) -> list[File]:
     return list(map(File, paths))
 
 
+def version_of(subject: VolumeSubject, source: Source, rng: Random) -> File:
+    """One of several files that are numbered, but not by frames."""
+    stem = posixpath.join(posixpath.dirname(subject.layer.path), subject.prim.name)
+    words, step = rng.choice((("_v{:03}", 1), ("_lod.{:04}", 1), (".take{:04}", 1), (".{:04}", 64)))
+    paths = [f"{stem}{words.format(step * number)}.vdb" for number in range(1, 6)]
+    data = original(source.path).read_bytes()
+    subject.content.files.update(dict.fromkeys(paths, data))
+    return File(rng.choice(paths))
+
+
 def add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
     """One value clip for every few frames, or by a template for each frame.
 
@@ -76,6 +88,7 @@ def add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
     if choice.files == "template clips" or rng.random() < 0.7:
         manifests.append(_clip(subject, f"{stem}.manifest.usda", {}))
     subject.content.layers += [*clips, *manifests]
+    left_out = _left_out() if rng.random() < 0.3 else []
     bearer = subject.root if choice.place == "beside" else subject.prim
     bearer.metadata += [
         ("clips = {",),
@@ -84,11 +97,23 @@ def add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
         *_clip_set(choice, clips, each, len(frames)),
         *(("        asset manifestAssetPath = ", File(each.path)) for each in manifests),
         ("    }",),
+        *left_out,
         ("}",),
+        *([('clipSets = ["default"]',)] if left_out else []),
     ]
     for part in subject.fields:
         part.prim.properties.pop("fieldClass", None)
         part.prim.attribute("fieldDataType").value = "float"
+
+
+def _left_out() -> list[Line]:
+    """A set that USD would not use if `clipSets` did not leave it out anyway."""
+    return [
+        ("    dictionary old = {",),
+        ('        asset[] assetPaths = ["./old.usda"]'.replace('"', "@"),),
+        ('        string primPath = "/old"',),
+        ("    }",),
+    ]
 
 
 def _clip_set(choice: Choice, clips: list[Layer], each: int, count: int) -> list[Line]:

@@ -8,10 +8,13 @@ from typing import Any
 
 from .files import FIELD3D, FRAME, SOURCES, Grid, Point, Source
 from .model import ABSENT, Attribute, Expression, File, Prim, Relationship
-from .sequences import PATTERNS, add_clips, add_sequence
+from .sequences import PATTERNS, add_clips, add_sequence, version_of
 from .subjects import Choice, FieldPart, VolumeSubject, new_layer
 
-FILES = ("static", "several", "sequence", "own sequence", "clips", "template clips", "field3d")
+FILES = (
+    *("static", "several", "versions", "sequence", "own sequence"),
+    *("clips", "template clips", "field3d"),
+)
 """Where the files come from."""
 
 PLACES = ("below", "group", "beside")
@@ -75,6 +78,8 @@ def _add_fields(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
         subject.fields.append(part)
         targets = [_forwarded(subject, part, rng)]
         subject.prim.properties[part.relationship] = Relationship(targets, rng.random() < 0.3)
+        if choice.files == "versions":
+            prim.properties["filePath"] = Attribute("asset", version_of(subject, source, rng))
         if choice.files in ("static", "several", "field3d"):
             named = rng.choice((File, File, File, Expression))(source.path)
             prim.properties["filePath"] = Attribute("asset", named)
@@ -107,7 +112,7 @@ def _forwarded(subject: VolumeSubject, part: FieldPart, rng: Random) -> str:
 def _sources(choice: Choice, rng: Random) -> Sequence[Source]:
     if choice.files == "field3d":
         return FIELD3D
-    if choice.files == "static":
+    if choice.files in ("static", "versions"):
         return [rng.choice(SOURCES)]
     return rng.sample(SOURCES, 3) if choice.files == "several" else [FRAME]
 

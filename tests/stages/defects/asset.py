@@ -6,7 +6,7 @@ import posixpath
 from random import Random
 from typing import Any
 
-from ..files import original, shared
+from ..files import FRAME, original, shared
 from ..model import Attribute, File, Prim
 from ..subjects import FieldPart
 from .declaration import A_RUN, ONE_FILE, VolumeSubject, any_field, extent_for_all, on_volume
@@ -212,3 +212,48 @@ def manifest_without_path(subject: VolumeSubject, rng: Random) -> Prim:
 @on_volume("AST015", needs={**ONE_FILE, "fields": 1}, within="package", also=("AST002",))
 def outside_package(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "../../../../elsewhere/cloud.vdb")
+
+
+@on_volume("AST018", needs=A_RUN)
+def hole(subject: VolumeSubject, rng: Random) -> Prim:
+    part = any_field(subject, rng)
+    samples = part.prim.attribute("filePath").samples
+    times = sorted(samples)
+    first = rng.randrange(1, len(times) - 3)
+    for time in times[first : first + rng.randint(1, 2)]:
+        samples[time] = rng.choice((None, ""))
+    return part.prim
+
+
+def _numbered(subject: VolumeSubject, count: int) -> list[File]:
+    """A sequence of its own, which lies on disk and of which the field may show what it likes."""
+    data = original(FRAME.path).read_bytes()
+    return [_own_file(subject, f"plume.{number:04}.vdb", data) for number in range(1, count + 1)]
+
+
+@on_volume("AST017", needs={**A_RUN, "fields": 1}, without=("package",))
+def frame_at_all_times(subject: VolumeSubject, rng: Random) -> Prim:
+    [part] = subject.fields
+    frames = _numbered(subject, 8)
+    held = rng.choice(frames)
+    value = rng.choice((Attribute("asset", held), Attribute("asset", samples={3: held})))
+    part.prim.properties["filePath"] = value
+    subject.time_range = (1, 8)
+    return part.prim
+
+
+@on_volume("AST017", needs={**A_RUN, "fields": 1}, without=("package",))
+def same_frame_in_all_samples(subject: VolumeSubject, rng: Random) -> Prim:
+    [part] = subject.fields
+    frames = _numbered(subject, 8)
+    samples = dict.fromkeys(range(1, 8), rng.choice(frames))
+    part.prim.properties["filePath"] = Attribute("asset", samples=samples)
+    return part.prim
+
+
+@on_volume("AST017", needs={**A_RUN, "fields": 1}, without=("package",))
+def number_lost(subject: VolumeSubject, rng: Random) -> Prim:
+    [part] = subject.fields
+    file = _own_file(subject, "plume..vdb", original(FRAME.path).read_bytes())
+    part.prim.properties["filePath"] = Attribute("asset", samples={1: file, 2: file})
+    return part.prim

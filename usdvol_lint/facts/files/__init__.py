@@ -19,10 +19,12 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.corrections import Absence
     from usdvol_lint.facts.files.disk import Disk
     from usdvol_lint.facts.files.gaps import Missing
+    from usdvol_lint.facts.files.holes import Holes
     from usdvol_lint.facts.files.letter_case import Recased
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
+    from usdvol_lint.facts.files.stillness import Packs, Still
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
 
@@ -73,6 +75,13 @@ class Files(Wing):
         sequence = self.sequence(field)
         return find_out_of_order(sequence) if sequence else None
 
+    def holes(self, field: Any) -> Holes | None:
+        """The samples of `filePath` that name nothing between others that name files."""
+        from usdvol_lint.facts.files.holes import find_holes
+
+        sequence = self.sequence(field)
+        return find_holes(sequence, self._clips.reaching(field)) if sequence else None
+
     def absence(self, path: str, authored: str) -> Absence:
         """Why nothing is at an absolute path; `authored` is the text that it comes from."""
         from usdvol_lint.facts.files.corrections import find_absence
@@ -122,6 +131,30 @@ class Files(Wing):
         from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
+
+    def still(self, field: Any, time_range: tuple[float, float] | None) -> Still | None:
+        """The file of a sequence on disk that `filePath` names at all times.
+
+        None also where it hides its own animation, which `hidden_animation` tells.
+        """
+        from usdvol_lint.facts.files.stillness import find_still
+
+        sequence = self.sequence(field)
+        if sequence and sequence.is_animated:
+            return None  # nearly always
+        clips = self._clips.reaching(field)
+        found = find_still(self.paths(field), self._disk, self._find_packs, clips, time_range)
+        return None if found and self.hidden_animation(field) else found
+
+    def _find_packs(self) -> Packs:
+        return self._packs
+
+    @cached_property
+    def _packs(self) -> Packs:
+        """The files that all fields show, which few stages need to know."""
+        from usdvol_lint.facts.files.stillness import Packs
+
+        return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
     def _missing_folders(self) -> dict[Any, str]:

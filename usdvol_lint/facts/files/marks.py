@@ -12,6 +12,7 @@ from usdvol_lint.facts.files.states import AssetState, PathMark
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.schema import FILE_EXTENSIONS
 
+_NUMBERED = re.compile(r"[0-9]{3}\.[A-Za-z]\w*$")
 _UNPLAIN = re.compile(r"(?s)/|.*[\\:~\s]")
 
 
@@ -50,6 +51,8 @@ class PathMarks:
         extension = next(extensions, "")
         if any(not sample.path.endswith(extension) for sample in paths.samples):
             found.add(PathMark.FOREIGN)
+        if len(paths.samples) == 1 and _NUMBERED.search(paths.samples[0].path):
+            found.add(PathMark.NUMBERED)
         if any(map(_UNPLAIN.match, (sample.path for sample in paths.samples))):
             found.add(PathMark.UNPLAIN)
         if self._has_packages:

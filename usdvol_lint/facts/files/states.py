@@ -45,6 +45,8 @@ class PathMark(Enum):
     """Every value is empty or blocked, or there is none."""
     SEVERAL = auto()
     """There is more than one value."""
+    NUMBERED = auto()
+    """A file name ends in a number of three digits or more."""
     UNPLAIN = auto()
     """A path is absolute, or has blanks, backslashes, a colon or a tilde in it."""
     FOREIGN = auto()

@@ -13,6 +13,8 @@ from usdvol_lint.facts.found import Wing
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
     from usdvol_lint.facts.layers.instancing import LostOverrides
+    from usdvol_lint.facts.layers.left_behind import LeftBehind
+    from usdvol_lint.facts.layers.lost_clips import LostClips
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.retyping import Retyped
     from usdvol_lint.facts.layers.units import UnlikeStage
@@ -73,7 +75,32 @@ class Layers(Wing):
 
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
-        return self._composition.may_lack_values(prim)
+        return self._composition.may_lack_values(prim) or prim in self._losing
+
+    @cached_property
+    def lost_clips(self) -> tuple[LostClips, ...]:
+        """The value clips that USD does not use, though they hold values for prims of ours.
+
+        Those are left out that a layer which failed to open may set right.
+        """
+        from usdvol_lint.facts.layers.lost_clips import find_lost_clips
+
+        lost = find_lost_clips(self.tables, self._clips)
+        return tuple(each for each in lost if not self._composition.may_lack_values(each.prim))
+
+    @cached_property
+    def clips_left_behind(self) -> tuple[LeftBehind, ...]:
+        """The value clips of other layers that an arc leaves behind."""
+        from usdvol_lint.facts.layers.left_behind import find_left_behind
+
+        left = find_left_behind(self._stage, self.tables, self._clips)
+        return tuple(each for each in left if not self._composition.may_lack_values(each.prim))
+
+    @cached_property
+    def _losing(self) -> frozenset[Any]:
+        lost = [attribute for each in self.lost_clips for attribute in each.attributes]
+        left = [attribute for each in self.clips_left_behind for attribute in each.attributes]
+        return frozenset(attribute.GetPrim() for attribute in (*lost, *left))
 
     @property
     def retyped(self) -> tuple[Retyped, ...]:

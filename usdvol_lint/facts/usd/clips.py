@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 from pxr import Sdf, Tf, Usd
 
 from usdvol_lint.facts.usd.batches import PrimBatch
+from usdvol_lint.facts.usd.clip_faults import Keys, find_fault, used_sets
 from usdvol_lint.facts.usd.diagnostics import commentary
 
 _CLIPS_OPENED = 4
@@ -33,6 +35,11 @@ class ClipSet:
     manifest: Any | None
     template: str | None
 
+    @property
+    def key(self) -> str:
+        """The key that names the clips."""
+        return "templateAssetPath" if self.template else "assetPaths"
+
     def path_in_layers(self, attribute: Any) -> Any:
         """The path in the clips of an attribute of this prim or of one below it."""
         path = attribute.GetPrim().GetPath().ReplacePrefix(self.prim.GetPath(), self.prim_path)
@@ -46,6 +53,21 @@ class ClipSet:
             if layer and layer.GetNumTimeSamplesForPath(path):
                 return layer
         return None
+
+    def clip_at(self, time: float) -> str | None:
+        """The authored path of the clip that is active at a time of the stage."""
+        api = Usd.ClipsAPI(self.prim)
+        if self.template:
+            start, stride = (
+                api.GetClipTemplateStartTime(self.name),
+                api.GetClipTemplateStride(self.name),
+            )
+            number = int(start + max(time - start, 0) // stride * stride)
+            return re.sub("#+", lambda marks: f"{number:0{len(marks[0])}}", self.template, count=1)
+        active = sorted(map(tuple, api.GetClipActive(self.name) or ()))
+        before = [index for start, index in active if start <= time]
+        clip = self.clips[int(before[-1])] if before else None
+        return (authored_path(clip) or str(clip.path)) if clip else None
 
     def spec_with(self, key: str) -> Any:
         """The strongest spec of the prim that authors a key of the clip set, or the strongest."""
@@ -64,7 +86,7 @@ class ClipSet:
         weaker layers.
         """
         stack = self.prim.GetPrimStack()
-        own = self.spec_with("templateAssetPath" if self.template else "assetPaths")
+        own = self.spec_with(self.key)
         ranks = (
             rank
             for rank, other in enumerate(stack)
@@ -87,20 +109,26 @@ def authored_path(asset: Any) -> str:
 
 
 def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
-    """The clip sets authored on this prim, by name; one without a valid `primPath` is ignored."""
-    names = sorted(Usd.ClipsAPI(prim).GetClips() or ())
-    return tuple(filter(None, (_read_clip_set(prim, name) for name in names)))
+    """The clip sets authored on this prim, by name.
+
+    Those that `clipSets` leaves out are ignored, and those that can bring nothing: without a valid
+    `primPath`, or with a template that USD refuses.
+    """
+    sets = used_sets(prim)
+    return tuple(filter(None, (_read_clip_set(prim, name, sets[name]) for name in sets)))
 
 
-def _read_clip_set(prim: Any, name: str) -> ClipSet | None:
+def _read_clip_set(prim: Any, name: str, keys: Keys) -> ClipSet | None:
     api = Usd.ClipsAPI(prim)
     prim_path = api.GetClipPrimPath(name)
     if not prim_path or not Sdf.Path.IsValidPathString(prim_path):
         return None
+    if "assetPaths" not in keys and find_fault(keys):
+        return None
     manifest = api.GetClipManifestAssetPath(name)
     if manifest is not None and not manifest.path:
         manifest = None
-    template = None if api.GetClipAssetPaths(name) else api.GetClipTemplateAssetPath(name)
+    template = None if "assetPaths" in keys else api.GetClipTemplateAssetPath(name)
     return ClipSet(prim, name, prim_path, _clip_paths(api, name), manifest, template or None)
 
 
@@ -138,6 +166,11 @@ class Clips:
         self._prims = frozenset(prims)
         self._own: dict[Any, tuple[ClipSet, ...]] = {}
 
+    @property
+    def are_authored(self) -> bool:
+        """Whether any of the prims has clip sets."""
+        return bool(self._prims)
+
     def reach(self, batch: PrimBatch) -> list[bool]:
         """Whether clip sets apply to each prim of a batch."""
         if not self._prims:
@@ -146,12 +179,14 @@ class Clips:
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets that apply to a prim: its own, then those of each ancestor upwards."""
-        clip_sets: tuple[ClipSet, ...] = ()
+        return tuple(chain.from_iterable(map(self._on, self.bearers(prim))))
+
+    def bearers(self, prim: Any) -> Iterator[Any]:
+        """The prim and its ancestors, those of them on which clip sets are authored."""
         while self._prims and not prim.IsPseudoRoot():
             if prim in self._prims:
-                clip_sets += self._on(prim)
+                yield prim
             prim = prim.GetParent()
-        return clip_sets
 
     def _on(self, prim: Any) -> tuple[ClipSet, ...]:
         if prim not in self._own:

@@ -1,0 +1,41 @@
+"""AST016: value clips that hold what a volume or particle field needs must arrive there."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, quoted, rule
+
+
+@rule("AST016", on=STAGE, severity=ERROR, since="0.1")
+def clips_unused(root: Prim, facts: Facts) -> Problems:
+    for lost in facts.layers.lost_clips:
+        bearer, them = (f"the clip set {quoted(lost.name)}", "it") if lost.name else ("clips", "them")
+        yield Problem(
+            f"{bearer} {lost.fault.what}: USD does not use {them}, and {effect(lost)}",
+            at=lost.prim,
+            spec=lost.spec,
+            suggestion=lost.advice,
+            severity=None if lost.without_value else WARNING,
+        )
+    for left in facts.layers.clips_left_behind:
+        clips = f"the value clips of <{left.path}> in {quoted(left.layer.GetDisplayName())}"
+        what = f"{clips} do not reach what is below the instance that carries them"
+        advice = "author them on a prim above it, or remove instanceable"
+        if not left.by_instance:
+            what = f"an arc to a prim below leaves behind {clips}"
+            advice = f"bring in <{left.path}>, or author its clips here too"
+        yield Problem(
+            f"{what}: {effect(left)}",
+            at=left.prim,
+            spec=left.spec,
+            suggestion=advice,
+            severity=None if left.without_value else WARNING,
+        )
+
+
+def effect(lost: Any) -> str:
+    """What the attributes lack."""
+    missed: Sequence[Any] = lost.without_value or lost.attributes
+    names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
+    has = "has" if len(missed) == 1 else "have"
+    return f"{names} {has} {'no value' if lost.without_value else 'only a default, the same at all times'}"

@@ -1,0 +1,57 @@
+"""File names that end in a frame number, and the files on disk that differ in it alone."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import NamedTuple
+
+_NUMBERED = re.compile(r"(?s)(.*(?<![0-9]))([0-9]{3,7})(\.[A-Za-z]\w*)")
+_NUMBER_LOST = re.compile(r"(?s)(.*[._-])()(\.[A-Za-z]\w*)")
+_WORD = re.compile(r"([A-Z]?[a-z]+|[A-Z]+)[^A-Za-z0-9]*$")
+_NO_FRAMES = re.compile(
+    r"v|vers?|version|r|rev|revision|release|lod|level|lvl|mip|x|res|resolution|take|wedge|seed"
+    r"|iter|iteration|var|variant|variation|alt|option|tile|udim|part|piece|chunk|cluster|id|idx"
+    r"|index|type|kind|asset|shot|cam",
+    re.IGNORECASE,
+)
+"""Words before a number that is no frame's."""
+
+
+class FrameName(NamedTuple):
+    """A file name around its frame number; `digits` is "" where the number got lost."""
+
+    before: str
+    digits: str
+    after: str
+
+    @property
+    def number(self) -> int:
+        return int(self.digits)
+
+    @property
+    def has_dots(self) -> bool:
+        """Whether the number stands, or should stand, between dots."""
+        return self.before.endswith(".")
+
+    def among(self, names: Iterable[str]) -> dict[int, str]:
+        """The names that differ from this one in the number alone, by their numbers."""
+        width = len(self.digits)
+        number = rf"[0-9]{{{width}}}|[1-9][0-9]{{{width},}}" if width else "[0-9]+"
+        alike = re.compile(f"{re.escape(self.before)}({number}){re.escape(self.after)}").fullmatch
+        return {int(found[1]): found[0] for found in map(alike, names) if found}
+
+
+def read_frame_name(name: str) -> FrameName | None:
+    """A name that ends in a number of three digits or more, unless a word says it is no frame."""
+    found = _NUMBERED.fullmatch(name)
+    if found is None:
+        return None
+    word = _WORD.search(found[1])
+    return None if word and _NO_FRAMES.fullmatch(word[1]) else FrameName(*found.groups())
+
+
+def read_lost_number(name: str) -> FrameName | None:
+    """A name that ends in what stands before a number, as `smoke..vdb` does."""
+    found = _NUMBER_LOST.fullmatch(name)
+    return FrameName(*found.groups()) if found else None

@@ -1,0 +1,240 @@
+"""Fields that show one frame of a sequence on disk at all times."""
+
+from __future__ import annotations
+
+import os
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from pxr import Sdf
+
+from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
+from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.frame_names import FrameName, read_frame_name, read_lost_number
+from usdvol_lint.facts.files.paths import is_packaged, split_path
+from usdvol_lint.facts.files.states import AssetState
+from usdvol_lint.facts.usd.clips import ClipSet
+from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
+from usdvol_lint.model import format_time
+
+_FEWEST = 5
+"""A range of fewer frames than these proves nothing, however well the files fit."""
+_SHOWN = 5
+
+Family = tuple[str, str, str]
+"""What files have in common that differ in their frame numbers alone: folder, name around it."""
+
+
+class Still(NamedTuple):
+    """A file that a field shows at all times, though it is one of a sequence.
+
+    `is_sampled`: whether several time samples name it; `is_lost`: whether its name lacks the frame
+    number; `is_certain`: whether the sequence leaves no doubt.
+    `numbers`: those of the files on disk; `advice`: the samples to author instead.
+    """
+
+    affected: Affected
+    numbers: tuple[float, ...]
+    is_sampled: bool
+    is_lost: bool
+    is_certain: bool
+    advice: str
+
+
+class _Frames(NamedTuple):
+    """The name of a file, and what is on disk of its sequence, by number."""
+
+    name: FrameName
+    family: Family
+    on_disk: Mapping[int, str]
+
+
+class Packs:
+    """Which files of one family several fields show, each its own: they are no frames."""
+
+    def __init__(self, every: Iterable[AssetSamples]) -> None:
+        self._shown: dict[Family, set[int]] = defaultdict(set)
+        for paths in every:
+            sample = _only_file(paths)
+            if sample and (found := _family(sample.resolved)):
+                self._shown[found[1]].add(found[0].number)
+
+    def are_shown(self, frames: _Frames, field: Any) -> bool:
+        """Whether other fields, or other variants above this one, name other files of a family."""
+        others = self._shown[frames.family] | set(_in_variants(field, frames.family))
+        return bool(others - {frames.name.number})
+
+
+def find_still(
+    paths: AssetSamples,
+    disk: Disk,
+    packs: Callable[[], Packs],
+    clips: Sequence[ClipSet],
+    time_range: tuple[float, float] | None,
+) -> Still | None:
+    """The file of a sequence that is shown at all times, or None if there is none."""
+    sample = _only_file(paths)
+    if sample is None or is_packaged(sample.resolved):
+        return None
+    if len(_timed(paths)) > 1:
+        return _animated_in_name_only(paths, sample, disk, packs)
+    frames = _frames(sample, disk, is_lost=False)
+    if frames is None or time_range is None or not time_range[0] < time_range[1]:
+        return None
+    if frames.on_disk.keys().isdisjoint((frames.name.number - 1, frames.name.number + 1)):
+        return None
+    if packs().are_shown(frames, paths.attribute.GetPrim()):
+        return None
+    is_certain = _fills(frames, time_range) or _is_animated_below(paths, frames, clips)
+    low, high = time_range
+    numbers = [number for number in sorted(frames.on_disk) if low <= number <= high]
+    return _still(paths, sample, frames, numbers, is_certain=is_certain)
+
+
+def _animated_in_name_only(
+    paths: AssetSamples, sample: AssetSample, disk: Disk, packs: Callable[[], Packs]
+) -> Still | None:
+    """Several samples that all name one file, where their times are the numbers of the others."""
+    frames = _frames(sample, disk, is_lost=False) or _frames(sample, disk, is_lost=True)
+    if frames is None:
+        return None
+    times = _times(paths)
+    are_numbers = all(time in frames.on_disk for time in times)
+    if not frames.name.digits:
+        is_still = are_numbers or frames.name.has_dots
+    else:
+        is_still = are_numbers and not packs().are_shown(frames, paths.attribute.GetPrim())
+    numbers = [int(time) for time in times] if are_numbers else []
+    return _still(paths, sample, frames, numbers, is_certain=True) if is_still else None
+
+
+def _still(
+    paths: AssetSamples,
+    sample: AssetSample,
+    frames: _Frames,
+    numbers: Sequence[int],
+    *,
+    is_certain: bool,
+) -> Still | None:
+    timed = _timed(paths)
+    affected = paths.affected(timed or (sample,))
+    if affected is None:
+        return None
+    return Still(
+        affected,
+        tuple(map(float, sorted(frames.on_disk))),
+        len(timed) > 1,
+        not frames.name.digits,
+        is_certain,
+        _advice(paths, sample, frames, numbers),
+    )
+
+
+def _timed(paths: AssetSamples) -> tuple[AssetSample, ...]:
+    return tuple(sample for sample in paths.samples if sample.time is not None)
+
+
+def _only_file(paths: AssetSamples) -> AssetSample | None:
+    """The one file that all time samples name, or the default where there are none."""
+    timed = _timed(paths) or paths.samples
+    if not timed or timed[0].state is not AssetState.FILE:
+        return None
+    return timed[0] if all(sample.path == timed[0].path for sample in timed) else None
+
+
+def _family(resolved: str) -> tuple[FrameName, Family] | None:
+    folder, name = split_path(resolved)
+    frame = read_frame_name(name)
+    return (frame, (folder, frame.before, frame.after)) if frame else None
+
+
+def _frames(sample: AssetSample, disk: Disk, *, is_lost: bool) -> _Frames | None:
+    folder, name = split_path(sample.resolved)
+    frame = read_lost_number(name) if is_lost else read_frame_name(name)
+    if frame is None:
+        return None
+    family = (folder, frame.before, frame.after)
+    return _Frames(frame, family, frame.among(disk.listing(folder)))
+
+
+def _times(paths: AssetSamples) -> list[float]:
+    """The times of the samples in their layer; a clip's are those of the stage."""
+    times = [sample.time or 0.0 for sample in _timed(paths)]
+    opinion = strongest_opinion(paths.attribute, times[0])
+    if opinion is None or is_from_clips(paths.attribute, times[0]):
+        return times
+    inverse = opinion.offset.GetInverse()
+    return [round(inverse * time, 6) for time in times]
+
+
+def _fills(frames: _Frames, time_range: tuple[float, float]) -> bool:
+    """Whether the numbers run without a gap over all of a range that is long enough."""
+    start, end = map(round, time_range)
+    is_plain = len(frames.name.digits) >= 4 or frames.name.has_dots
+    is_long = end - start + 1 >= _FEWEST
+    return is_plain and is_long and all(n in frames.on_disk for n in range(start, end + 1))
+
+
+def _is_animated_below(paths: AssetSamples, frames: _Frames, clips: Sequence[ClipSet]) -> bool:
+    """Whether weaker time samples or clips name two or more files of the sequence."""
+    named: set[int] = set()
+    for spec in paths.attribute.GetPropertyStack():
+        for time in spec.layer.ListTimeSamplesForPath(spec.path):
+            named |= _numbers(spec, spec.layer.QueryTimeSample(spec.path, time), frames.family)
+    in_clips = (len(each.clips) > 1 and each.layer_with_samples(paths.attribute) for each in clips)
+    return len(named) > 1 or any(in_clips)
+
+
+def _in_variants(field: Any, family: Family) -> Iterator[int]:
+    """The numbers of the files of a family that variants of the field, or above it, name."""
+    prim = field.GetStage().GetPrimAtPath(shown(field).path)
+    while prim and not prim.IsPseudoRoot():
+        for spec in prim.GetPrimStack() if prim.HasVariantSets() else ():
+            for variant_set in spec.variantSets.values():
+                for variant in variant_set.variants.values():
+                    yield from _in_spec(variant.primSpec, family)
+        prim = prim.GetParent()
+
+
+def _in_spec(prim_spec: Any, family: Family) -> Iterator[int]:
+    found: list[Any] = []
+
+    def visit(path: Any) -> None:
+        if path.IsPropertyPath() and path.name == "filePath":
+            found.append(prim_spec.layer.GetAttributeAtPath(path))
+
+    prim_spec.layer.Traverse(prim_spec.path, visit)
+    for spec in filter(None, found):
+        yield from _numbers(spec, spec.default, family)
+
+
+def _numbers(spec: Any, value: Any, family: Family) -> set[int]:
+    """The number of the file that a value in a layer names, if it is of the family."""
+    if not isinstance(value, Sdf.AssetPath) or not value.path:
+        return set()
+    found = _family(spec.layer.ComputeAbsolutePath(value.path).replace(os.sep, "/"))
+    return {found[0].number} if found and found[1] == family else set()
+
+
+def _advice(
+    paths: AssetSamples, sample: AssetSample, frames: _Frames, numbers: Sequence[int]
+) -> str:
+    """The time samples to author, in the time of the layer."""
+    opinion = strongest_opinion(paths.attribute, sample.time)
+    if len(numbers) < 2 or opinion is None or sample.authored != sample.path:
+        return "author a time sample for each frame"
+    if is_from_clips(paths.attribute, sample.time):
+        return "name in each clip the file of its frame"
+    stem = sample.path.removesuffix(split_path(sample.resolved)[1])
+    inverse = opinion.offset.GetInverse()
+    # Samples that are there already stay at their times.
+    times = [float(n) if len(_timed(paths)) > 1 else inverse * n for n in numbers]
+    names = map(frames.on_disk.__getitem__, numbers)
+    pairs = [
+        f"{format_time(time)}: @{stem}{name}@" for time, name in zip(times, names, strict=True)
+    ]
+    if len(pairs) > _SHOWN:
+        pairs[_SHOWN - 1 : -1] = ["…"]
+    return f"author filePath.timeSamples = {{ {', '.join(pairs)} }}"

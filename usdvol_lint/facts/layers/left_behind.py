@@ -1,0 +1,198 @@
+"""Value clips that an arc leaves behind: its target lies below the prim that carries them."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from pxr import Sdf, Usd
+
+from usdvol_lint import schema
+from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.clips import Clips
+from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.opinions import strongest_opinion
+
+_ARCS = ("references", "payload", "inheritPaths", "specializes")
+
+
+@dataclass(frozen=True, slots=True)
+class LeftBehind:
+    """The clips of a prim in `layer` at `path`, which do not reach `attributes`, at least one.
+
+    `prim` is that with the arc, or the instance that carries the clips itself; `spec` is the one to
+    blame.
+    """
+
+    prim: Any
+    spec: Any
+    layer: Any
+    path: Any
+    attributes: tuple[Any, ...]
+    by_instance: bool
+
+    @property
+    def without_value(self) -> tuple[Any, ...]:
+        """Those of the attributes that have no value at all."""
+        return tuple(attribute for attribute in self.attributes if attribute.Get() is None)
+
+
+class _Carrier(NamedTuple):
+    """A prim in a layer that carries clips."""
+
+    layer: Any
+    path: Any
+
+
+def find_left_behind(stage: Any, tables: Tables, clips: Clips) -> Iterator[LeftBehind]:
+    """The clips of other layers that do not come along with what is below them."""
+    if not clips.are_authored and set(stage.GetUsedLayers()) <= set(stage.GetLayerStack()):
+        return  # as on most stages: whatever carries clips is on the stage
+    carriers = _Carriers(stage)
+    found: dict[tuple[Any, Any, bool, _Carrier], list[Any]] = defaultdict(list)
+    for table in tables.of(*schema.OURS):
+        for prim, stack in zip(table.prims, table.batch.stacks, strict=True):
+            for spec in stack:
+                carrier = carriers.above(spec.layer, spec.path)
+                if carrier and not _arrives(carrier, clips.bearers(prim)):
+                    attributes = carriers.lost(carrier, prim, spec)
+                    if attributes:
+                        found[(*_blamed(prim, spec, carrier), carrier)] += attributes
+    for (prim, spec, by_instance, carrier), lost in found.items():
+        yield LeftBehind(prim, spec, *carrier, tuple(dict.fromkeys(lost)), by_instance)
+
+
+class _Carriers:
+    """Finds the prims that carry clips in the layers of a stage, and what these hold."""
+
+    def __init__(self, stage: Any) -> None:
+        self._known: dict[tuple[Any, Any], _Carrier | None] = {}
+        self._stages: dict[_Carrier, Any] = {}
+        self._users = _users(stage.GetUsedLayers())
+
+    def above(self, layer: Any, path: Any) -> _Carrier | None:
+        """The nearest prim above with clips, in the layer or one that it is a sublayer of."""
+        parent = path.GetParentPath()
+        key = (layer, parent)
+        if key not in self._known:
+            self._known[key] = self._find(layer, parent)
+        return self._known[key]
+
+    def _find(self, layer: Any, path: Any) -> _Carrier | None:
+        if path.isEmpty or path == Sdf.Path.absoluteRootPath:
+            return None
+        for user in (layer, *self._users.get(layer, ())):
+            spec = user.GetPrimAtPath(path)
+            if spec and spec.HasInfo("clips"):
+                return _Carrier(user, path)
+        return self.above(layer, path)
+
+    def lost(self, carrier: _Carrier, prim: Any, spec: Any) -> list[Any]:
+        """The attributes of a prim that the clips hold, without samples or a stronger value."""
+        root = _root_behind(prim, spec, carrier)
+        if root is None:
+            return []
+        key = _Carrier(root, carrier.path.StripAllVariantSelections())
+        if key not in self._stages:
+            self._stages[key] = Usd.Stage.OpenMasked(root, Usd.StagePopulationMask([key.path]))
+        source = self._stages[key].GetPrimAtPath(spec.path.StripAllVariantSelections())
+        return [
+            prim.GetAttribute(attribute.GetName())
+            for attribute in (source.GetAttributes() if source else ())
+            if _is_from_clips(attribute)
+            and prim.HasAttribute(attribute.GetName())
+            and _is_without_own(prim.GetAttribute(attribute.GetName()), prim, spec)
+        ]
+
+
+def _users(layers: Iterable[Any]) -> dict[Any, list[Any]]:
+    """The layers of which each is a sublayer, however deep."""
+    direct: dict[Any, list[Any]] = defaultdict(list)
+    for layer in layers:
+        for path in layer.subLayerPaths:
+            sublayer = Sdf.Layer.FindRelativeToLayer(layer, path)
+            if sublayer:
+                direct[sublayer].append(layer)
+    every = {}
+    for layer, first in direct.items():
+        users = list(first)
+        for user in users:  # grows while it is read
+            users += [above for above in direct.get(user, []) if above not in users]
+        every[layer] = users
+    return every
+
+
+def _root_behind(prim: Any, spec: Any, carrier: _Carrier) -> Any | None:
+    """The root layer of those that a spec and a carrier are composed of; None if they differ."""
+    on_stage = prim.GetStage().GetPrimAtPath(shown(prim).path)
+    waiting = [on_stage.GetPrimIndex().rootNode]
+    while waiting:
+        node = waiting.pop()
+        waiting += node.children
+        layers = node.layerStack.layers
+        if node.path == spec.path and spec.layer in layers and carrier.layer in layers:
+            return node.layerStack.identifier.rootLayer
+    return None
+
+
+def _is_from_clips(attribute: Any) -> bool:
+    times = attribute.GetTimeSamples()
+    if not times:
+        return False
+    source = attribute.GetResolveInfo(times[0]).GetSource()
+    return bool(source == Usd.ResolveInfoSourceValueClips)
+
+
+def _is_without_own(attribute: Any, prim: Any, spec: Any) -> bool:
+    """Whether an attribute has no samples, and no value stronger than the spec behind the arc."""
+    if attribute.GetNumTimeSamples():
+        return False
+    opinion = strongest_opinion(attribute, None)
+    if opinion is None:
+        return True
+    stack = prim.GetPrimStack()
+    owner = opinion.spec.path.GetPrimOrPrimVariantSelectionPath()
+    ranks = (
+        rank
+        for rank, each in enumerate(stack)
+        if each.layer == opinion.spec.layer and each.path == owner
+    )
+    return bool(next(ranks, 0) >= stack.index(spec))
+
+
+def _arrives(carrier: _Carrier, bearers: Iterable[Any]) -> bool:
+    """Whether the clips are also on a prim of the stage that reaches what is below."""
+    return any(_composes(bearer, carrier) for bearer in bearers)
+
+
+def _composes(prim: Any, carrier: _Carrier) -> bool:
+    return any(
+        spec.layer == carrier.layer and spec.path == carrier.path for spec in prim.GetPrimStack()
+    )
+
+
+def _blamed(prim: Any, spec: Any, carrier: _Carrier) -> tuple[Any, Any, bool]:
+    """The prim with the arc, the spec of that, and whether it is an instance with the clips."""
+    path = spec.path
+    while path.GetParentPath() and not prim.GetParent().IsPseudoRoot():
+        path = path.GetParentPath()
+        parent = prim.GetParent()
+        # A prototype has no specs; those of its instances are alike.
+        parent = min(parent.GetInstances(), key=_path) if parent.IsPrototype() else parent
+        if not _composes(parent, _Carrier(spec.layer, path)):
+            break
+        if parent.IsInstance():
+            return parent, _with_arc(parent), _composes(parent, carrier)
+        prim = parent
+    return prim, _with_arc(prim), False
+
+
+def _path(prim: Any) -> Any:
+    return prim.GetPath()
+
+
+def _with_arc(prim: Any) -> Any:
+    stack = prim.GetPrimStack()
+    return next((spec for spec in stack if any(map(spec.HasInfo, _ARCS))), stack[0])

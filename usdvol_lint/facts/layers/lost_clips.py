@@ -1,0 +1,259 @@
+"""Value clips that USD does not use, and the attributes of ours that lack what they hold."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any, NamedTuple
+
+from pxr import Sdf
+
+from usdvol_lint import schema
+from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.clip_faults import (
+    ClipFault,
+    Keys,
+    find_fault,
+    keys_without_set,
+    used_sets,
+)
+from usdvol_lint.facts.usd.clips import Clips, open_layer
+from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.model import format_time, quoted
+
+_OPENED = 4
+"""How many clips of a set are searched, since opening all may take long."""
+_FILE_PATH = "filePath"
+
+
+@dataclass(frozen=True, slots=True)
+class LostClips:
+    """A clip set on `prim` that USD does not use; `name` is "" where clips stand outside of one.
+
+    `attributes` are those, at least one, that lack the values of the clips; `spec` is the prim spec
+    to blame, and `advice` what to do.
+    """
+
+    prim: Any
+    name: str
+    fault: ClipFault
+    attributes: tuple[Any, ...]
+    spec: Any
+    advice: str | None
+
+    @property
+    def without_value(self) -> tuple[Any, ...]:
+        """Those of the attributes that have no value at all."""
+        return tuple(attribute for attribute in self.attributes if attribute.Get() is None)
+
+
+class _Clips(NamedTuple):
+    """A clip set that is not used: `layers` are its first clips, as far as they open."""
+
+    prim: Any
+    name: str
+    keys: Keys
+    spec: Any
+    fault: ClipFault
+    layers: Sequence[Any]
+    manifest: Any | None
+
+
+def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
+    """The clip sets above or on prims of ours that USD does not use."""
+    prims = [prim for table in tables.of(*schema.OURS) for prim in table.prims]
+    below: dict[Any, list[Any]] = {}
+    for prim in prims:
+        for bearer in clips.bearers(prim):
+            below.setdefault(bearer, []).append(prim)
+    for bearer, ours in below.items():
+        for unused in _unused(bearer):
+            attributes = tuple(
+                attribute
+                for prim in ours
+                for attribute in _without_samples(tables, prim)
+                if _is_lost(unused, attribute)
+            )
+            if attributes:
+                yield LostClips(
+                    bearer,
+                    unused.name,
+                    unused.fault,
+                    attributes,
+                    unused.spec,
+                    _advice(unused, attributes[0]),
+                )
+
+
+def _without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
+    """The attributes of ours that may be animated, and are not."""
+    table, _ = tables.find(prim)
+    for name in schema.attributes_of(table.authored.schemas):
+        attribute = prim.GetAttribute(name)
+        if attribute and not attribute.GetNumTimeSamples():
+            yield attribute
+
+
+def _unused(prim: Any) -> Iterator[_Clips]:
+    """The clip sets on a prim that USD does not use."""
+    if _is_undecided(prim):
+        return
+    loose = keys_without_set(prim)
+    if loose:
+        what = f"hold {', '.join(sorted(loose))} outside of the dictionary of a clip set"
+        advice = "put them into one, as in clips = { dictionary default = { … } }"
+        yield _read(prim, "", loose, ClipFault("clips", what, advice))
+    for name, keys in used_sets(prim).items():
+        fault = find_fault(keys)
+        unused = _read(prim, name, keys, fault or ClipFault("primPath", "", None))
+        if fault:
+            yield unused
+        elif unused.layers and not any(_has_prim(layer, keys) for layer in unused.layers):
+            what = f"has the primPath {quoted(keys['primPath'])}, which no clip has"
+            yield unused._replace(fault=ClipFault("primPath", what, None))
+
+
+def _has_prim(layer: Any, keys: Keys) -> bool:
+    return bool(layer.GetPrimAtPath(keys["primPath"]))
+
+
+def _is_undecided(prim: Any) -> bool:
+    """Whether a variant set of the prim, or of one above it, has no selection."""
+    while not prim.IsPseudoRoot():
+        sets = prim.GetVariantSets()
+        if any(not sets.GetVariantSelection(name) for name in sets.GetNames()):
+            return True
+        prim = prim.GetParent()
+    return False
+
+
+def _read(prim: Any, name: str, keys: Keys, fault: ClipFault) -> _Clips:
+    spec = _author(prim, name, fault.key)
+    assets = keys.get("assetPaths")
+    clips = (
+        assets if isinstance(assets, Sdf.AssetPathArray) else _named_by_template(prim, name, keys)
+    )
+    opened = (open_layer(_resolved(prim, name, clip)) for clip in islice(clips, _OPENED))
+    manifest = keys.get("manifestAssetPath")
+    return _Clips(
+        prim,
+        name,
+        keys,
+        spec,
+        fault,
+        list(filter(None, opened)),
+        open_layer(manifest) if isinstance(manifest, Sdf.AssetPath) else None,
+    )
+
+
+def _author(prim: Any, name: str, key: str) -> Any:
+    """The strongest spec that authors a key of the clip set, or any of the set, or that of all."""
+    stack = [spec for spec in prim.GetPrimStack() if spec.HasInfo("clips")]
+    with_set = [spec for spec in stack if name in spec.GetInfo("clips")] or stack
+    authors = (spec for spec in with_set if name and key in spec.GetInfo("clips").get(name, {}))
+    return next(authors, with_set[0])
+
+
+def _resolved(prim: Any, name: str, asset: Any) -> Any:
+    """The asset path with what it resolves to, which USD finds only in sets that it can use."""
+    if asset.resolvedPath or not asset.path:
+        return asset
+    layer = _author(prim, name, "assetPaths").layer
+    return Sdf.AssetPath(asset.path, layer.ComputeAbsolutePath(asset.path))
+
+
+def _named_by_template(prim: Any, name: str, keys: Keys) -> Iterator[Any]:
+    """The files that a template stands for, as far as they exist."""
+    template = keys.get("templateAssetPath")
+    if not isinstance(template, str):
+        return
+    path = _author(prim, name, "templateAssetPath").layer.ComputeAbsolutePath(template)
+    folder, _, pattern = path.rpartition("/")
+    matches = re.compile(re.sub(r"(?:\\#)+", "[0-9]+", re.escape(pattern))).fullmatch
+    names = sorted(os.listdir(folder)) if "#" in pattern and os.path.isdir(folder) else []
+    yield from (Sdf.AssetPath(name, f"{folder}/{name}") for name in names if matches(name))
+
+
+def _is_lost(unused: _Clips, attribute: Any) -> bool:
+    """Whether the clips hold values that the attribute would have if USD used them."""
+    if unused.fault.is_block and attribute.Get() is not None:
+        return False
+    if _is_outranked(unused, attribute):
+        return False
+    if not unused.layers and not unused.manifest:
+        # Nothing says what the clips would hold.
+        return "assetPaths" not in unused.keys and attribute.GetName() == _FILE_PATH
+    return any(_holders(unused, attribute))
+
+
+def _holders(unused: _Clips, attribute: Any) -> Iterator[str]:
+    """The prim paths at which clips, or the manifest, hold the attribute."""
+    suffix = str(attribute.GetPath())[len(str(unused.prim.GetPath())) :]
+    layers = [*unused.layers, *filter(None, (unused.manifest,))]
+    if unused.fault.key != "primPath":
+        prim_path = str(unused.keys.get("primPath", ""))
+        at = f"{prim_path}{suffix}"
+        yield from (prim_path for layer in layers if prim_path and layer.GetAttributeAtPath(at))
+        return
+    for layer in layers:
+        yield from (
+            path.removesuffix(suffix)
+            for path in _attribute_paths(layer, attribute.GetName())
+            if path.endswith(suffix)
+        )
+
+
+def _attribute_paths(layer: Any, name: str) -> list[str]:
+    """The paths of all attributes of this name in a layer."""
+    found: list[str] = []
+
+    def visit(path: Any) -> None:
+        if path.IsPropertyPath() and path.name == name:
+            found.append(str(path))
+
+    layer.Traverse(Sdf.Path.absoluteRootPath, visit)
+    return found
+
+
+def _is_outranked(unused: _Clips, attribute: Any) -> bool:
+    """Whether a default is stronger than the clips, so that they would bring nothing anyway."""
+    opinion = strongest_opinion(attribute, None)
+    if opinion is None or attribute.Get() is None:
+        return False
+    stack = unused.prim.GetPrimStack()
+    ranks = (
+        rank
+        for rank, spec in enumerate(stack)
+        if opinion.spec.layer == spec.layer and opinion.spec.path.HasPrefix(spec.path)
+    )
+    return bool(next(ranks, 0) <= stack.index(_author(unused.prim, unused.name, "assetPaths")))
+
+
+def _advice(unused: _Clips, attribute: Any) -> str | None:
+    """What to write, where the clips say so themselves."""
+    if unused.fault.key == "primPath":
+        paths = dict.fromkeys(filter(None, _holders(unused, attribute)))
+        return (
+            f"did you mean {quoted(next(iter(paths)))}?" if len(paths) == 1 else unused.fault.advice
+        )
+    if unused.fault.key == "active" and "active" not in unused.keys:
+        return _active(unused, attribute) or unused.fault.advice
+    return unused.fault.advice
+
+
+def _active(unused: _Clips, attribute: Any) -> str | None:
+    """The `active` that the first samples of the clips speak for, if they are in order."""
+    clips = unused.keys["assetPaths"]
+    if len(unused.layers) < len(clips) or any(a != b for a, b in unused.keys.get("times", ())):
+        return None
+    suffix = str(attribute.GetPath())[len(str(unused.prim.GetPath())) :]
+    path = f"{unused.keys['primPath']}{suffix}"
+    firsts = [layer.ListTimeSamplesForPath(path)[:1] for layer in unused.layers]
+    starts: list[float] = [first[0] for first in firsts if first]
+    if len(starts) < len(clips) or sorted(set(starts)) != starts:
+        return None
+    pairs = ", ".join(f"({format_time(start)}, {index})" for index, start in enumerate(starts))
+    return f"author 'double2[] active = [{pairs}]'"
