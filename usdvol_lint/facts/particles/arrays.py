@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from math import isqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.steps import Time
@@ -49,6 +49,14 @@ class Degree:
         return None if self.value is None or self.value < 0 else (self.value + 1) ** 2
 
 
+class LateArray(NamedTuple):
+    """A float array without elements at its `earliest` time; the first are at `filled`."""
+
+    array: ParticleArray
+    earliest: float
+    filled: float
+
+
 @dataclass(frozen=True, slots=True)
 class Pair:
     """The float and the half array of one attribute, such as `scales` and `scalesh`.
@@ -61,6 +69,21 @@ class Pair:
     used: ParticleArray | None
     hidden: ParticleArray | None
     is_known: bool
+
+    @property
+    def late(self) -> LateArray | None:
+        """The float array that renderers choose and that begins empty; None if there is none.
+
+        OpenUSD's imaging reads it only if it has elements at its earliest time.
+        """
+        array = self.used
+        if not array or array.is_half or not array.is_populated or array.begins_populated:
+            return None
+        if not self.is_known:
+            return None  # a half array of another type
+        times = [(sample.time, sample.size) for sample in array.samples if sample.time is not None]
+        filled = next(time for time, size in times if size)
+        return LateArray(array, times[0][0], filled)
 
 
 class ParticleArrays:
@@ -100,6 +123,19 @@ class ParticleArrays:
         for array in (pair.used for pair in self.pairs.values()):
             if array and array.is_populated and (not nouns or array.noun in nouns):
                 yield array
+
+    @property
+    def late_positions(self) -> LateArray | None:
+        """Float positions that begin empty, so that OpenUSD draws no particle at any time."""
+        return self.pairs[POSITIONS].late
+
+    def late(self) -> Iterator[LateArray]:
+        """The other float arrays that begin empty, and that fit the particles at all times."""
+        for array in self.used():
+            late = self.pairs[array.float_name].late
+            each = self.degree.coefficients if array is self.coefficients else 1
+            if late and array is not self.positions and not self.too_short(array, each or 1):
+                yield late
 
     def authored(self, noun: str) -> Iterator[ParticleArray]:
         """The float and the half array with this noun, as far as they are authored."""
