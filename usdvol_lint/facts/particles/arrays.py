@@ -168,8 +168,7 @@ class ParticleArrays:
     @property
     def most_particles(self) -> int:
         """The greatest number of particles at any time."""
-        samples = self.positions.samples if self.positions else ()
-        return max((sample.size for sample in samples), default=0)
+        return self.positions.most if self.positions else 0
 
     def too_short(self, array: ParticleArray, per_particle: int = 1) -> Misfits | None:
         """The samples with fewer than `per_particle` elements for each particle."""
