@@ -100,12 +100,6 @@ class Files(Wing):
 
         return below_layer(found)
 
-    def hidden_animation(self, field: Any) -> str | None:
-        """The time samples or clips of `filePath`, in words, that a stronger default hides."""
-        from usdvol_lint.facts.files.animation import hidden_animation
-
-        return hidden_animation(self.paths(field).attribute, self._clips.reaching(field))
-
     def unlisted_clips(self, field: Any) -> UnlistedClips | None:
         """The clips that hold samples of `filePath` that their manifest does not declare."""
         from usdvol_lint.facts.files.animation import unlisted_clips

@@ -133,8 +133,11 @@ class ParticleArrays:
         """The other float arrays that begin empty, and that fit the particles at all times."""
         for array in self.used():
             late = self.pairs[array.float_name].late
-            each = self.degree.coefficients if array is self.coefficients else 1
-            if late and array is not self.positions and not self.too_short(array, each or 1):
+            if (
+                late
+                and array is not self.positions
+                and not self.too_short(array, self._each(array))
+            ):
                 yield late
 
     def authored(self, noun: str) -> Iterator[ParticleArray]:
@@ -177,6 +180,16 @@ class ParticleArrays:
     def too_long(self, array: ParticleArray, per_particle: int = 1) -> Misfits | None:
         """The samples with more than `per_particle` elements for each particle, if any."""
         return self._misfits(array, per_particle, lambda size, wanted: size > wanted > 0)
+
+    def fit(self, array: ParticleArray) -> bool:
+        """Whether an array has as many elements as the particles take; of positions, all others."""
+        others = [array] if array is not self.positions else self.used()
+        sizes = [(other, self._each(other)) for other in others if other is not self.positions]
+        return not any(self.too_short(*size) or self.too_long(*size) for size in sizes)
+
+    def _each(self, array: ParticleArray) -> int:
+        """How many elements of an array a particle takes."""
+        return self.degree.coefficients or 1 if array is self.coefficients else 1
 
     @property
     def fitting_degree(self) -> int | None:

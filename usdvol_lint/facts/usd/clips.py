@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any
@@ -40,12 +40,18 @@ class ClipSet:
 
     def layer_with_samples(self, attribute: Any) -> Any | None:
         """The first layer with time samples of an attribute, among the first clips."""
+        return next(self._with_samples(attribute), None)
+
+    def layers_with_samples(self, attribute: Any) -> tuple[Any, ...]:
+        """The layers with time samples of an attribute, among the first clips."""
+        return tuple(self._with_samples(attribute))
+
+    def _with_samples(self, attribute: Any) -> Iterator[Any]:
         path = self.path_in_layers(attribute)
         for clip in self.clips[:_CLIPS_OPENED]:
             layer = open_layer(clip)
             if layer and layer.GetNumTimeSamplesForPath(path):
-                return layer
-        return None
+                yield layer
 
     def spec_with(self, key: str) -> Any:
         """The strongest spec of the prim that authors a key of the clip set, or the strongest."""
