@@ -163,10 +163,13 @@ class ParticleArrays:
         """Whether there certainly is no coefficient at any time, though their API is applied."""
         return self._lack(COEFFICIENTS, schema.HARMONICS_API)
 
-    def _lack(self, name: str, api: str) -> bool:
+    def lack(self, name: str) -> bool:
+        """Whether there certainly is no element of an array at any time, by its float name."""
         pair = self.pairs[name]
-        is_populated = pair.used is not None and pair.used.is_populated
-        return api in self._schemas and pair.is_known and not is_populated
+        return pair.is_known and not (pair.used is not None and pair.used.is_populated)
+
+    def _lack(self, name: str, api: str) -> bool:
+        return api in self._schemas and self.lack(name)
 
     @property
     def most_particles(self) -> int:
