@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.coarseness import CoarsePositions
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
     from usdvol_lint.facts.particles.extent import OutsideExtent
+    from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -79,6 +80,19 @@ class Particles(Wing):
         if not positions or not extent.HasAuthoredValue():
             return None
         return positions_outside_extent(positions, extent, slack, clamp)
+
+    def kernels_outside_extent(
+        self, prim: Any, share: float, clamp: float
+    ) -> KernelsOutside | None:
+        """The kernels that reach out of the authored extent by a share of its longest side."""
+        from usdvol_lint.facts.particles.reach import KERNELS, kernels_outside
+
+        extent = prim.GetAttribute("extent")
+        names = self.apis(prim).providers(schema.KERNEL_BASE)
+        kernel = KERNELS.get(names[0]) if len(names) == 1 else None
+        if not kernel or not extent.HasAuthoredValue():
+            return None
+        return kernels_outside(self.arrays(prim), extent, kernel, share, clamp)
 
     def coarse_positions(self, prim: Any, factor: float) -> CoarsePositions | None:
         """The positions whose numbers are coarser than particles; `factor` is in `Counts.far`."""

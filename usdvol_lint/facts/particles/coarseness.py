@@ -107,7 +107,7 @@ def _counted(
         if measured.low and measured.high
     }
     for sample, rows in positions.read(lambda sample: steps.get(sample.time, 0.0) > least):
-        sizes, shown = (_rows_at(array, sample, len(rows)) for array in (scales, opacities))
+        sizes, shown = (rows_at(array, sample, len(rows)) for array in (scales, opacities))
         yield sample, _count(rows, sizes, shown, steps[sample.time], factor)
 
 
@@ -117,7 +117,7 @@ def _step(number: float, positions: ParticleArray) -> float:
     return float(np.spacing(kind(number)))
 
 
-def _rows_at(array: ParticleArray | None, sample: ArraySample, count: int) -> Rows | None:
+def rows_at(array: ParticleArray | None, sample: ArraySample, count: int) -> Rows | None:
     """The first elements of an array at the time of a sample; None if it has too few."""
     time = Usd.TimeCode.EarliestTime() if sample.time is None else sample.time
     value: Any = array.attribute.Get(time) if array else None
@@ -131,7 +131,7 @@ def _count(
 
     def measure(chunk: Rows, start: int) -> Counts:
         stop = start + len(chunk)
-        sizes = _sizes(scales[start:stop] if scales is not None else np.ones_like(chunk))
+        sizes = largest_scales(scales[start:stop] if scales is not None else np.ones_like(chunk))
         seen = (sizes > 0) & (sizes < np.inf)
         if opacities is not None:
             seen &= opacities[start:stop, 0] >= INVISIBLE
@@ -146,7 +146,7 @@ def _count(
     return fold(positions, measure, Counts.plus)
 
 
-def _sizes(scales: Rows) -> Rows:
+def largest_scales(scales: Rows) -> Rows:
     """The largest scale of each particle: columns in turn are faster than `max(axis=1)`."""
     wider = scales.astype(np.float32, copy=False)
     return np.maximum(np.maximum(wider[:, 0], wider[:, 1]), wider[:, 2])
