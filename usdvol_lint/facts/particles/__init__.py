@@ -85,20 +85,23 @@ class Particles(Wing):
         self, prim: Any, share: float, clamp: float
     ) -> KernelsOutside | None:
         """The kernels that reach out of the authored extent by a share of its longest side."""
+        arrays, extent = self.arrays(prim), prim.GetAttribute("extent")
+        names = self.apis(prim).providers(schema.KERNEL_BASE)
+        if not arrays.most_particles or len(names) != 1 or not extent.HasAuthoredValue():
+            return None
         from usdvol_lint.facts.particles.reach import KERNELS, kernels_outside
 
-        extent = prim.GetAttribute("extent")
-        names = self.apis(prim).providers(schema.KERNEL_BASE)
-        kernel = KERNELS.get(names[0]) if len(names) == 1 else None
-        if not kernel or not extent.HasAuthoredValue():
-            return None
-        return kernels_outside(self.arrays(prim), extent, kernel, share, clamp)
+        kernel = KERNELS.get(names[0])
+        return kernels_outside(arrays, extent, kernel, share, clamp) if kernel else None
 
     def coarse_positions(self, prim: Any, factor: float) -> CoarsePositions | None:
         """The positions whose numbers are coarser than particles; `factor` is in `Counts.far`."""
+        arrays = self.arrays(prim)
+        if not arrays.most_particles:
+            return None  # and NumPy need not be imported
         from usdvol_lint.facts.particles.coarseness import coarse_positions
 
-        return coarse_positions(self.arrays(prim), factor)
+        return coarse_positions(arrays, factor)
 
     def mean(self, array: ParticleArray) -> float:
         """The mean of all numbers in all samples of an array."""
