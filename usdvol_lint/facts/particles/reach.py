@@ -97,7 +97,7 @@ def kernels_outside(
     positions, scales = (next(arrays.used(noun), None) for noun in ("positions", "scales"))
     if not positions or not scales or not scales.low or not scales.high:
         return None
-    if min(scales.low) < 0 or not arrays.pairs["scales"].is_known or arrays.too_short(scales):
+    if min(scales.low) < 0 or not arrays.pairs["scales"].is_known:
         return None
     farthest = kernel.radius * max(scales.high)
     boxes = dict(_boxes(positions, extent, farthest, share, clamp))

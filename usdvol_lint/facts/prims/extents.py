@@ -95,9 +95,7 @@ def outside_box(box: Bounds, values: Iterable[Any], relative_slack: float) -> bo
     """Whether one of the values of `extent` is a box that another one does not enclose."""
     boxes = (box_of(value) for value in values)
     return any(
-        not encloses(box, other, relative_slack * magnitude(other))
-        for other in boxes
-        if other and other != _EMPTY_RANGE
+        not encloses(box, other, relative_slack * magnitude(other)) for other in boxes if other
     )
 
 
