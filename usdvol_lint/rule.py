@@ -37,6 +37,7 @@ __all__ = [
     "Grids",
     "NotChecked",
     "Occurrence",
+    "ParticleArray",
     "PathMark",
     "Prim",
     "Prims",
@@ -59,9 +60,10 @@ __all__ = [
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.assets import AssetSample
     from usdvol_lint.facts.grids.contents import Content, ContentClass
+    from usdvol_lint.facts.particles.array import ParticleArray
 else:
     # Rules can be loaded where pxr is not imported.
-    AssetSample = Content = ContentClass = Any
+    AssetSample = Content = ContentClass = ParticleArray = Any
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 

@@ -1,15 +1,26 @@
-"""ARR001: a particle field without positions has no particles."""
+"""ARR001: a particle field without positions has no particles, and without first ones draws none."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, format_time, rule
 
 
 @rule("ARR001", on="ParticleField", severity=WARNING, since="0.1")
 def positions_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
-    if not arrays.lack_positions or facts.layers.may_lack_values(particles):
+    late = arrays.late_positions
+    if not (arrays.lack_positions or late) or facts.layers.may_lack_values(particles):
         return
     if any(slip.intended.startswith("positions") for slip in facts.prims.misspelt(particles)):
         return  # SCH004 says it
+    if late:
+        filled = format_time(late.filled)
+        yield Problem(
+            f"'positions' holds nothing at its earliest time, {format_time(late.earliest)}: the schema permits it, "
+            f"and OpenUSD draws no particle at any time, not those from {filled} on either",
+            at=late.array.attribute,
+            times=(late.earliest,),
+            suggestion=f"begin the samples of all arrays at {filled}, and until then author visibility 'invisible'",
+        )
+        return
     yield Problem(
         "no particles at any time",
         at=arrays.positions.attribute if arrays.positions else particles,

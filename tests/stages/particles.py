@@ -6,6 +6,7 @@ from math import sqrt
 from random import Random
 from typing import Any
 
+from . import looks
 from .model import ABSENT, Attribute, Prim, Relationship
 from .subjects import ParticleSubject, new_layer
 
@@ -34,16 +35,16 @@ _ARRAYS = {
 }
 
 
-LOOKS = ("plain", "material", "colour space", "empty twins", "held")
+LOOKS = ("plain", "material", "colour space", "empty twins", "held", *looks.LOOKS)
 """What else there is: a bound material, the name of a colour space, arrays of the other precision
-that are empty, and arrays that hold one value at all their times."""
+that are empty, arrays that hold one value at all their times, and those of `looks`."""
 
 
 def particles(rng: Random, name: str, needs: dict[str, Any]) -> ParticleSubject:
     """A particle field, right in every way that the rules know of.
 
-    `needs` may ask for `"type"`, `"precision"`, `"animated"`, `"changing"`, `"degree"` and
-    `"count"`, and for all optional `"arrays"`.
+    `needs` may ask for `"type"`, `"precision"`, `"animated"`, `"changing"`, `"degree"`, `"count"`
+    and a flat `"kernel"`, and for all optional `"arrays"`.
     """
     layer = new_layer(rng, name, ("usda", "usda", "usdc"))
     type_name = rng.choice(("ParticleField3DGaussianSplat",) * 3 + ("ParticleField",))
@@ -56,7 +57,8 @@ def particles(rng: Random, name: str, needs: dict[str, Any]) -> ParticleSubject:
     subject = ParticleSubject(layer, prim, path, count=count, degree=degree)
     subject.content.layers.append(layer)
     if type_name == "ParticleField":
-        applied = [api for api in APIS if "Kernel" not in api] + [rng.choice(KERNELS)]
+        kernels = KERNELS[1:] if needs.get("kernel") == "flat" else KERNELS
+        applied = [api for api in APIS if "Kernel" not in api] + [rng.choice(kernels)]
         apply(prim, *applied)
     prim.properties["extent"] = Attribute("float3[]", [(-2, -2, -2), (2, 2, 2)])
     _add_arrays(subject, rng, needs)
@@ -64,6 +66,8 @@ def particles(rng: Random, name: str, needs: dict[str, Any]) -> ParticleSubject:
     subject.look = needs.get("look") or rng.choice(("plain", *LOOKS))
     _add_look(subject)
     _decorate(subject, rng)
+    if change := looks.LOOKS.get(subject.look):
+        change(subject)
     return subject
 
 

@@ -79,7 +79,7 @@ class Facts:
         self.stage = stage
         self.kinds = kinds
         self.tables = tables
-        self.prims = Prims(tables, kinds)
+        self.prims = Prims(tables, kinds, clips)
         self.files = Files(tables, stage, clips, disk, advance)
         self.layers = Layers(tables, stage, clips, kinds)
         self.grids = Grids(tables, self.files, depth.content, volume_files, advance)

@@ -120,12 +120,6 @@ class Files(Wing):
 
         return below_layer(found)
 
-    def hidden_animation(self, field: Any) -> str | None:
-        """The time samples or clips of `filePath`, in words, that a stronger default hides."""
-        from usdvol_lint.facts.files.animation import hidden_animation
-
-        return hidden_animation(self.paths(field).attribute, self._clips.reaching(field))
-
     def unlisted_clips(self, field: Any) -> UnlistedClips | None:
         """The clips that hold samples of `filePath` that their manifest does not declare."""
         from usdvol_lint.facts.files.animation import unlisted_clips
@@ -135,16 +129,18 @@ class Files(Wing):
     def still(self, field: Any, time_range: tuple[float, float] | None) -> Still | None:
         """The file of a sequence on disk that `filePath` names at all times.
 
-        None also where it hides its own animation, which `hidden_animation` tells.
+        None also where it hides its own animation, which `Prims.hidden_animation` tells.
         """
         from usdvol_lint.facts.files.stillness import find_still
+        from usdvol_lint.facts.usd.hidden import hidden_animation
 
         sequence = self.sequence(field)
         if sequence and sequence.is_animated:
             return None  # nearly always
         clips = self._clips.reaching(field)
-        found = find_still(self.paths(field), self._disk, self._find_packs, clips, time_range)
-        return None if found and self.hidden_animation(field) else found
+        paths = self.paths(field)
+        found = find_still(paths, self._disk, self._find_packs, clips, time_range)
+        return None if found and hidden_animation(paths.attribute, clips) else found
 
     def _find_packs(self) -> Packs:
         return self._packs

@@ -1,4 +1,4 @@
-"""Animation of an asset attribute that USD ignores: hidden by a default, or not in a manifest."""
+"""Clips with samples of an asset attribute that their manifest does not declare."""
 
 from __future__ import annotations
 
@@ -6,27 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
-from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-from usdvol_lint.model import quoted
-
-
-def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> str | None:
-    """The time samples or clip set, in words, that a stronger default hides; None if none are."""
-    specs = attribute.GetPropertyStack()
-    if len(specs) < 2 and not clips:
-        return None  # nearly always, and what follows is slow
-    default = strongest_opinion(attribute, None)
-    if default is None or attribute.Get() is None or attribute.GetNumTimeSamples():
-        return None
-    for spec in specs:
-        if count := spec.layer.GetNumTimeSamplesForPath(spec.path):
-            samples = "time sample" if count == 1 else f"{count} time samples"
-            return f"the {samples} in {quoted(spec.layer.GetDisplayName())}"
-    for clip_set in clips:
-        if clip_set.is_outranked_by(default.spec) and clip_set.layer_with_samples(attribute):
-            return f"the value clips {quoted(clip_set.name)} on <{shown(clip_set.prim).path}>"
-    return None
 
 
 @dataclass(frozen=True, slots=True)

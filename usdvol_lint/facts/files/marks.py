@@ -61,8 +61,6 @@ class PathMarks:
             found.add(PathMark.CASE_BLIND)
         if authored.is_clipped:
             found.add(PathMark.CLIPPED)
-        if authored.is_clipped or authored.is_layered:
-            found.add(PathMark.LAYERED)
         return frozenset(found)
 
     def _may_differ_in_case(self, paths: AssetSamples) -> bool:

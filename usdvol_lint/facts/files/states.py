@@ -55,8 +55,6 @@ class PathMark(Enum):
     """A path may differ from the disk by case: nothing is there, or the folder ignores case."""
     PACKAGED = auto()
     """A layer of the stage lies in a package."""
-    LAYERED = auto()
-    """There are several specs, or value clips."""
     CLIPPED = auto()
     """There are value clips."""
 

@@ -11,9 +11,13 @@ from usdvol_lint.facts.found import Wing, fact
 if TYPE_CHECKING:
     from usdvol_lint.config import Depth
     from usdvol_lint.facts.particles.apis import ParticleApis
+    from usdvol_lint.facts.particles.array import ParticleArray
     from usdvol_lint.facts.particles.arrays import ParticleArrays
+    from usdvol_lint.facts.particles.chunks import Row
+    from usdvol_lint.facts.particles.coarseness import CoarsePositions
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
     from usdvol_lint.facts.particles.extent import OutsideExtent
+    from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -76,6 +80,59 @@ class Particles(Wing):
         if not positions or not extent.HasAuthoredValue():
             return None
         return positions_outside_extent(positions, extent, slack, clamp)
+
+    def kernels_outside_extent(
+        self, prim: Any, share: float, clamp: float
+    ) -> KernelsOutside | None:
+        """The kernels that reach out of the authored extent by a share of its longest side."""
+        arrays, extent = self.arrays(prim), prim.GetAttribute("extent")
+        names = self.apis(prim).providers(schema.KERNEL_BASE)
+        if not arrays.most_particles or len(names) != 1 or not extent.HasAuthoredValue():
+            return None
+        from usdvol_lint.facts.particles.reach import KERNELS, kernels_outside
+
+        kernel = KERNELS.get(names[0])
+        return kernels_outside(arrays, extent, kernel, share, clamp) if kernel else None
+
+    def coarse_positions(self, prim: Any, factor: float) -> CoarsePositions | None:
+        """The positions whose numbers are coarser than particles; `factor` is in `Counts.far`."""
+        arrays = self.arrays(prim)
+        if not arrays.most_particles:
+            return None  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.coarseness import coarse_positions
+
+        return coarse_positions(arrays, factor)
+
+    def mean(self, array: ParticleArray) -> float:
+        """The mean of all numbers in all samples of an array."""
+        from usdvol_lint.facts.particles.numbers import mean_of
+
+        return mean_of(array)
+
+    def range_within(self, array: ParticleArray, low: float, high: float) -> tuple[Row, Row] | None:
+        """The least and greatest number in each column, if all lie within the limits."""
+        from usdvol_lint.facts.particles.numbers import range_within
+
+        return range_within(array, low, high)
+
+    def are_whole(self, array: ParticleArray) -> bool:
+        """Whether every number in an array is a whole one."""
+        from usdvol_lint.facts.particles.numbers import are_whole
+
+        return are_whole(array)
+
+    def spacing(self, prim: Any) -> float:
+        """How far particles lie apart if they are spread evenly over the positions' bounds."""
+        from usdvol_lint.facts.particles.numbers import spacing
+
+        arrays = self.arrays(prim)
+        return spacing(arrays.positions, arrays.most_particles) if arrays.positions else 0.0
+
+    def longest_side(self, prim: Any) -> float:
+        """That of the first authored extent; 0 without one."""
+        limits = self._prims.limits(prim)
+        box = limits.at(next(iter(limits.times), None))
+        return max(end - begin for begin, end in zip(*box, strict=True)) if box else 0.0
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
         """The colour space that a prim or its nearest ancestor with one names."""

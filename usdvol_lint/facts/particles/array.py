@@ -45,7 +45,8 @@ class ParticleArray:
     """An array attribute with the samples that are to be checked, the default first.
 
     `float_name` is the name of the float array of its pair, `noun` what its elements are called.
-    It `is_populated` if any sample has an element; `total` is how many time samples USD has.
+    `most` is the greatest number of elements of a sample; it `is_populated` if that is not 0.
+    `total` is how many time samples USD has.
     Values are read anew for each question about all of them, so that one at a time is in memory.
     `with_counts` makes a histogram of scales and of opacities while their ranges are found.
     """
@@ -64,7 +65,8 @@ class ParticleArray:
         self.is_half = self.name != self.float_name
         self.noun = _NOUNS.get(self.float_name, self.float_name)
         self.samples = samples
-        self.is_populated = any(sample.size for sample in samples)
+        self.most = max((sample.size for sample in samples), default=0)
+        self.is_populated = self.most > 0
         self.total = total
         self.sizes = StepSamples(samples)
         self._with_counts = with_counts

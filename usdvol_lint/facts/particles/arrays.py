@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from math import isqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.steps import Time
@@ -49,6 +49,14 @@ class Degree:
         return None if self.value is None or self.value < 0 else (self.value + 1) ** 2
 
 
+class LateArray(NamedTuple):
+    """A float array without elements at its `earliest` time; the first are at `filled`."""
+
+    array: ParticleArray
+    earliest: float
+    filled: float
+
+
 @dataclass(frozen=True, slots=True)
 class Pair:
     """The float and the half array of one attribute, such as `scales` and `scalesh`.
@@ -61,6 +69,21 @@ class Pair:
     used: ParticleArray | None
     hidden: ParticleArray | None
     is_known: bool
+
+    @property
+    def late(self) -> LateArray | None:
+        """The float array that renderers choose and that begins empty; None if there is none.
+
+        OpenUSD's imaging reads it only if it has elements at its earliest time.
+        """
+        array = self.used
+        if not array or array.is_half or not array.is_populated or array.begins_populated:
+            return None
+        if not self.is_known:
+            return None  # a half array of another type
+        times = [(sample.time, sample.size) for sample in array.samples if sample.time is not None]
+        filled = next(time for time, size in times if size)
+        return LateArray(array, times[0][0], filled)
 
 
 class ParticleArrays:
@@ -101,6 +124,22 @@ class ParticleArrays:
             if array and array.is_populated and (not nouns or array.noun in nouns):
                 yield array
 
+    @property
+    def late_positions(self) -> LateArray | None:
+        """Float positions that begin empty, so that OpenUSD draws no particle at any time."""
+        return self.pairs[POSITIONS].late
+
+    def late(self) -> Iterator[LateArray]:
+        """The other float arrays that begin empty, and that fit the particles at all times."""
+        for array in self.used():
+            late = self.pairs[array.float_name].late
+            if (
+                late
+                and array is not self.positions
+                and not self.too_short(array, self._each(array))
+            ):
+                yield late
+
     def authored(self, noun: str) -> Iterator[ParticleArray]:
         """The float and the half array with this noun, as far as they are authored."""
         for pair in self.pairs.values():
@@ -124,16 +163,18 @@ class ParticleArrays:
         """Whether there certainly is no coefficient at any time, though their API is applied."""
         return self._lack(COEFFICIENTS, schema.HARMONICS_API)
 
-    def _lack(self, name: str, api: str) -> bool:
+    def lack(self, name: str) -> bool:
+        """Whether there certainly is no element of an array at any time, by its float name."""
         pair = self.pairs[name]
-        is_populated = pair.used is not None and pair.used.is_populated
-        return api in self._schemas and pair.is_known and not is_populated
+        return pair.is_known and not (pair.used is not None and pair.used.is_populated)
+
+    def _lack(self, name: str, api: str) -> bool:
+        return api in self._schemas and self.lack(name)
 
     @property
     def most_particles(self) -> int:
         """The greatest number of particles at any time."""
-        samples = self.positions.samples if self.positions else ()
-        return max((sample.size for sample in samples), default=0)
+        return self.positions.most if self.positions else 0
 
     def too_short(self, array: ParticleArray, per_particle: int = 1) -> Misfits | None:
         """The samples with fewer than `per_particle` elements for each particle."""
@@ -142,6 +183,16 @@ class ParticleArrays:
     def too_long(self, array: ParticleArray, per_particle: int = 1) -> Misfits | None:
         """The samples with more than `per_particle` elements for each particle, if any."""
         return self._misfits(array, per_particle, lambda size, wanted: size > wanted > 0)
+
+    def fit(self, array: ParticleArray) -> bool:
+        """Whether an array has as many elements as the particles take; of positions, all others."""
+        others = [array] if array is not self.positions else self.used()
+        sizes = [(other, self._each(other)) for other in others if other is not self.positions]
+        return not any(self.too_short(*size) or self.too_long(*size) for size in sizes)
+
+    def _each(self, array: ParticleArray) -> int:
+        """How many elements of an array a particle takes."""
+        return self.degree.coefficients or 1 if array is self.coefficients else 1
 
     @property
     def fitting_degree(self) -> int | None:

@@ -65,11 +65,11 @@ def positions_outside_extent(
     boxes: dict[Time, Bounds] = {}
     masks: dict[Time, Mask] = {}
     for sample, measured in positions.ranges:
-        for time in _times_of_extent(positions, sample, extent):
+        for time in times_of_extent(positions, sample, extent):
             box = box_of(extent.Get() if time is None else extent.Get(time))
             if not box or not measured.low or not measured.high:
                 continue
-            limits = _limits(box, slack, clamp, positions.is_half)
+            limits = limits_of(box, slack, clamp, positions.is_half)
             if not encloses(limits, _box(measured.low, measured.high), 0.0):
                 all_times.append(time)
                 boxes.setdefault(sample.time, box)
@@ -82,12 +82,12 @@ def positions_outside_extent(
     return OutsideExtent(elements, extent, tuple(all_times), boxes[first], span)
 
 
-def _times_of_extent(positions: ParticleArray, sample: ArraySample, extent: Any) -> Iterable[Time]:
+def times_of_extent(positions: ParticleArray, sample: ArraySample, extent: Any) -> Iterable[Time]:
     """When the extent has to enclose a sample: always, for positions that are not animated."""
     return (positions.total < 2 and sample_times(extent)) or [sample.time]
 
 
-def _limits(box: Bounds, slack: float, clamp: float, is_half: bool) -> Bounds:
+def limits_of(box: Bounds, slack: float, clamp: float, is_half: bool) -> Bounds:
     """An extent widened by its slack along each axis, and without limit where it was cut off."""
     step = _HALF_STEP if is_half else 0.0
     low, high = box

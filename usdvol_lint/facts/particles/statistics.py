@@ -11,7 +11,7 @@ from usdvol_lint.facts.particles.counts import bins
 from usdvol_lint.model import ParticleFieldStats
 
 _QUANTILES = {"p01": 0.01, "p10": 0.1, "p50": 0.5, "p90": 0.9, "p99": 0.99}
-_INVISIBLE = 1 / 255
+INVISIBLE = 1 / 255
 """The opacity below which renderers skip a particle: the smallest step of an 8-bit display."""
 _COLUMNS = {"opacities": 1, "orientations": 4}
 
@@ -31,7 +31,7 @@ def stats_of(prim: str, arrays: ParticleArrays) -> ParticleFieldStats:
         bounds=(_short(bounds[0]), _short(bounds[1])) if bounds[0] and bounds[1] else None,
         opacity=_quantiles(opacities),
         scale=_quantiles(scales),
-        transparent=_share_below(opacities, _INVISIBLE),
+        transparent=_share_below(opacities, INVISIBLE),
     )
 
 

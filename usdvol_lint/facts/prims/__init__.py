@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.nesting import Nested, Nesting
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.prims.transforms import TransformFaults
+    from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.hidden import HiddenAnimation
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
 
@@ -25,9 +27,10 @@ if TYPE_CHECKING:
 class Prims(Wing):
     """The prims that rules ask for: schemas, attributes, extents, and Gprims above and below."""
 
-    def __init__(self, tables: Tables, kinds: PrimKinds) -> None:
+    def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips) -> None:
         super().__init__(tables)
         self._kinds = kinds
+        self._clips = clips
 
     def of(self, schema_name: str) -> list[Any]:
         """The live prims that answer to the schema of that name: its type, a subtype, an API."""
@@ -48,6 +51,23 @@ class Prims(Wing):
         from usdvol_lint.facts.usd.values import values_of
 
         return values_of(prim.GetAttribute(name))
+
+    def hidden_animation(self, attribute: Any) -> HiddenAnimation | None:
+        """The time samples or clips of an attribute that a stronger default hides."""
+        from usdvol_lint.facts.usd.hidden import hidden_animation
+
+        return hidden_animation(attribute, self._clips.reaching(attribute.GetPrim()))
+
+    def hidden_boxes_outside(self, prim: Any, relative_slack: float) -> HiddenAnimation | None:
+        """The time samples of `extent` that a stronger default hides and does not enclose."""
+        from usdvol_lint.facts.prims.extents import outside_box
+
+        attribute = prim.GetAttribute("extent")
+        hidden = self.hidden_animation(attribute) if attribute else None
+        box = self.limits(prim).at(None) if hidden else None
+        if not hidden or not box or not outside_box(box, hidden.values(), relative_slack):
+            return None
+        return hidden
 
     @column
     def authored(self, table: Table) -> Sequence[Authored]:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Usd, Vt
 
+from usdvol_lint.facts.prims.boxes import encloses, magnitude
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import Value, Values, read_values, values_of
@@ -88,6 +89,14 @@ def box_of(value: Any) -> Bounds | None:
     ordered = -inf < a <= x < inf and -inf < b <= y < inf and -inf < c <= z < inf
     box = (a, b, c), (x, y, z)
     return box if ordered or box == _EMPTY_RANGE else None
+
+
+def outside_box(box: Bounds, values: Iterable[Any], relative_slack: float) -> bool:
+    """Whether one of the values of `extent` is a box that another one does not enclose."""
+    boxes = (box_of(value) for value in values)
+    return any(
+        not encloses(box, other, relative_slack * magnitude(other)) for other in boxes if other
+    )
 
 
 def read_extents(attribute: Any) -> Values:

@@ -47,12 +47,18 @@ class ClipSet:
 
     def layer_with_samples(self, attribute: Any) -> Any | None:
         """The first layer with time samples of an attribute, among the first clips."""
+        return next(self._with_samples(attribute), None)
+
+    def layers_with_samples(self, attribute: Any) -> tuple[Any, ...]:
+        """The layers with time samples of an attribute, among the first clips."""
+        return tuple(self._with_samples(attribute))
+
+    def _with_samples(self, attribute: Any) -> Iterator[Any]:
         path = self.path_in_layers(attribute)
         for clip in self.clips[:_CLIPS_OPENED]:
             layer = open_layer(clip)
             if layer and layer.GetNumTimeSamplesForPath(path):
-                return layer
-        return None
+                yield layer
 
     def clip_at(self, time: float) -> str | None:
         """The authored path of the clip that is active at a time of the stage."""

@@ -1,0 +1,28 @@
+"""ARR021: flat particles without orientations all face the same way."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.schema import API_ATTRIBUTES
+
+_FLAT = frozenset({"ParticleFieldKernelGaussianSurfletAPI", "ParticleFieldKernelConstantSurfletAPI"})
+_API = "ParticleFieldOrientationAttributeAPI"
+
+
+@rule("ARR021", on="ParticleField", severity=INFO, since="0.1")
+def orientations_missing(particles: Prim, facts: Facts) -> Problems:
+    apis, arrays = facts.particles.apis(particles), facts.particles.arrays(particles)
+    kernels = apis.providers("ParticleFieldKernelBaseAPI")
+    if len(kernels) != 1 or kernels[0] not in _FLAT or apis.third_party or not arrays.most_particles:
+        return
+    if not arrays.lack("orientations") or facts.layers.may_lack_values(particles):
+        return
+    if any(slip.intended.startswith("orientations") for slip in facts.prims.misspelt(particles)):
+        return  # SCH004 says it
+    is_applied = apis.has(_API)
+    if not is_applied and any(particles.GetAttribute(name).HasAuthoredValue() for name in API_ATTRIBUTES[_API]):
+        return  # PRT007 says it
+    yield Problem(
+        f"no orientations for the flat kernel {quoted(kernels[0])}, so all particles face along z",
+        at=particles,
+        suggestion=("" if is_applied else f"apply {_API} and ")
+        + "author orientations that turn z to the normals of the surface",
+    )
