@@ -14,6 +14,7 @@ FIELD = "VolumeFieldBase"
 FIELD_ASSET = "FieldAsset"
 PARTICLE_FIELD = "ParticleField"
 GPRIM = "Gprim"
+POINT_INSTANCER = "PointInstancer"
 OURS = frozenset({VOLUME, FIELD, PARTICLE_FIELD})
 
 FIELD_NAMESPACE = "field:"

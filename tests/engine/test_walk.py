@@ -34,7 +34,7 @@ def write_stage(folder: Path, text: str, **layers: str) -> str:
 
 def assigned(stage: Usd.Stage, found: Walk, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
     """Each rule with each prim that it is handed; no precondition fails."""
-    facts = Facts(Context.of(stage), found.kept, found.clipped)
+    facts = Facts(Context.of(stage), found.kept, found.clipped, found.undefined)
     failed: list[object] = []
     pairs = list(assign(found, rules, facts, {}, lambda *failure: failed.append(failure)))
     assert failed == []
@@ -77,7 +77,7 @@ LIVE = 'def Volume "live"\n{\n}\n'
         (f'def "untyped"\n{{\n{LIVE}}}\n', 2, ["/untyped/live"]),
         (f'class "library"\n{{\n{LIVE}}}\n', 0, []),
         (f'class Volume "library"\n{{\n}}\n{LIVE}', 1, ["/live"]),
-        (f'over "nowhere"\n{{\n{LIVE}}}\n', 0, []),
+        (f'over "nowhere"\n{{\n{LIVE}}}\n', 2, []),
         (f'def Xform "off" (\n    active = false\n)\n{{\n{LIVE}}}\n', 0, []),
         (
             f'def Xform "a"\n{{\n{LIVE}def Volume "off" (active = false)\n{{\n}}\n}}\n',

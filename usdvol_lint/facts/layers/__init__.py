@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from usdvol_lint.facts.found import Wing
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
+    from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.clips import Clips
 
@@ -18,10 +20,14 @@ if TYPE_CHECKING:
 class Layers(Wing):
     """What USD could not compose, and the time range that the stage declares."""
 
-    def __init__(self, tables: Tables, stage: Any, clips: Clips) -> None:
+    def __init__(
+        self, tables: Tables, stage: Any, clips: Clips, undefined: Sequence[Any] = ()
+    ) -> None:
+        """`undefined`: the prims of our types that an `over` above takes off the stage."""
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
+        self._undefined = undefined
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
@@ -50,6 +56,15 @@ class Layers(Wing):
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
         return self._composition.may_lack_values(prim)
+
+    @property
+    def undefined(self) -> Iterator[Undefined]:
+        """The overs that take prims of ours off the stage, where that is probably a slip."""
+        if not self._undefined:
+            return iter(())
+        from usdvol_lint.facts.layers.undefined import find_undefined
+
+        return find_undefined(self._stage, self._undefined, self.may_lack)
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:

@@ -70,7 +70,7 @@ class Volumes(Wing):
     @fact
     def _plain_bindings(self, volume: Any) -> FieldBindings:
         """The bindings of a Volume of which `bound_fields` has only the slots."""
-        return self._binding_reader.read(volume, self._layers.may_lack)
+        return self._binding_reader.read(volume, self.tables.field_slots, self._layers.may_lack)
 
     def intended_field(self, binding: Binding) -> str | None:
         """The path of the field that a binding without one was probably intended to target."""
@@ -145,6 +145,17 @@ class Volumes(Wing):
             for binding, target in self.bindings(volume).with_files()
         ]
         return find_mixed_files(named) if len(named) > 1 else None
+
+    def is_targeted(self, prim: Any) -> bool:
+        """Whether a live Volume targets a prim, also one that is no live field."""
+        return prim.GetPath() in self._targeted
+
+    @cached_property
+    def _targeted(self) -> frozenset[Any]:
+        """The paths of all targets that are no live fields right below their Volume."""
+        bound = self.bound_fields.readable(schema.VOLUME)
+        in_full = (fields.bindings for _, fields in bound if fields.bindings)
+        return frozenset(path for bindings in in_full for path in bindings.target_paths())
 
     @cached_property
     def _users(self) -> Counter[Slot]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Usd
@@ -50,8 +50,13 @@ class Target(NamedTuple):
         return self.shown if self.blamed is self.prim else shown(self.blamed).path
 
 
-def read_target(stage: Any, path: Any, kinds: PrimKinds, may_lack: MayLack) -> Target:
-    """Finds the prim at the path of a target, and the target's state."""
+def read_target(
+    stage: Any, path: Any, kinds: PrimKinds, live: Collection[Any], may_lack: MayLack
+) -> Target:
+    """Finds the prim at the path of a target, and the target's state.
+
+    `live` are the paths of the fields that are drawn, those of a prototype below an `over` too.
+    """
     prim = prim_at(stage, prim_path(path))
     if not prim:
         ancestor = _lowest_ancestor(stage, path)
@@ -60,6 +65,8 @@ def read_target(stage: Any, path: Any, kinds: PrimKinds, may_lack: MayLack) -> T
     if path.IsPropertyPath():
         return Target(path, stage, TargetState.PROPERTY, prim, prim)
     schemas = kinds.names(kinds.key(prim))
+    if path in live:
+        return Target(path, stage, TargetState.FIELD, prim, prim, schemas)
     state, blamed = _prim_state(prim, schemas)
     if state is TargetState.OVER or not (state is TargetState.FIELD or prim.GetTypeName()):
         state = _unless_uncomposed(state, prim, may_lack)
