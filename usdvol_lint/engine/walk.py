@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import compress, islice, repeat
 from typing import Any
@@ -10,7 +11,8 @@ from typing import Any
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import has_metadata, is_defined
+from usdvol_lint.facts.usd.calls import COMPOSED, DRAWN_BELOW, has_metadata, is_defined
+from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 from usdvol_lint.rule import Rule
 
@@ -21,20 +23,14 @@ From 64 to 4,096 the time is the same.
 """
 
 
-_COMPOSED = Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
-"""As the default predicate of USD, and prims that nothing defines."""
-_IN_PROTOTYPE = _COMPOSED & Usd.PrimHasDefiningSpecifier
-"""What is drawn of a PointInstancer's prototype: an `over` in it is not, one above it may be."""
-
-
 @dataclass(slots=True)
 class Walk:
     """The number of prims on the stage, and those that some rule asks for, by kind.
 
     `prims` counts what is composed, `kept` are the prims that are drawn: those that are defined, up
     to the root or up to a PointInstancer's prototype.
-    `undefined` are prims of our types with a `def` that are not drawn, as an ancestor is only an
-    `over`.
+    `undefined` are prims of our types with a `def` that are not drawn, by the `over` that nothing
+    defines above them.
     `clipped` are prims on which value clips are authored: all those among the kept prims and their
     ancestors, and maybe others.
     """
@@ -42,7 +38,7 @@ class Walk:
     prims: int = 0
     clipped: list[Any] = field(default_factory=list)
     kept: dict[KindKey, list[Any]] = field(default_factory=dict)
-    undefined: list[Any] = field(default_factory=list)
+    undefined: dict[Any, list[Any]] = field(default_factory=lambda: defaultdict(list))
 
 
 def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
@@ -89,7 +85,8 @@ def _sort(
         if key in partly:
             others = [prim for prim in prims if not is_defined(prim) and prim not in drawn]
             if not schema.OURS.isdisjoint(names):
-                result.undefined += (prim for prim in others if prim.HasDefiningSpecifier())
+                for prim in filter(Usd.Prim.HasDefiningSpecifier, others):
+                    result.undefined[_topmost_undefined(prim, drawn)].append(prim)
             prims = [prim for prim in prims if is_defined(prim) or prim in drawn]
         if prims:
             result.kept[key] = prims
@@ -103,13 +100,21 @@ def _prototypes(found: Mapping[KindKey, list[Any]], kinds: PrimKinds) -> set[Any
     while waiting:
         instancer = waiting.pop()
         for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
-            root = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
-            if not root or root in drawn or root.IsDefined() or not _IN_PROTOTYPE(root):
+            target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
+            root = in_prototype(target) if target else None
+            if not root or root in drawn or is_defined(root) or not DRAWN_BELOW(root):
                 continue
-            prims = list(Usd.PrimRange(root, _IN_PROTOTYPE))
+            prims = list(Usd.PrimRange(root, DRAWN_BELOW))
             drawn.update(prims)
             waiting += (prim for prim in prims if kinds.is_a(prim, schema.POINT_INSTANCER))
     return drawn
+
+
+def _topmost_undefined(prim: Any, drawn: Collection[Any]) -> Any:
+    """The prim right below the first ancestor that is drawn."""
+    while not is_defined(above := prim.GetParent()) and above not in drawn:
+        prim = above
+    return prim
 
 
 def _ancestors(prim: Any) -> Iterator[Any]:
@@ -118,8 +123,8 @@ def _ancestors(prim: Any) -> Iterator[Any]:
 
 
 def _batches(stage: Any) -> Iterator[list[Any]]:
-    prototypes = (Usd.PrimRange(root, _COMPOSED) for root in stage.GetPrototypes())
-    for prims in (Usd.PrimRange.Stage(stage, _COMPOSED), *prototypes):
+    prototypes = (Usd.PrimRange(root, COMPOSED) for root in stage.GetPrototypes())
+    for prims in (Usd.PrimRange.Stage(stage, COMPOSED), *prototypes):
         iterator = iter(prims)
         while batch := list(islice(iterator, _BATCH)):
             yield batch

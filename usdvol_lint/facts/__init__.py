@@ -70,10 +70,10 @@ class Facts:
         context: Context,
         kept: Mapping[KindKey, Sequence[Any]],
         clipped: Sequence[Any],
-        undefined: Sequence[Any] = (),
+        undefined: Mapping[Any, Sequence[Any]],
     ) -> None:
         """`kept`: the prims that rules ask for, by kind; `clipped`: all that author clip sets;
-        `undefined`: the prims of our types that an `over` above takes off the stage.
+        `undefined`: by an `over`, the prims of our types that it takes off the stage.
         """
         from usdvol_lint.facts.prims.attributes import AuthoredReader
         from usdvol_lint.facts.prims.tables import Tables

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -21,9 +21,13 @@ class Layers(Wing):
     """What USD could not compose, and the time range that the stage declares."""
 
     def __init__(
-        self, tables: Tables, stage: Any, clips: Clips, undefined: Sequence[Any] = ()
+        self,
+        tables: Tables,
+        stage: Any,
+        clips: Clips,
+        undefined: Mapping[Any, Sequence[Any]],
     ) -> None:
-        """`undefined`: the prims of our types that an `over` above takes off the stage."""
+        """`undefined`: by an `over`, the prims of our types that it takes off the stage."""
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
@@ -64,7 +68,10 @@ class Layers(Wing):
             return iter(())
         from usdvol_lint.facts.layers.undefined import find_undefined
 
-        return find_undefined(self._stage, self._undefined, self.may_lack)
+        return find_undefined(self._stage, self._undefined, self._drawn, self.may_lack)
+
+    def _drawn(self) -> Iterator[Any]:
+        return chain.from_iterable(map(self.tables.prims, schema.OURS))
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:

@@ -3,52 +3,68 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
 from pxr import Sdf
 
-from usdvol_lint.facts.usd.calls import get_path
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_path, get_prim_stack
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.nearest import is_one_slip_from
 
 _PROTOTYPES = "prototypes"
+_ARCS = ("references", "payload", "inheritPaths", "specializes", "variantSetNames")
 
 
 class Undefined(NamedTuple):
     """An `over` that no layer defines, and the topmost prims of ours with a `def` below it.
 
     `similar` is the path of a defined sibling with nearly the same name; None if there is none.
+    `copies` counts the prims of the stage that have the spec of this `over`.
     """
 
     over: Any
     prims: tuple[Any, ...]
     similar: str | None
+    copies: int
 
 
 def find_undefined(
-    stage: Any, prims: Iterable[Any], may_lack: Callable[[Any], bool]
+    stage: Any,
+    undefined: Mapping[Any, Sequence[Any]],
+    drawn: Callable[[], Iterable[Any]],
+    may_lack: Callable[[Any], bool],
 ) -> Iterator[Undefined]:
-    """The overs that take some of these prims off the stage, where that is probably a slip.
+    """The overs that take these prims off the stage, where that is probably a slip.
 
     An `over` without a defined prim above it is left out, unless a sibling has nearly its name:
     a layer of overs is meant to be composed below another one.
-    So is a library, which an arc or a PointInstancer brings onto the stage from below the `over`.
+    So is a library: an `over` from below which an arc or a PointInstancer brings something onto
+    the stage, and one whose prims are among those that are `drawn`, by another path.
     `may_lack` tells whether a layer that did not open may define a prim.
     """
     arcs = _Arcs(stage)
     faulty = _faulty(stage)
-    below: dict[Any, list[Any]] = defaultdict(list)
-    for prim in prims:
-        below[_topmost_undefined(prim)].append(prim)
-    for over, found in sorted(below.items(), key=lambda item: item[0].GetPath()):
+    by_spec: dict[Any, list[Any]] = defaultdict(list)
+    for over in sorted(undefined, key=get_path):
+        by_spec[get_prim_stack(over)[0]].append(over)
+    for over, *copies in by_spec.values():
         similar = _similar_sibling(over)
         if not similar and over.GetParent().IsPseudoRoot():
             continue
-        is_sure = not may_lack(over) and faulty.isdisjoint(over.GetPath().GetPrefixes())
-        if is_sure and not _has_unselected_variants(over) and not arcs.meet(over):
-            yield Undefined(over, tuple(_topmost(found)), similar)
+        is_composed = not may_lack(over) and faulty.isdisjoint(over.GetPath().GetPrefixes())
+        if not is_composed or _may_be_defined_in_variant(over):
+            continue
+        prims = undefined[over]
+        if not arcs.lead_below(over) and not _share_specs(prims, drawn()):
+            yield Undefined(over, tuple(_topmost(prims)), similar, 1 + len(copies))
+
+
+def _share_specs(prims: Iterable[Any], drawn: Iterable[Any]) -> bool:
+    """Whether a spec of some prims is one of another prim too."""
+    specs = {spec for prim in prims for spec in get_prim_stack(prim)}
+    return any(not specs.isdisjoint(get_prim_stack(prim)) for prim in drawn)
 
 
 def _faulty(stage: Any) -> frozenset[Any]:
@@ -58,32 +74,48 @@ def _faulty(stage: Any) -> frozenset[Any]:
     return frozenset(in_prototype(prim).GetPath() for prim in prims if prim)
 
 
-def _topmost_undefined(prim: Any) -> Any:
-    while not (above := prim.GetParent()).IsDefined():
-        prim = above
-    return prim
-
-
 def _similar_sibling(over: Any) -> str | None:
     """The path of a defined sibling whose name is one slip away; None where there are several."""
     siblings = [
         sibling
-        for sibling in over.GetParent().GetChildren()
+        for sibling in get_children(over.GetParent(), WITH_INSTANCES)
         if is_one_slip_from(over.GetName(), sibling.GetName())
     ]
     return shown(siblings[0]).path if len(siblings) == 1 else None
 
 
-def _has_unselected_variants(prim: Any) -> bool:
-    """Whether another variant of the prim or of one above it might define it."""
-    while not prim.IsPseudoRoot():
-        sets = prim.GetVariantSets()
-        for name in sets.GetNames():
-            selectable = set(sets.GetVariantSet(name).GetVariantNames())
-            if selectable - {sets.GetVariantSelection(name)}:
-                return True
-        prim = prim.GetParent()
-    return False
+def _may_be_defined_in_variant(prim: Any) -> bool:
+    """Whether a variant, of the prim or of one above it, that is not selected might define it."""
+    path = prim.GetPath()
+    return any(
+        _may_define(variant, path.MakeRelativePath(above.GetPath()).GetPrefixes())
+        for above in (prim, *_ancestors(prim))
+        for variant in _unselected(above)
+    )
+
+
+def _ancestors(prim: Any) -> Iterator[Any]:
+    while not (prim := prim.GetParent()).IsPseudoRoot():
+        yield prim
+
+
+def _unselected(prim: Any) -> Iterator[Any]:
+    """The specs of a prim's variants that are not selected."""
+    sets = prim.GetVariantSets()
+    for spec in get_prim_stack(prim) if sets.GetNames() else ():
+        for name, variant_set in spec.variantSets.items():
+            selected = sets.GetVariantSelection(name)
+            yield from (
+                each.primSpec for each in variant_set.variants.values() if each.name != selected
+            )
+
+
+def _may_define(variant: Any, prefixes: Iterable[Any]) -> bool:
+    """Whether a variant defines a prim at the last of these relative paths, or has arcs above."""
+    specs = [variant, *(variant.GetPrimAtPath(path) for path in prefixes if path.name != ".")]
+    return any(spec and any(map(spec.HasInfo, _ARCS)) for spec in specs) or bool(
+        specs[-1] and specs[-1].specifier != Sdf.SpecifierOver
+    )
 
 
 def _topmost(prims: Iterable[Any]) -> Iterator[Any]:
@@ -101,25 +133,29 @@ class _Arcs:
     def __init__(self, stage: Any) -> None:
         self._stage = stage
 
-    def meet(self, over: Any) -> bool:
-        """Whether an arc leads to an `over`, below it or above it, in one of its layers."""
-        paths = {spec.path.StripAllVariantSelections() for spec in over.GetPrimStack()}
-        above = {prefix for path in paths for prefix in path.GetPrefixes()}
-        return not paths.isdisjoint(self._with_prefixes) or not above.isdisjoint(self._targets)
-
-    @cached_property
-    def _with_prefixes(self) -> frozenset[Any]:
-        return frozenset(prefix for target in self._targets for prefix in target.GetPrefixes())
+    def lead_below(self, over: Any) -> bool:
+        """Whether an arc leads to an `over` or below it, by one of its paths."""
+        index = over.ComputeExpandedPrimIndex()  # its nodes do not keep it alive
+        return not self._targets.isdisjoint(_paths(index.rootNode))
 
     @cached_property
     def _targets(self) -> frozenset[Any]:
+        """The paths that arcs lead to, and all above them."""
         targets: set[Any] = set()
         for layer in self._stage.GetUsedLayers():
             layer.Traverse(
                 Sdf.Path.absoluteRootPath,
                 lambda path, layer=layer: targets.update(_targets_at(layer, path)),
             )
-        return frozenset(target.StripAllVariantSelections() for target in targets)
+        bare = (target.StripAllVariantSelections() for target in targets)
+        return frozenset(prefix for target in bare for prefix in target.GetPrefixes())
+
+
+def _paths(node: Any) -> Iterator[Any]:
+    """The paths of a prim in all layers that it is composed of."""
+    yield node.path.StripAllVariantSelections()
+    for child in node.children:
+        yield from _paths(child)
 
 
 def _targets_at(layer: Any, path: Any) -> Iterator[Any]:

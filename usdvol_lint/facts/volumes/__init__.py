@@ -70,7 +70,7 @@ class Volumes(Wing):
     @fact
     def _plain_bindings(self, volume: Any) -> FieldBindings:
         """The bindings of a Volume of which `bound_fields` has only the slots."""
-        return self._binding_reader.read(volume, self.tables.field_slots, self._layers.may_lack)
+        return self._binding_reader.read(volume, self._layers.may_lack)
 
     def intended_field(self, binding: Binding) -> str | None:
         """The path of the field that a binding without one was probably intended to target."""

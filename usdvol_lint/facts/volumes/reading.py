@@ -70,35 +70,31 @@ class BindingReader:
         ]
 
     def _in_full(self, volume: Any, live: Mapping[Any, Slot], may_lack: MayLack) -> BoundFields:
-        bindings = self.read(volume, live, may_lack)
+        bindings = self.read(volume, may_lack)
         paths = sorted(bindings.target_paths())
         slots = tuple(live[path] for path in paths if path in live)
         return BoundFields(bindings.marks(volume), slots, bindings)
 
-    def read(self, volume: Any, live: Mapping[Any, Slot], may_lack: MayLack) -> FieldBindings:
+    def read(self, volume: Any, may_lack: MayLack) -> FieldBindings:
         """Reads all bindings of one Volume."""
         bindings, others = [], []
         for prop in get_properties(volume):
             name = get_name(prop)
             if name.startswith(schema.FIELD_NAMESPACE):
-                key = name.removeprefix(schema.FIELD_NAMESPACE)
-                bindings.append(self._binding(prop, key, live, may_lack))
+                bindings.append(self._binding(prop, name[len(schema.FIELD_NAMESPACE) :], may_lack))
             elif isinstance(prop, Usd.Relationship):
                 others.append(prop)
         undeclared = tuple(_undeclared(others, bindings, self._kinds)) if others else ()
         return FieldBindings(tuple(bindings), undeclared)
 
-    def _binding(
-        self, prop: Any, name: str, live: Mapping[Any, Slot], may_lack: MayLack
-    ) -> Binding:
+    def _binding(self, prop: Any, name: str, may_lack: MayLack) -> Binding:
         if not isinstance(prop, Usd.Relationship):
             return Binding(prop, name, False)
         stage = get_stage(prop)
         paths = get_targets(prop)
         if paths:
-            targets = tuple(
-                [read_target(stage, path, self._kinds, live, may_lack) for path in paths]
-            )
+            volume = prop.GetPrim()
+            targets = tuple([read_target(volume, path, self._kinds, may_lack) for path in paths])
             return Binding(prop, name, True, targets)
         emptiness, lost = why_empty(prop)
         forwards_to = "".join(shown_path(stage, path) for path in prop.GetTargets()[:1])

@@ -9,6 +9,7 @@ from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Slot
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.bindings import FieldBindings
@@ -67,5 +68,5 @@ def is_shared(
 
 def _fields_below(volume: Any, kinds: PrimKinds) -> list[Any]:
     """The field prims below a Volume, also inside instances."""
-    below = Usd.PrimRange(volume, Usd.TraverseInstanceProxies())
+    below = Usd.PrimRange(volume, WITH_INSTANCES)
     return [prim for prim in below if kinds.is_a(prim, schema.FIELD)]
