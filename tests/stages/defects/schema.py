@@ -76,6 +76,13 @@ def opacities_misspelt(subject: ParticleSubject, rng: Random) -> None:
     subject.prim.properties[rng.choice(("opacitys", "opacity", "Opacities"))] = array
 
 
+@on_particles("SCH004", needs={"arrays": True})
+def positions_misspelt(subject: ParticleSubject, rng: Random) -> None:
+    """As UsdGeom's Points call them, or with a slip: no particle is left."""
+    array = subject.prim.properties.pop(subject.name_of("positions"))
+    subject.prim.properties[rng.choice(("points", "postions", "Positions"))] = array
+
+
 @on_volume("SCH005")
 def data_type_not_allowed(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
