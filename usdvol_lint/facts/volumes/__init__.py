@@ -96,16 +96,21 @@ class Volumes(Wing):
         """The fields that no Volume targets, under this variant selection or one before it.
 
         What uses a field under this selection is added to `used`, for the selections to come.
-        There are none where part of the stage can't be read.  Fields are left out that a faulty
-        Volume accounts for: those below it, and those that its relationships probably intended.
+        There are none where part of the stage can't be read, and without Volumes none but the only
+        field of the stage: several are a library.  Fields are left out that a faulty Volume
+        accounts for: those below it, and those that its relationships probably intended.
         """
-        from usdvol_lint.facts.volumes.usage import accounted_for
+        from usdvol_lint.facts.volumes.usage import accounted_for, is_targeted
 
         slots, used = self.tables.field_slots, self._users
         self._used.add(path for path, slot in slots.items() if slot in used)
         volumes = self._prims.of(schema.VOLUME)
-        if not volumes or not self._used.missing_of(slots) or not self._layers.are_whole:
+        if not self._used.missing_of(slots) or not self._layers.are_whole:
             return []
+        if not volumes and (len(slots) > 1 or self._layers.undefined_prims):
+            return []
+        if not volumes and is_targeted(self._stage, *slots):
+            return []  # by a prim that is no Volume, which is a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
         for volume in volumes:

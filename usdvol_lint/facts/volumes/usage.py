@@ -47,6 +47,14 @@ def accounted_for(
         yield from filter(None, map(index.intended_by, bindings.bindings))
 
 
+def is_targeted(stage: Any, field: Any) -> bool:
+    """Whether any relationship of the stage targets the field at a path."""
+    roots = (stage.GetPseudoRoot(), *stage.GetPrototypes())
+    targets = (path for root in roots for path in root.FindAllRelationshipTargetPaths())
+    prims = (stage.GetPrimAtPath(path.GetPrimPath()) for path in targets)
+    return any(prim and in_prototype(prim).GetPath() == field for prim in prims)
+
+
 def unbound_fields(
     volume: Any, kinds: PrimKinds, slots: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> list[Any]:
