@@ -174,3 +174,13 @@ def points_for_splats(subject: VolumeSubject, rng: Random) -> Prim:
     points.properties["points"] = Attribute("point3f[]", [(0, 0, 0)])
     subject.root.children.append(points)
     return points
+
+
+@on_volume("SCH011", needs={"place": "beside"})
+def training_parameters(subject: VolumeSubject, rng: Random) -> Prim:
+    """The arrays of a checkpoint as they are, on a prim that nobody draws."""
+    scope = Prim("checkpoint", "Scope")
+    for name in ("positions", "scales", "rotations", "densities", "features_albedo"):
+        scope.properties[name] = Attribute("float[]", [rng.uniform(-5, 5)])
+    subject.root.children.append(scope)
+    return scope
