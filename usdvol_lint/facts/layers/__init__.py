@@ -31,7 +31,7 @@ class Layers(Wing):
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
-        self.undefined_prims = undefined
+        self._undefined = undefined
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
@@ -64,11 +64,16 @@ class Layers(Wing):
     @property
     def undefined(self) -> Iterator[Undefined]:
         """The overs that take prims of ours off the stage, where that is probably a slip."""
-        if not self.undefined_prims:
+        if not self._undefined:
             return iter(())
         from usdvol_lint.facts.layers.undefined import find_undefined
 
-        return find_undefined(self._stage, self.undefined_prims, self._drawn, self.may_lack)
+        return find_undefined(self._stage, self._undefined, self._drawn, self.may_lack)
+
+    @property
+    def undefined_prims(self) -> Iterator[Any]:
+        """The prims of ours that an `over` takes off the stage, also of libraries."""
+        return chain.from_iterable(self._undefined.values())
 
     def _drawn(self) -> Iterator[Any]:
         return chain.from_iterable(map(self.tables.prims, schema.OURS))

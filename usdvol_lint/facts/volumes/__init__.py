@@ -100,17 +100,18 @@ class Volumes(Wing):
         field of the stage: several are a library.  Fields are left out that a faulty Volume
         accounts for: those below it, and those that its relationships probably intended.
         """
-        from usdvol_lint.facts.volumes.usage import accounted_for, is_targeted
+        from usdvol_lint.facts.volumes.usage import accounted_for, any_targets
 
         slots, used = self.tables.field_slots, self._users
         self._used.add(path for path, slot in slots.items() if slot in used)
         volumes = self._prims.of(schema.VOLUME)
         if not self._used.missing_of(slots) or not self._layers.are_whole:
             return []
-        if not volumes and (len(slots) > 1 or self._layers.undefined_prims):
+        if not volumes and len(slots) > 1:
             return []
-        if not volumes and is_targeted(self._stage, *slots):
-            return []  # by a prim that is no Volume, which is a finding of its own
+        hidden = self._layers.undefined_prims
+        if not volumes and any_targets(self._stage, next(iter(slots)), hidden):
+            return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
         for volume in volumes:

@@ -47,10 +47,12 @@ def accounted_for(
         yield from filter(None, map(index.intended_by, bindings.bindings))
 
 
-def is_targeted(stage: Any, field: Any) -> bool:
-    """Whether any relationship of the stage targets the field at a path."""
+def any_targets(stage: Any, field: Any, undefined: Iterable[Any]) -> bool:
+    """Whether a relationship targets the field at a path, on the stage or on undefined prims."""
     roots = (stage.GetPseudoRoot(), *stage.GetPrototypes())
-    targets = (path for root in roots for path in root.FindAllRelationshipTargetPaths())
+    targets = [path for root in roots for path in root.FindAllRelationshipTargetPaths()]
+    for prim in undefined:
+        targets += (path for rel in prim.GetRelationships() for path in rel.GetForwardedTargets())
     prims = (stage.GetPrimAtPath(path.GetPrimPath()) for path in targets)
     return any(prim and in_prototype(prim).GetPath() == field for prim in prims)
 
