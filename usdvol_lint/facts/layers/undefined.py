@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
+from itertools import chain
 from typing import Any, NamedTuple
 
 from pxr import Sdf
@@ -44,7 +45,7 @@ def find_undefined(
     the stage, and one whose prims are among those that are `drawn`, by another path.
     `may_lack` tells whether a layer that did not open may define a prim.
     """
-    arcs = _Arcs(stage)
+    arcs = _Arcs(stage, undefined.values(), drawn)
     faulty = _faulty(stage)
     by_spec: dict[Any, list[Any]] = defaultdict(list)
     for over in sorted(undefined, key=get_path):
@@ -57,14 +58,8 @@ def find_undefined(
         if not is_composed or _may_be_defined_in_variant(over):
             continue
         prims = undefined[over]
-        if not arcs.lead_below(over) and not _share_specs(prims, drawn()):
+        if not arcs.lead_below(over) and not arcs.draw_one_of(prims):
             yield Undefined(over, tuple(_topmost(prims)), similar, 1 + len(copies))
-
-
-def _share_specs(prims: Iterable[Any], drawn: Iterable[Any]) -> bool:
-    """Whether a spec of some prims is one of another prim too."""
-    specs = {spec for prim in prims for spec in get_prim_stack(prim)}
-    return any(not specs.isdisjoint(get_prim_stack(prim)) for prim in drawn)
 
 
 def _faulty(stage: Any) -> frozenset[Any]:
@@ -130,13 +125,32 @@ def _topmost(prims: Iterable[Any]) -> Iterator[Any]:
 class _Arcs:
     """Where the arcs inside of layers lead, selected or not; read only if there is a question."""
 
-    def __init__(self, stage: Any) -> None:
+    def __init__(
+        self,
+        stage: Any,
+        undefined: Iterable[Iterable[Any]],
+        drawn: Callable[[], Iterable[Any]],
+    ) -> None:
         self._stage = stage
+        self._undefined = undefined
+        self._drawn = drawn
 
     def lead_below(self, over: Any) -> bool:
         """Whether an arc leads to an `over` or below it, by one of its paths."""
         index = over.ComputeExpandedPrimIndex()  # its nodes do not keep it alive
         return not self._targets.isdisjoint(_paths(index.rootNode))
+
+    def draw_one_of(self, prims: Iterable[Any]) -> bool:
+        """Whether a spec of these undefined prims is also that of a prim which is drawn."""
+        return any(not self._shared.isdisjoint(get_prim_stack(prim)) for prim in prims)
+
+    @cached_property
+    def _shared(self) -> frozenset[Any]:
+        """The specs that undefined prims have in common with prims that are drawn."""
+        undefined = chain.from_iterable(self._undefined)
+        specs = frozenset(chain.from_iterable(map(get_prim_stack, undefined)))
+        stacks = map(get_prim_stack, self._drawn())
+        return frozenset(chain.from_iterable(map(specs.intersection, stacks)))
 
     @cached_property
     def _targets(self) -> frozenset[Any]:
