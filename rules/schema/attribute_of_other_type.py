@@ -12,9 +12,9 @@ from usdvol_lint.schema import DECLARED_BY
     since="0.1",
 )
 def attribute_of_other_type(prim: Prim, facts: Facts) -> Problems:
-    authored = facts.prims.authored(prim)
-    misspelt = {name for name, *_ in authored.misspellings}
-    for name in sorted(authored.undeclared.intersection(DECLARED_BY) - misspelt):
+    undeclared = facts.prims.authored(prim).undeclared
+    misspelt = {slip.attribute.GetName() for slip in facts.prims.misspelt(prim)}
+    for name in sorted(undeclared.intersection(DECLARED_BY) - misspelt):
         attribute = prim.GetAttribute(name)
         if not attribute or not attribute.HasAuthoredValue() or facts.prims.encoding(prim):
             continue
