@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from posixpath import commonprefix
 
 CLOSE = 0.84
 """The least similarity, from 0 to 1, at which a word is offered for another."""
+_LONG_ENOUGH = 4
 
 
 def closest_match(
@@ -29,3 +31,26 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     """The end of a message about an unknown word, `; did you mean 'x'?`; empty if none is close."""
     closest = closest_match(word, known, cutoff=0.6)
     return f"; did you mean {closest!r}?" if closest else ""
+
+
+def is_one_slip_from(word: str, other: str) -> bool:
+    """Whether two names differ in case alone, or by one slip of the hand.
+
+    A slip is a letter too many or too few, another letter, or two that are swapped, in a name of
+    four letters or more.
+    What tells names of a series apart is none: digits, and another letter at an end (`arm_L`).
+    """
+    if word.lower() == other.lower():
+        return word != other
+    if min(len(word), len(other)) < _LONG_ENOUGH:
+        return False
+    start = len(commonprefix((word, other)))
+    end = len(commonprefix((word[start:][::-1], other[start:][::-1])))
+    ours, theirs = word[start : len(word) - end], other[start : len(other) - end]
+    if any(letter.isdigit() for letter in ours + theirs):
+        return False
+    if len(ours) == len(theirs) == 1:
+        return bool(start and end)
+    is_swapped = len(ours) == 2 and ours == theirs[::-1]
+    is_added = len(ours) + len(theirs) == 1 and (end > 0 or (ours + theirs).islower())
+    return is_swapped or is_added

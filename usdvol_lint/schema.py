@@ -14,6 +14,7 @@ FIELD = "VolumeFieldBase"
 FIELD_ASSET = "FieldAsset"
 PARTICLE_FIELD = "ParticleField"
 GPRIM = "Gprim"
+POINT_INSTANCER = "PointInstancer"
 OURS = frozenset({VOLUME, FIELD, PARTICLE_FIELD})
 
 FIELD_NAMESPACE = "field:"
@@ -173,6 +174,14 @@ ATTRIBUTES: dict[str, dict[str, Attribute]] = {
 
 Those that a Volume inherits from UsdGeom are here too.
 """
+
+DECLARED_BY: dict[str, tuple[str, ...]] = {
+    name: tuple(schema for schema, names in ATTRIBUTES.items() if name in names)
+    for schema, names in ATTRIBUTES.items()
+    if schema not in TYPE_BASES["Volume"]
+    for name in names
+}
+"""By the name of each attribute of UsdVol's own, the schemas that declare it."""
 
 SCALAR_DATA_TYPES = frozenset(
     {"half", "float", "double", "int", "uint", "int64", "bool", "mask", "string"}

@@ -5,7 +5,7 @@ from usdvol_lint.rule import UNKNOWN_TYPE, WARNING, Facts, Prim, Prims, Problem,
 
 @rule(
     "SCH011",
-    on=(UNKNOWN_TYPE, "Points", "ParticleField", "Volume"),
+    on=(UNKNOWN_TYPE, "Points", "Scope", "ParticleField", "Volume"),
     when=When(Prims.may_be_encoded_otherwise, bool),
     severity=WARNING,
     since="0.1",

@@ -34,7 +34,7 @@ def write_stage(folder: Path, text: str, **layers: str) -> str:
 
 def assigned(stage: Usd.Stage, found: Walk, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
     """Each rule with each prim that it is handed; no precondition fails."""
-    facts = Facts(Context.of(stage), found.kept, found.clipped)
+    facts = Facts(Context.of(stage), found.kept, found.clipped, found.undefined)
     failed: list[object] = []
     pairs = list(assign(found, rules, facts, {}, lambda *failure: failed.append(failure)))
     assert failed == []
@@ -77,7 +77,7 @@ LIVE = 'def Volume "live"\n{\n}\n'
         (f'def "untyped"\n{{\n{LIVE}}}\n', 2, ["/untyped/live"]),
         (f'class "library"\n{{\n{LIVE}}}\n', 0, []),
         (f'class Volume "library"\n{{\n}}\n{LIVE}', 1, ["/live"]),
-        (f'over "nowhere"\n{{\n{LIVE}}}\n', 0, []),
+        (f'over "nowhere"\n{{\n{LIVE}}}\n', 2, []),
         (f'def Xform "off" (\n    active = false\n)\n{{\n{LIVE}}}\n', 0, []),
         (
             f'def Xform "a"\n{{\n{LIVE}def Volume "off" (active = false)\n{{\n}}\n}}\n',
@@ -89,6 +89,63 @@ LIVE = 'def Volume "live"\n{\n}\n'
 )
 def test_live_prims(text: str, prims: int, kept: list[str], tmp_path: Path) -> None:
     assert walked(tmp_path, text) == (prims, kept)
+
+
+def instancer(name: str, *prototypes: str, below: str = "") -> str:
+    targets = ", ".join(f"<{path}>" for path in prototypes)
+    return f'def PointInstancer "{name}"\n{{\nrel prototypes = [{targets}]\n{below}}}\n'
+
+
+@pytest.mark.parametrize(
+    ("prototypes", "library", "kept"),
+    [
+        (("/library/live",), f'over "library"\n{{\n{LIVE}}}\n', ["/library/live"]),
+        (("/library/live.size",), f'over "library"\n{{\n{LIVE}}}\n', ["/library/live"]),
+        (("/library/gone",), f'over "library"\n{{\n{LIVE}}}\n', []),
+        (("/library",), f'over "library"\n{{\n{LIVE}}}\n', []),
+        (("/library",), f'class "library"\n{{\n{LIVE}}}\n', []),
+        (("/library/live",), f'class "library"\n{{\n{LIVE}}}\n', []),
+        (("/library",), f'def "library"\n{{\n{LIVE}}}\n', ["/library/live"]),
+        (
+            ("/library/a", "/library/a/live"),
+            f'over "library"\n{{\ndef "a"\n{{\n{LIVE}over "b"\n{{\n{LIVE}}}\n}}\n{LIVE}}}\n',
+            ["/library/a/live"],
+        ),
+        (
+            ("/library/more",),
+            'over "library"\n{\n' + instancer("more", "/other/live") + "}\n"
+            f'over "other"\n{{\n{LIVE}}}\n',
+            ["/other/live"],
+        ),
+    ],
+)
+def test_what_a_point_instancer_draws_below_an_over(
+    prototypes: tuple[str, ...], library: str, kept: list[str], tmp_path: Path
+) -> None:
+    assert walked(tmp_path, instancer("i", *prototypes) + library)[1] == kept
+
+
+def test_a_point_instancer_that_is_not_drawn_draws_nothing(tmp_path: Path) -> None:
+    library = f'over "library"\n{{\n{instancer("i", "/library/live")}{LIVE}}}\n'
+    assert walked(tmp_path, library) == (3, [])
+
+
+def test_a_point_instancer_that_is_an_instance(tmp_path: Path) -> None:
+    below = f'over "library"\n{{\n{LIVE}}}\n'
+    lib = instancer("cloud", "/cloud/library/live", below=below)
+    text = INSTANCE.format("a", "cloud") + INSTANCE.format("b", "cloud")
+    assert walked(tmp_path, text, lib=lib)[1] == ["prototype/library/live"]
+
+
+def test_what_an_over_takes_off_the_stage(tmp_path: Path) -> None:
+    text = f'over "fx"\n{{\n{LIVE}over Volume "b"\n{{\n}}\ndef "c"\n{{\n{LIVE}}}\n}}\n'
+    drawn = 'over "lib"\n{\ndef Volume "a"\n{\n}\n}\n' + instancer("i", "/lib/a")
+    spheres = 'over "spheres"\n{\ndef Sphere "a"\n{\n}\n}\n'
+    stage = Usd.Stage.Open(write_stage(tmp_path, text + drawn + spheres))
+    result = walk(stage, [asks("ONE001", "Sphere", "Xform")], PrimKinds())
+    over = stage.GetPrimAtPath("/fx")
+    assert result.undefined == {over: [over.GetChild("live"), over.GetPrimAtPath("c/live")]}
+    assert [[prim.GetName() for prim in kept] for kept in result.kept.values()] == [["a"]]
 
 
 CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'

@@ -198,6 +198,22 @@ def point_instancer(scene: Scene, placed: Placed, name: str, rng: Random) -> Pla
 
 
 @arc
+def prototype_below_over(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
+    """As USD's documentation advises it; of what else is below the `over` nothing is drawn."""
+    prototype = Prim("prototype", metadata=[("prepend references = ", *_target(placed))])
+    spare = Prim("spare", rng.choice(("Volume", "OpenVDBAsset")))
+    library = Prim("Prototypes", specifier="over", children=[prototype, spare])
+    instancer = Prim(name, "PointInstancer", children=[library])
+    instancer.properties = {
+        "prototypes": Relationship([f"/{name}/Prototypes/prototype"]),
+        "protoIndices": Attribute("int[]", [0, 0]),
+        "positions": Attribute("point3f[]", [(0, 0, 0), (5, 0, 0)]),
+    }
+    layer = _new(scene, name, rng, [instancer])
+    return _below(layer, placed, f"/{name}", f"/{name}/Prototypes/prototype")
+
+
+@arc
 def variant(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     inner = Prim("inner", metadata=[("prepend references = ", *_target(placed))])
     outer = Prim(name, "Xform")

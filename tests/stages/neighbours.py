@@ -54,6 +54,23 @@ def undefined(rng: Random) -> Prim:
 
 
 @neighbour
+def library_below_over(rng: Random) -> Prim:
+    """Parts that an arc brings onto the stage, and others; the `over` is named like a sibling."""
+    parts = [Prim(name, "Volume") for name in ("puff", "unused")]
+    library = Prim("stock", specifier="over", children=parts)
+    arc = rng.choice(("references", "inherits", "specializes", "payload"))
+    used = Prim("used", metadata=[(f"{arc} = </shelf/stock/puff>",)])
+    used.properties["extent"] = Attribute("float3[]", [(-9, -9, -9), (9, 9, 9)])
+    return Prim("shelf", "Xform", children=[Prim("Stock", "Xform"), library, used])
+
+
+@neighbour
+def over_below_class(rng: Random) -> Prim:
+    over = Prim("fx", specifier="over", children=[_broken_volume("cloud")])
+    return Prim("_class_fx", specifier="class", children=[Prim("FX", "Xform"), over])
+
+
+@neighbour
 def unselected(rng: Random) -> Prim:
     prim = Prim("choice", "Xform")
     prim.metadata = [

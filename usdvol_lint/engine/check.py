@@ -38,7 +38,7 @@ class StageCheck:
 
     def facts(self, walked: Walk) -> Facts:
         """The facts under the variant selection composed now."""
-        return Facts(self._context, walked.kept, walked.clipped)
+        return Facts(self._context, walked.kept, walked.clipped, walked.undefined)
 
     def usd_version(self, facts: Facts) -> Iterator[Stamped]:
         """Reports a stage with particle fields under a USD that does not know them."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import compress, islice, repeat
 from typing import Any
@@ -10,7 +11,8 @@ from typing import Any
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import has_metadata
+from usdvol_lint.facts.usd.calls import COMPOSED, DRAWN_BELOW, has_metadata, is_defined
+from usdvol_lint.facts.usd.instances import appears, in_prototype
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 from usdvol_lint.rule import Rule
 
@@ -25,6 +27,10 @@ From 64 to 4,096 the time is the same.
 class Walk:
     """The number of prims on the stage, and those that some rule asks for, by kind.
 
+    `prims` counts what is composed, `kept` are the prims that are drawn: those that are defined, up
+    to the root or up to a PointInstancer's prototype.
+    `undefined` are prims of our types with a `def` that are not drawn, by the `over` that nothing
+    defines above them.
     `clipped` are prims on which value clips are authored: all those among the kept prims and their
     ancestors, and maybe others.
     """
@@ -32,6 +38,7 @@ class Walk:
     prims: int = 0
     clipped: list[Any] = field(default_factory=list)
     kept: dict[KindKey, list[Any]] = field(default_factory=dict)
+    undefined: dict[Any, list[Any]] = field(default_factory=lambda: defaultdict(list))
 
 
 def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
@@ -40,7 +47,8 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
     Whether a prim is kept is decided once for each combination of type and applied schemas, so
     the cost does not grow with the number of rules.
     """
-    wanted = schema.OURS.union(*(rule.on for rule in rules))
+    asked_for = schema.OURS.union(*(rule.on for rule in rules))
+    wanted = asked_for | {schema.POINT_INSTANCER}
     kept_of_kind: dict[KindKey, list[Any] | None] = {}
     result = Walk()
     for prims in _batches(stage):
@@ -57,8 +65,56 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
             # Depth first: an ancestor of one of these is among them, or an ancestor of the first.
             around = [*_ancestors(prims[0]), *prims]
             result.clipped += compress(around, map(has_metadata, around, repeat("clips")))
-    result.kept = {key: kept for key, kept in kept_of_kind.items() if kept}
+    _sort(result, {key: kept for key, kept in kept_of_kind.items() if kept}, kinds, asked_for)
     return result
+
+
+def _sort(
+    result: Walk,
+    found: Mapping[KindKey, list[Any]],
+    kinds: PrimKinds,
+    asked_for: frozenset[str],
+) -> None:
+    """Keeps the prims that are drawn and that rules ask for; of the others, notes those of ours."""
+    partly = [key for key, prims in found.items() if not all(map(is_defined, prims))]
+    drawn = _prototypes(found, kinds) if partly else set()
+    for key, prims in found.items():
+        names = kinds.names(key)
+        if asked_for.isdisjoint(names):
+            continue
+        if key in partly:
+            others = [prim for prim in prims if not is_defined(prim) and prim not in drawn]
+            if not schema.OURS.isdisjoint(names):
+                for prim in filter(Usd.Prim.HasDefiningSpecifier, others):
+                    result.undefined[_topmost_undefined(prim, drawn)].append(prim)
+            prims = [prim for prim in prims if is_defined(prim) or prim in drawn]
+        if prims:
+            result.kept[key] = prims
+
+
+def _prototypes(found: Mapping[KindKey, list[Any]], kinds: PrimKinds) -> set[Any]:
+    """The prims that nothing defines and that are drawn all the same, as PointInstancers do it."""
+    of_instancers = (key for key in found if schema.POINT_INSTANCER in kinds.names(key))
+    waiting = [prim for key in of_instancers for prim in found[key] if is_defined(prim)]
+    drawn: set[Any] = set()
+    while waiting:
+        instancer = waiting.pop()
+        for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
+            target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
+            root = in_prototype(target) if target else None
+            if not root or root in drawn or is_defined(root) or not DRAWN_BELOW(root):
+                continue
+            prims = list(Usd.PrimRange(root, DRAWN_BELOW))
+            drawn.update(prims)
+            waiting += (prim for prim in prims if kinds.is_a(prim, schema.POINT_INSTANCER))
+    return drawn
+
+
+def _topmost_undefined(prim: Any, drawn: Collection[Any]) -> Any:
+    """The prim right below the first ancestor that is drawn."""
+    while not is_defined(above := prim.GetParent()) and above not in drawn:
+        prim = above
+    return prim
 
 
 def _ancestors(prim: Any) -> Iterator[Any]:
@@ -67,8 +123,9 @@ def _ancestors(prim: Any) -> Iterator[Any]:
 
 
 def _batches(stage: Any) -> Iterator[list[Any]]:
-    roots = [stage.Traverse(), *(Usd.PrimRange(root) for root in stage.GetPrototypes())]
-    for prims in roots:
+    appearing = filter(appears, stage.GetPrototypes())
+    prototypes = (Usd.PrimRange(root, COMPOSED) for root in appearing)
+    for prims in (Usd.PrimRange.Stage(stage, COMPOSED), *prototypes):
         iterator = iter(prims)
         while batch := list(islice(iterator, _BATCH)):
             yield batch

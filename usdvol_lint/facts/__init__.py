@@ -66,9 +66,15 @@ class Facts:
     """
 
     def __init__(
-        self, context: Context, kept: Mapping[KindKey, Sequence[Any]], clipped: Sequence[Any]
+        self,
+        context: Context,
+        kept: Mapping[KindKey, Sequence[Any]],
+        clipped: Sequence[Any],
+        undefined: Mapping[Any, Sequence[Any]],
     ) -> None:
-        """`kept`: the prims that rules ask for, by kind; `clipped`: all that author clip sets."""
+        """`kept`: the prims that rules ask for, by kind; `clipped`: all that author clip sets;
+        `undefined`: by an `over`, the prims of our types that it takes off the stage.
+        """
         from usdvol_lint.facts.prims.attributes import AuthoredReader
         from usdvol_lint.facts.prims.tables import Tables
         from usdvol_lint.facts.usd.clips import Clips
@@ -81,7 +87,7 @@ class Facts:
         self.tables = tables
         self.prims = Prims(tables, kinds, clips)
         self.files = Files(tables, stage, clips, disk, advance)
-        self.layers = Layers(tables, stage, clips, kinds)
+        self.layers = Layers(tables, stage, clips, kinds, undefined)
         self.grids = Grids(tables, self.files, depth.content, volume_files, advance)
         self.volumes = Volumes(
             tables, stage, kinds, self.prims, self.files, self.layers, self.grids, used

@@ -76,6 +76,13 @@ def opacities_misspelt(subject: ParticleSubject, rng: Random) -> None:
     subject.prim.properties[rng.choice(("opacitys", "opacity", "Opacities"))] = array
 
 
+@on_particles("SCH004", needs={"arrays": True})
+def positions_misspelt(subject: ParticleSubject, rng: Random) -> None:
+    """As UsdGeom's Points call them, or with a slip: no particle is left."""
+    array = subject.prim.properties.pop(subject.name_of("positions"))
+    subject.prim.properties[rng.choice(("points", "postions", "Positions"))] = array
+
+
 @on_volume("SCH005")
 def data_type_not_allowed(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
@@ -167,3 +174,13 @@ def points_for_splats(subject: VolumeSubject, rng: Random) -> Prim:
     points.properties["points"] = Attribute("point3f[]", [(0, 0, 0)])
     subject.root.children.append(points)
     return points
+
+
+@on_volume("SCH011", needs={"place": "beside"})
+def training_parameters(subject: VolumeSubject, rng: Random) -> Prim:
+    """The arrays of a checkpoint as they are, on a prim that nobody draws."""
+    scope = Prim("checkpoint", "Scope")
+    for name in ("positions", "scales", "rotations", "densities", "features_albedo"):
+        scope.properties[name] = Attribute("float[]", [rng.uniform(-5, 5)])
+    subject.root.children.append(scope)
+    return scope

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.lost_clips import LostClips
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.retyping import Retyped
+    from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
@@ -28,11 +29,20 @@ if TYPE_CHECKING:
 class Layers(Wing):
     """What USD could not compose, and what layers say of time, up axis and units."""
 
-    def __init__(self, tables: Tables, stage: Any, clips: Clips, kinds: PrimKinds) -> None:
+    def __init__(
+        self,
+        tables: Tables,
+        stage: Any,
+        clips: Clips,
+        kinds: PrimKinds,
+        undefined: Mapping[Any, Sequence[Any]],
+    ) -> None:
+        """`undefined`: by an `over`, the prims of our types that it takes off the stage."""
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
         self._kinds = kinds
+        self._undefined = undefined
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
@@ -133,6 +143,23 @@ class Layers(Wing):
         from usdvol_lint.facts.layers.retyping import retyped_prims
 
         return retyped_prims(self._layered, self._kinds)
+
+    @property
+    def undefined(self) -> Iterator[Undefined]:
+        """The overs that take prims of ours off the stage, where that is probably a slip."""
+        if not self._undefined:
+            return iter(())
+        from usdvol_lint.facts.layers.undefined import find_undefined
+
+        return find_undefined(self._stage, self._undefined, self._drawn, self.may_lack)
+
+    @property
+    def undefined_prims(self) -> Iterator[Any]:
+        """The prims of ours that an `over` takes off the stage, also of libraries."""
+        return chain.from_iterable(self._undefined.values())
+
+    def _drawn(self) -> Iterator[Any]:
+        return chain.from_iterable(map(self.tables.prims, schema.OURS))
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:

@@ -7,6 +7,7 @@ from typing import Any
 from pxr import Usd
 
 from usdvol_lint.facts.usd.calls import get_attribute, has_value
+from usdvol_lint.facts.usd.instances import instances_of
 
 
 def has_bounds(prim: Any) -> bool:
@@ -28,6 +29,6 @@ def _is_hinted(prim: Any) -> bool:
         if prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue():
             return True
         if prim.IsPrototype():
-            return all(_is_hinted(instance) for instance in prim.GetInstances())
+            return all(_is_hinted(instance) for instance in instances_of(prim))
         prim = prim.GetParent()
     return False

@@ -46,6 +46,12 @@ _GSPLAT = Encoding(
     "may hold raw logits and logarithms",
 )
 
+_TRAINING = Encoding(
+    "splats as NuRec files and 3DGRUT name them, before exp, sigmoid and normalization",
+    "export them again, from the training checkpoint or the PLY, as ParticleField3DGaussianSplat; "
+    "do not rename attributes, they hold raw logits and logarithms",
+)
+
 _BY_TYPE = {
     "OmniNuRecFieldAsset": _NUREC,
     "HoudiniFieldAsset": _HOUDINI,
@@ -56,15 +62,18 @@ _Fingerprints: TypeAlias = dict[tuple[str, ...], Encoding]
 """Encodings by prefixes of property names; there must be a property for each prefix."""
 
 _RADIANCE_PRIMVARS: _Fingerprints = {("primvars:radiance:sphericalHarmonics",): _LIGHT_FIELD}
+_RAW_ARRAYS: _Fingerprints = {("features_albedo", "densities", "rotations"): _TRAINING}
 _BY_PROPERTIES: dict[str, _Fingerprints] = {
+    "Scope": _RAW_ARRAYS,
     "Points": {
+        **_RAW_ARRAYS,
         ("primvars:gsplat:",): _GSPLAT,
         ("gsplat:encoding",): _GSPLAT,
         ("primvars:rot", "primvars:widths1", "primvars:widths2"): _ADOBE,
     },
-    "ParticleField": _RADIANCE_PRIMVARS,
-    "ParticleField3DGaussianSplat": _RADIANCE_PRIMVARS,
-    "Volume": {("omni:nurec:",): _NUREC},
+    "ParticleField": {**_RADIANCE_PRIMVARS, **_RAW_ARRAYS},
+    "ParticleField3DGaussianSplat": {**_RADIANCE_PRIMVARS, **_RAW_ARRAYS},
+    "Volume": {("omni:nurec:",): _NUREC, **_RAW_ARRAYS},
 }
 
 

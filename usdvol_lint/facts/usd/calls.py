@@ -31,11 +31,16 @@ get_property_names: Any = Usd.Prim.GetAuthoredPropertyNames
 get_relationship: Any = Usd.Prim.GetRelationship
 get_type: Any = Usd.Prim.GetTypeName
 has_metadata: Any = Usd.Prim.HasAuthoredMetadata
+is_defined: Any = Usd.Prim.IsDefined
 is_in_prototype: Any = Usd.Prim.IsInPrototype
 
 get_targets: Any = Usd.Relationship.GetForwardedTargets
 
 prim_at: Any = Usd.Stage.GetPrimAtPath
 
-WITH_INSTANCES: Any = Usd.TraverseInstanceProxies()
-"""A predicate for `get_children`: what a traversal visits, and the children of instances too."""
+COMPOSED: Any = Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
+"""As USD's default predicate, which does without prims that nothing defines."""
+DRAWN_BELOW: Any = COMPOSED & Usd.PrimHasDefiningSpecifier
+"""What is drawn below a prim that is drawn, also where an `over` hides both from traversals."""
+WITH_INSTANCES: Any = Usd.TraverseInstanceProxies(DRAWN_BELOW)
+"""A predicate for `get_children`: what is drawn, and the children of instances too."""

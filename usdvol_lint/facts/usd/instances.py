@@ -19,7 +19,7 @@ def shown(prim: Any) -> Shown:
     if not prim.IsInPrototype():
         return Shown(str(prim.GetPath()), 1)
     below = path_in_prototype(prim)
-    through = [shown(instance) for instance in _prototype(prim).GetInstances()]
+    through = [shown(instance) for instance in instances_of(_prototype(prim))]
     path = min(instance.path for instance in through)
     return Shown(path + below, sum(instance.instances for instance in through))
 
@@ -29,8 +29,25 @@ def shown_paths(prim: Any) -> list[str]:
     if not prim.IsInPrototype():
         return [str(prim.GetPath())]
     below = path_in_prototype(prim)
-    instances = _prototype(prim).GetInstances()
+    instances = instances_of(_prototype(prim))
     return sorted(path + below for instance in instances for path in shown_paths(instance))
+
+
+def instances_of(prototype: Any) -> list[Any]:
+    """The instances through which a prototype appears; all of them if it appears through none."""
+    instances: list[Any] = prototype.GetInstances()
+    return list(filter(_appears, instances)) or instances
+
+
+def appears(prototype: Any) -> bool:
+    """Whether a prototype has an instance that is not part of a `class`, also in prototypes."""
+    return any(map(_appears, prototype.GetInstances()))
+
+
+def _appears(instance: Any) -> bool:
+    if instance.IsInPrototype():
+        return appears(_prototype(instance))
+    return not instance.IsAbstract()
 
 
 def path_in_prototype(prim: Any) -> str:

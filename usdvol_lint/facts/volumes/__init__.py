@@ -101,17 +101,27 @@ class Volumes(Wing):
         """The fields that no Volume targets, under this variant selection or one before it.
 
         What uses a field under this selection is added to `used`, for the selections to come.
-        There are none where part of the stage can't be read.  Fields are left out that a faulty
-        Volume accounts for, also one whose type is hidden or missing: those below it, and those
-        that its relationships probably intended.
+        There are none where part of the stage can't be read, and without Volumes none but the only
+        field of the stage: several are a library.  Fields are left out that a faulty Volume
+        accounts for, also one whose type is hidden or missing: those below it, and those that its
+        relationships probably intended.
         """
-        from usdvol_lint.facts.volumes.usage import accounted_for, accounted_for_by_other
+        from usdvol_lint.facts.volumes.usage import (
+            accounted_for,
+            accounted_for_by_other,
+            any_targets,
+        )
 
         slots, used = self.tables.field_slots, self._users
         self._used.add(path for path, slot in slots.items() if slot in used)
         volumes = self._prims.of(schema.VOLUME)
-        if not volumes or not self._used.missing_of(slots) or not self._layers.are_whole:
+        if not self._used.missing_of(slots) or not self._layers.are_whole:
             return []
+        if not volumes and len(slots) > 1:
+            return []
+        hidden = self._layers.undefined_prims
+        if not volumes and any_targets(self._stage, next(iter(slots)), hidden):
+            return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
         for volume in volumes:
@@ -170,6 +180,17 @@ class Volumes(Wing):
             for binding, target in self.bindings(volume).with_files()
         ]
         return find_mixed_files(named) if len(named) > 1 else None
+
+    def is_targeted(self, prim: Any) -> bool:
+        """Whether a live Volume targets a prim, also one that is no live field."""
+        return prim.GetPath() in self._targeted
+
+    @cached_property
+    def _targeted(self) -> frozenset[Any]:
+        """The paths of all targets that are no live fields right below their Volume."""
+        bound = self.bound_fields.readable(schema.VOLUME)
+        in_full = (fields.bindings for _, fields in bound if fields.bindings)
+        return frozenset(path for bindings in in_full for path in bindings.target_paths())
 
     @cached_property
     def _targets_of_unknown_type(self) -> frozenset[Any]:

@@ -93,7 +93,8 @@ class BindingReader:
         stage = get_stage(prop)
         paths = get_targets(prop)
         if paths:
-            targets = tuple([read_target(stage, path, self._kinds, may_lack) for path in paths])
+            volume = prop.GetPrim()
+            targets = tuple([read_target(volume, path, self._kinds, may_lack) for path in paths])
             return Binding(prop, name, True, targets)
         emptiness, lost = why_empty(prop)
         forwards_to = "".join(shown_path(stage, path) for path in prop.GetTargets()[:1])

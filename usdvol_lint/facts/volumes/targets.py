@@ -8,7 +8,14 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import prim_at, prim_path
+from usdvol_lint.facts.usd.calls import (
+    get_parent,
+    get_path,
+    get_stage,
+    has_prefix,
+    prim_at,
+    prim_path,
+)
 from usdvol_lint.facts.usd.instances import shown, shown_path
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.states import TargetState
@@ -50,8 +57,9 @@ class Target(NamedTuple):
         return self.shown if self.blamed is self.prim else shown(self.blamed).path
 
 
-def read_target(stage: Any, path: Any, kinds: PrimKinds, may_lack: MayLack) -> Target:
-    """Finds the prim at the path of a target, and the target's state."""
+def read_target(volume: Any, path: Any, kinds: PrimKinds, may_lack: MayLack) -> Target:
+    """Finds the prim at the path of a Volume's target, and the target's state."""
+    stage = get_stage(volume)
     prim = prim_at(stage, prim_path(path))
     if not prim:
         ancestor = _lowest_ancestor(stage, path)
@@ -60,7 +68,7 @@ def read_target(stage: Any, path: Any, kinds: PrimKinds, may_lack: MayLack) -> T
     if path.IsPropertyPath():
         return Target(path, stage, TargetState.PROPERTY, prim, prim)
     schemas = kinds.names(kinds.key(prim))
-    state, blamed = _prim_state(prim, schemas)
+    state, blamed = _prim_state(prim, schemas, volume)
     if state is TargetState.OVER or not (state is TargetState.FIELD or prim.GetTypeName()):
         state = _unless_uncomposed(state, prim, may_lack)
     return Target(path, stage, state, prim, blamed, schemas)
@@ -89,7 +97,7 @@ def _missing_state(ancestor: Any) -> TargetState:
     return TargetState.MISSING
 
 
-def _prim_state(prim: Any, schemas: frozenset[str]) -> tuple[TargetState, Any]:
+def _prim_state(prim: Any, schemas: frozenset[str], volume: Any) -> tuple[TargetState, Any]:
     """The state of a prim, and the prim that explains it."""
     if _LIVE(prim):
         return _schema_state(prim, schemas), prim
@@ -97,11 +105,18 @@ def _prim_state(prim: Any, schemas: frozenset[str]) -> tuple[TargetState, Any]:
         return TargetState.INACTIVE, prim
     if not prim.IsLoaded():
         return TargetState.UNLOADED, prim
-    if not prim.IsDefined():
+    if not prim.IsDefined() and not _is_drawn_with(volume, prim):
         return TargetState.OVER, _topmost(prim, lambda above: not above.IsDefined())
     if prim.IsAbstract():
         return TargetState.ABSTRACT, _topmost(prim, lambda above: above.IsAbstract())
     return _schema_state(prim, schemas), prim
+
+
+def _is_drawn_with(volume: Any, prim: Any) -> bool:
+    """Whether the same `over` hides a prim as hides a Volume that is drawn, as a prototype."""
+    while prim.HasDefiningSpecifier():
+        prim = get_parent(prim)
+    return bool(has_prefix(get_path(volume), get_path(prim)))
 
 
 def _topmost(prim: Any, is_alike: Callable[[Any], bool]) -> Any:

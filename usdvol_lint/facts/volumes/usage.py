@@ -9,6 +9,7 @@ from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Slot
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.bindings import FieldBindings
@@ -54,6 +55,16 @@ def accounted_for_by_other(prim: Any, kinds: PrimKinds) -> Iterator[Any]:
             yield from relationship.GetForwardedTargets()
 
 
+def any_targets(stage: Any, field: Any, undefined: Iterable[Any]) -> bool:
+    """Whether a relationship targets the field at a path, on the stage or on undefined prims."""
+    roots = (stage.GetPseudoRoot(), *stage.GetPrototypes())
+    targets = [path for root in roots for path in root.FindAllRelationshipTargetPaths()]
+    for prim in undefined:
+        targets += (path for rel in prim.GetRelationships() for path in rel.GetForwardedTargets())
+    prims = (stage.GetPrimAtPath(path.GetPrimPath()) for path in targets)
+    return any(prim and in_prototype(prim).GetPath() == field for prim in prims)
+
+
 def unbound_fields(
     volume: Any, kinds: PrimKinds, slots: Mapping[Any, Slot], users: Mapping[Slot, int]
 ) -> list[Any]:
@@ -75,5 +86,5 @@ def is_shared(
 
 def _fields_below(prim: Any, kinds: PrimKinds) -> list[Any]:
     """The field prims below a prim, also inside instances."""
-    below = Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
+    below = Usd.PrimRange(prim, WITH_INSTANCES)
     return [each for each in below if kinds.is_a(each, schema.FIELD)]

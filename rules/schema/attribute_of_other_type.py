@@ -1,0 +1,25 @@
+"""SCH016: an attribute of UsdVol's on a prim whose type lacks it is read by nobody."""
+
+from usdvol_lint.rule import INFO, Facts, Prim, Prims, Problem, Problems, When, rule
+from usdvol_lint.schema import DECLARED_BY
+
+
+@rule(
+    "SCH016",
+    on=("Volume", "VolumeFieldBase", "ParticleField"),
+    when=When(Prims.authored, lambda authored: not authored.undeclared.isdisjoint(DECLARED_BY)),
+    severity=INFO,
+    since="0.1",
+)
+def attribute_of_other_type(prim: Prim, facts: Facts) -> Problems:
+    undeclared = facts.prims.authored(prim).undeclared
+    misspelt = {slip.attribute.GetName() for slip in facts.prims.misspelt(prim)}
+    for name in sorted(undeclared.intersection(DECLARED_BY) - misspelt):
+        attribute = prim.GetAttribute(name)
+        if not attribute or not attribute.HasAuthoredValue() or facts.prims.encoding(prim):
+            continue
+        yield Problem(
+            f"{name!r} is an attribute of {' and '.join(DECLARED_BY[name])}, and this is a {prim.GetTypeName()}",
+            at=attribute,
+            suggestion="remove it, or use a type that has it",
+        )

@@ -1,0 +1,23 @@
+"""STG005: a `def` below an `over` that nothing defines is not on the stage."""
+
+from usdvol_lint.rule import INFO, STAGE, WARNING, Facts, Prim, Problem, Problems, quoted, rule
+
+
+@rule("STG005", on=STAGE, severity=WARNING, since="0.1")
+def def_below_over(root: Prim, facts: Facts) -> Problems:
+    for over, prims, similar, copies in facts.layers.undefined:
+        if all(map(facts.volumes.is_targeted, prims)):
+            continue  # VOL008 says it
+        first = f"{prims[0].GetTypeName()} {prims[0].GetName()!r}"
+        more = f" and {len(prims) - 1} more" if len(prims) > 1 else ""
+        what = f"{first}{more} below it {'are' if more else 'is'} not on the stage"
+        where = f" (at {copies} prims)" if copies > 1 else ""
+        name = over.GetName()
+        yield Problem(
+            f"no layer defines {name!r}, there is only an over, so {what}{where}",
+            at=over,
+            severity=None if similar else INFO,
+            suggestion=f"did you mean {quoted(similar)}?"
+            if similar
+            else f"write 'def \"{name}\"' where it should be drawn",
+        )

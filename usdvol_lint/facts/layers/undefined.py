@@ -1,0 +1,189 @@
+"""Defined prims that are not on the stage because a prim above them is only an `over`."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import chain
+from typing import Any, NamedTuple
+
+from pxr import Sdf
+
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_path, get_prim_stack
+from usdvol_lint.facts.usd.instances import in_prototype, shown
+from usdvol_lint.nearest import is_one_slip_from
+
+_PROTOTYPES = "prototypes"
+_ARCS = ("references", "payload", "inheritPaths", "specializes", "variantSetNames")
+
+
+class Undefined(NamedTuple):
+    """An `over` that no layer defines, and the topmost prims of ours with a `def` below it.
+
+    `similar` is the path of a defined sibling with nearly the same name; None if there is none.
+    `copies` counts the prims of the stage that have the spec of this `over`.
+    """
+
+    over: Any
+    prims: tuple[Any, ...]
+    similar: str | None
+    copies: int
+
+
+def find_undefined(
+    stage: Any,
+    undefined: Mapping[Any, Sequence[Any]],
+    drawn: Callable[[], Iterable[Any]],
+    may_lack: Callable[[Any], bool],
+) -> Iterator[Undefined]:
+    """The overs that take these prims off the stage, where that is probably a slip.
+
+    An `over` without a defined prim above it is left out, unless a sibling has nearly its name:
+    a layer of overs is meant to be composed below another one.
+    So is a library: an `over` from below which an arc or a PointInstancer brings something onto
+    the stage, and one whose prims are among those that are `drawn`, by another path.
+    `may_lack` tells whether a layer that did not open may define a prim.
+    """
+    arcs = _Arcs(stage, undefined.values(), drawn)
+    faulty = _faulty(stage)
+    by_spec: dict[Any, list[Any]] = defaultdict(list)
+    for over in sorted(undefined, key=get_path):
+        by_spec[get_prim_stack(over)[0]].append(over)
+    for over, *copies in by_spec.values():
+        similar = _similar_sibling(over)
+        if not similar and over.GetParent().IsPseudoRoot():
+            continue
+        is_composed = not may_lack(over) and faulty.isdisjoint(over.GetPath().GetPrefixes())
+        if not is_composed or _may_be_defined_in_variant(over):
+            continue
+        prims = undefined[over]
+        if not arcs.lead_below(over) and not arcs.draw_one_of(prims):
+            yield Undefined(over, tuple(_topmost(prims)), similar, 1 + len(copies))
+
+
+def _faulty(stage: Any) -> frozenset[Any]:
+    """The paths of the prims with an arc that brought nothing, as the walk visits them."""
+    prims = [stage.GetPrimAtPath(error.rootSite.path) for error in stage.GetCompositionErrors()]
+    prims += [prim.GetPrototype() for prim in prims if prim and prim.IsInstance()]
+    return frozenset(in_prototype(prim).GetPath() for prim in prims if prim)
+
+
+def _similar_sibling(over: Any) -> str | None:
+    """The path of a defined sibling whose name is one slip away; None where there are several."""
+    siblings = [
+        sibling
+        for sibling in get_children(over.GetParent(), WITH_INSTANCES)
+        if is_one_slip_from(over.GetName(), sibling.GetName())
+    ]
+    return shown(siblings[0]).path if len(siblings) == 1 else None
+
+
+def _may_be_defined_in_variant(prim: Any) -> bool:
+    """Whether a variant, of the prim or of one above it, that is not selected might define it."""
+    path = prim.GetPath()
+    return any(
+        _may_define(variant, path.MakeRelativePath(above.GetPath()).GetPrefixes())
+        for above in (prim, *_ancestors(prim))
+        for variant in _unselected(above)
+    )
+
+
+def _ancestors(prim: Any) -> Iterator[Any]:
+    while not (prim := prim.GetParent()).IsPseudoRoot():
+        yield prim
+
+
+def _unselected(prim: Any) -> Iterator[Any]:
+    """The specs of a prim's variants that are not selected."""
+    sets = prim.GetVariantSets()
+    for spec in get_prim_stack(prim) if sets.GetNames() else ():
+        for name, variant_set in spec.variantSets.items():
+            selected = sets.GetVariantSelection(name)
+            yield from (
+                each.primSpec for each in variant_set.variants.values() if each.name != selected
+            )
+
+
+def _may_define(variant: Any, prefixes: Iterable[Any]) -> bool:
+    """Whether a variant defines a prim at the last of these relative paths, or has arcs above."""
+    specs = [variant, *(variant.GetPrimAtPath(path) for path in prefixes if path.name != ".")]
+    return any(spec and any(map(spec.HasInfo, _ARCS)) for spec in specs) or bool(
+        specs[-1] and specs[-1].specifier != Sdf.SpecifierOver
+    )
+
+
+def _topmost(prims: Iterable[Any]) -> Iterator[Any]:
+    """Those of the prims that are not below another of them, by path."""
+    last = Sdf.Path.emptyPath
+    for prim in sorted(prims, key=get_path):
+        if last.isEmpty or not prim.GetPath().HasPrefix(last):
+            last = prim.GetPath()
+            yield prim
+
+
+class _Arcs:
+    """Where the arcs inside of layers lead, selected or not; read only if there is a question."""
+
+    def __init__(
+        self,
+        stage: Any,
+        undefined: Iterable[Iterable[Any]],
+        drawn: Callable[[], Iterable[Any]],
+    ) -> None:
+        self._stage = stage
+        self._undefined = undefined
+        self._drawn = drawn
+
+    def lead_below(self, over: Any) -> bool:
+        """Whether an arc leads to an `over` or below it, by one of its paths."""
+        index = over.ComputeExpandedPrimIndex()  # its nodes do not keep it alive
+        return not self._targets.isdisjoint(_paths(index.rootNode))
+
+    def draw_one_of(self, prims: Iterable[Any]) -> bool:
+        """Whether a spec of these undefined prims is also that of a prim which is drawn."""
+        return any(not self._shared.isdisjoint(get_prim_stack(prim)) for prim in prims)
+
+    @cached_property
+    def _shared(self) -> frozenset[Any]:
+        """The specs that undefined prims have in common with prims that are drawn."""
+        undefined = chain.from_iterable(self._undefined)
+        specs = frozenset(chain.from_iterable(map(get_prim_stack, undefined)))
+        stacks = map(get_prim_stack, self._drawn())
+        return frozenset(chain.from_iterable(map(specs.intersection, stacks)))
+
+    @cached_property
+    def _targets(self) -> frozenset[Any]:
+        """The paths that arcs lead to, and all above them."""
+        targets: set[Any] = set()
+        for layer in self._stage.GetUsedLayers():
+            layer.Traverse(
+                Sdf.Path.absoluteRootPath,
+                lambda path, layer=layer: targets.update(_targets_at(layer, path)),
+            )
+        bare = (target.StripAllVariantSelections() for target in targets)
+        return frozenset(prefix for target in bare for prefix in target.GetPrefixes())
+
+
+def _paths(node: Any) -> Iterator[Any]:
+    """The paths of a prim in all layers that it is composed of."""
+    yield node.path.StripAllVariantSelections()
+    for child in node.children:
+        yield from _paths(child)
+
+
+def _targets_at(layer: Any, path: Any) -> Iterator[Any]:
+    """The paths inside of the layer that arcs on this spec lead to."""
+    if path.IsPropertyPath():
+        if path.name == _PROTOTYPES and (relationship := layer.GetRelationshipAtPath(path)):
+            yield from relationship.targetPathList.GetAddedOrExplicitItems()
+        return
+    is_of_prim = path.IsPrimPath() or path.IsPrimVariantSelectionPath()
+    spec = layer.GetPrimAtPath(path) if is_of_prim else None
+    if not spec:
+        return
+    for key in filter(spec.HasInfo, ("inheritPaths", "specializes")):
+        yield from spec.GetInfo(key).GetAppliedItems()
+    for key in filter(spec.HasInfo, ("references", "payload")):
+        arcs = spec.GetInfo(key).GetAppliedItems()
+        yield from (arc.primPath for arc in arcs if not arc.assetPath and arc.primPath)
