@@ -105,8 +105,8 @@ def test_both_modes_on_one_stage(lint: Lint) -> None:
 
 def test_a_missing_frame_in_one_look(lint: Lint) -> None:
     samples = "filePath.timeSamples = { 1: @./1.vdb@, 2: @./8.vdb@, 3: @./9.vdb@ }"
-    samples = field("1").replace("filePath = @./1.vdb@", samples)
-    text = prim("model", variant_set("look", a=field("1"), b=samples), look="a")
+    samples = volume("1").replace("filePath = @./1.vdb@", samples)
+    text = prim("model", variant_set("look", a=volume("1"), b=samples), look="a")
     assert lint(0, stage=text).findings == ()
     (finding,) = lint(stage=text).findings
     assert (finding.site.variant, finding.site.frames) == ("/model{look=b}", "2-3")
