@@ -1,6 +1,6 @@
 """VOL013: the extent of a Volume must enclose the grids that its fields name."""
 
-from usdvol_lint.rule import ERROR, INFO, Facts, Prim, Problem, Problems, Volumes, When, rule
+from usdvol_lint.rule import ERROR, INFO, Facts, NotChecked, Prim, Problem, Problems, Volumes, When, rule
 
 
 def _sticks_out(overhang: float, relative_slack: float) -> bool:
@@ -21,4 +21,10 @@ def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5
             at=found,
             suggestion=f"write '{found.fitting}'",
             severity=INFO if found.only_half_voxels else None,
+        )
+    if unmeasured := facts.volumes.unmeasured_grids(volume):
+        yield NotChecked(
+            f"the extent was not compared with {unmeasured.shown}: "
+            f"the file does not tell where its voxels are{unmeasured.count}",
+            at=unmeasured,
         )

@@ -821,6 +821,8 @@ def test_each_stage_once_in_the_order_given(two: Path) -> None:
 def test_interrupted(end: str, tmp_path: Path) -> None:
     """No process stays behind, not even one that hangs."""
     write(tmp_path, hang=volume("hang"))
+    # Under `make test &` and nohup it would be ignored, and inherited as ignored.
+    previous = signal.signal(signal.SIGINT, signal.default_int_handler)
     with subprocess.Popen(
         [*PROGRAM, "--isolated", "--pack", str(ROUGH), "hang.usda"],
         cwd=tmp_path,
@@ -839,6 +841,7 @@ def test_interrupted(end: str, tmp_path: Path) -> None:
         else:
             process.terminate()
         out, err = process.communicate(timeout=60)
+    signal.signal(signal.SIGINT, previous)
     assert (process.returncode, out, err.strip()) == (2, b"", b"usdvol-lint: interrupted")
     with pytest.raises(ProcessLookupError):
         os.killpg(process.pid, 0)

@@ -77,6 +77,11 @@ class Grid(NamedTuple):
         """The name as OpenVDB's tools print it: `density[1]` if others have the same name."""
         return self.unique_name if self.suffix is None else f"{self.unique_name}[{self.suffix}]"
 
+    @property
+    def is_unmeasured(self) -> bool:
+        """Whether it may have voxels, and the file does not tell where they are."""
+        return not self.is_empty and (self.index_bounds is None or self.transform is None)
+
     def world_bounds(self, padding: float = 0.0, then: Matrix | None = None) -> Bounds | None:
         """The box around the centres of the active voxels, widened by `padding` voxels.
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.volumes.placement import Displacement
     from usdvol_lint.facts.volumes.reading import BindingReader
     from usdvol_lint.facts.volumes.shortfall import Shortfall
+    from usdvol_lint.facts.volumes.unmeasured import UnmeasuredGrids
     from usdvol_lint.facts.volumes.usage import UsedFields
 
 
@@ -167,6 +168,10 @@ class Volumes(Wing):
     def shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
         """By how much an authored extent fails to enclose the grids of a Volume, if it does."""
         return self._enclosure.shortfall(volume, self.bindings(volume), relative_slack)
+
+    def unmeasured_grids(self, volume: Any) -> UnmeasuredGrids | None:
+        """The grids with which the authored extent of a Volume can't be compared, if there are."""
+        return self._enclosure.unmeasured(volume, self.bindings(volume))
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:
         """The different files that the fields of a Volume name at the same time, if they do."""

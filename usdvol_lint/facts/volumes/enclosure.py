@@ -16,6 +16,7 @@ from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
 from usdvol_lint.facts.volumes.placement import UNTRANSFORMED, Placement, read_placements
 from usdvol_lint.facts.volumes.shortfall import PlacedField, Shortfall, find_shortfall
 from usdvol_lint.facts.volumes.targets import Target
+from usdvol_lint.facts.volumes.unmeasured import UnmeasuredGrids, find_unmeasured
 
 
 class Enclosure:
@@ -51,6 +52,14 @@ class Enclosure:
             for shown_at, placement in read_placements(volume, target.prim)
         ]
         return find_shortfall(limits, fields, self._boxes, relative_slack)
+
+    def unmeasured(self, volume: Any, bindings: FieldBindings) -> UnmeasuredGrids | None:
+        """The grids with which the authored extent of a Volume can't be compared, if there are."""
+        limits = self._prims.limits(volume)
+        if not limits.are_authored:
+            return None
+        fields = [(target.shown, timeline) for target, _, timeline in self._with_grids(bindings)]
+        return find_unmeasured(limits.attribute, fields)
 
     def _placed(self, volume: Any, fields: BoundFields) -> list[tuple[Timeline, Placement]]:
         """The files of each bound field over time, with the field's placement."""

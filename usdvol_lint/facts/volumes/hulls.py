@@ -87,7 +87,9 @@ class Hulls:
             return None
         by_transform: dict[int, tuple[Grid, list[IndexBounds]]] = {}
         for _, grid in timeline.grids():
-            if grid and grid.index_bounds and grid.transform:
+            if grid and grid.is_unmeasured:
+                return None
+            if grid and grid.index_bounds:
                 by_transform.setdefault(id(grid.transform), (grid, []))[1].append(grid.index_bounds)
         hulls = [self._hull_of(*same, matrix) for same in by_transform.values()]
         if None in hulls:
