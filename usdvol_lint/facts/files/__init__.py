@@ -166,9 +166,11 @@ class Files(Wing):
 
     @cached_property
     def _below_missing_folder(self) -> dict[str, list[Any]]:
-        """The fields by their missing folder, in the order of their paths."""
+        """The fields by their missing folder, in the order in which they are shown."""
+        from usdvol_lint.facts.usd.instances import as_shown
+
         fields: dict[str, list[Any]] = defaultdict(list)
-        for field in sorted(self._missing_folders, key=lambda field: field.GetPath()):
+        for field in as_shown(self._missing_folders):
             fields[self._missing_folders[field]].append(field)
         return fields
 

@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from pxr import Sdf
+from pxr import Sdf, UsdGeom
 
 from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
@@ -22,6 +22,7 @@ from usdvol_lint.model import format_time
 _FEWEST = 5
 """A range of fewer frames than these proves nothing, however well the files fit."""
 _SHOWN = 5
+_STAND_INS = frozenset({UsdGeom.Tokens.proxy, UsdGeom.Tokens.guide})
 
 Family = tuple[str, str, str]
 """What files have in common that differ in their frame numbers alone: folder, name around it."""
@@ -52,14 +53,25 @@ class _Frames(NamedTuple):
 
 
 class Packs:
-    """Which files of one family several fields show, each its own: they are no frames."""
+    """Which files of one family several fields show, each its own: they are no frames.
+
+    Where another field plays a family, they are, and one that is held may be meant to be.
+    """
 
     def __init__(self, every: Iterable[AssetSamples]) -> None:
         self._shown: dict[Family, set[int]] = defaultdict(set)
+        self._played: set[Family] = set()
         for paths in every:
-            sample = _only_file(paths)
-            if sample and (found := _family(sample.resolved)):
-                self._shown[found[1]].add(found[0].number)
+            timed = _timed(paths)
+            if sample := _only_file(paths):
+                if found := _family(sample.resolved):
+                    self._shown[found[1]].add(found[0].number)
+            elif timed and (found := _family(timed[0].resolved)):
+                self._played.add(found[1])
+
+    def are_played(self, frames: _Frames) -> bool:
+        """Whether another field shows one file of a family after the other."""
+        return frames.family in self._played
 
     def are_shown(self, frames: _Frames, field: Any) -> bool:
         """Whether other fields, or other variants above this one, name other files of a family."""
@@ -87,7 +99,8 @@ def find_still(
         return None
     if packs().are_shown(frames, paths.attribute.GetPrim()):
         return None
-    is_certain = _fills(frames, time_range) or _is_animated_below(paths, frames, clips)
+    is_forgotten = _fills(frames, time_range) and not _may_be_held(paths, frames, packs())
+    is_certain = is_forgotten or _is_animated_below(paths, frames, clips)
     low, high = time_range
     numbers = [number for number in sorted(frames.on_disk) if low <= number <= high]
     return _still(paths, sample, frames, numbers, is_certain=is_certain)
@@ -177,6 +190,12 @@ def _fills(frames: _Frames, time_range: tuple[float, float]) -> bool:
     return is_plain and is_long and all(n in frames.on_disk for n in range(start, end + 1))
 
 
+def _may_be_held(paths: AssetSamples, frames: _Frames, packs: Packs) -> bool:
+    """Whether one frame may do: for a proxy or guide, or beside a field that plays them all."""
+    purpose = UsdGeom.Imageable(paths.attribute.GetPrim()).ComputePurpose()
+    return purpose in _STAND_INS or packs.are_played(frames)
+
+
 def _is_animated_below(paths: AssetSamples, frames: _Frames, clips: Sequence[ClipSet]) -> bool:
     """Whether weaker time samples or clips name two or more files of the sequence."""
     named: set[int] = set()
@@ -208,6 +227,8 @@ def _in_spec(prim_spec: Any, family: Family) -> Iterator[int]:
     prim_spec.layer.Traverse(prim_spec.path, visit)
     for spec in filter(None, found):
         yield from _numbers(spec, spec.default, family)
+        for time in spec.layer.ListTimeSamplesForPath(spec.path):
+            yield from _numbers(spec, spec.layer.QueryTimeSample(spec.path, time), family)
 
 
 def _numbers(spec: Any, value: Any, family: Family) -> set[int]:

@@ -24,7 +24,7 @@ from usdvol_lint.facts.layers.error_texts import (
 from usdvol_lint.facts.layers.unopened import missing_clips, unopened_reason
 from usdvol_lint.facts.layers.unresolved import EmptyArc, Fault, Targets
 from usdvol_lint.facts.usd.clips import ClipSet
-from usdvol_lint.facts.usd.instances import in_prototype
+from usdvol_lint.facts.usd.instances import as_shown, in_prototype
 
 _ASSET_ERRORS = frozenset({Pcp.ErrorType_InvalidAssetPath, Pcp.ErrorType_InvalidSublayerPath})
 
@@ -213,7 +213,7 @@ def _unloaded(stage: Any) -> tuple[Any, ...]:
 
 
 def _sorted(prims: Iterable[Any]) -> tuple[Any, ...]:
-    return tuple(sorted(dict.fromkeys(prims), key=lambda prim: prim.GetPath()))
+    return tuple(as_shown(prims))
 
 
 def _as_walked(lacking: Iterable[MissingLayer | EmptyArc]) -> frozenset[Any]:

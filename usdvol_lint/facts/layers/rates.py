@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,7 @@ from pxr import Tf
 
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
+from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import sample_times
 from usdvol_lint.schema import OURS
@@ -58,23 +59,24 @@ def unsaid_rates(
     rate = stage.GetTimeCodesPerSecond()
     layers = _without_rate(stage) if rate != _USUAL else frozenset()
     own = rate / _USUAL
-    found: dict[Any, list[Displaced]] = defaultdict(list)
+    found: dict[Any, dict[Any, list[Displaced]]] = defaultdict(lambda: defaultdict(list))
     for attribute, times in _animated(tables) if layers else ():
         layer, offset = _source(attribute, times[0], clips)
-        if layer in layers and not _is_undone(offset.scale, own):
+        if layer in layers and not _is_undone(attribute.GetPrim(), layer, offset.scale, own):
             start = offset.offset
             meant = [start + (time - start) / own for time in times]
             displaced = _displaced(attribute, list(zip(times, meant, strict=True)), time_range)
             if displaced:
-                found[layer].append(displaced)
+                found[layer][attribute.GetPrim()].append(displaced)
     return tuple(
-        UnsaidRate(layer, rate, own, tuple(sorted(all_of_layer, key=_path)))
-        for layer, all_of_layer in sorted(found.items(), key=lambda item: item[0].identifier)
+        UnsaidRate(layer, rate, own, tuple(_in_order(by_prim)))
+        for layer, by_prim in sorted(found.items(), key=lambda item: item[0].identifier)
     )
 
 
-def _path(displaced: Displaced) -> Any:
-    return displaced.attribute.GetPath()
+def _in_order(by_prim: Mapping[Any, Iterable[Displaced]]) -> Iterator[Displaced]:
+    for prim in as_shown(by_prim):
+        yield from sorted(by_prim[prim], key=lambda displaced: str(displaced.attribute.GetName()))
 
 
 def _without_rate(stage: Any) -> frozenset[Any]:
@@ -119,13 +121,33 @@ def _source(attribute: Any, time: float, clips: Clips) -> tuple[Any | None, Any]
     return None, None
 
 
-def _is_undone(scale: float, own: float) -> bool:
+def _is_undone(prim: Any, layer: Any, scale: float, own: float) -> bool:
     """Whether the scales that arcs author undo that which USD adds by itself.
 
-    `scale` is all of them together.  A slow motion may come on top: then the whole is an even
-    multiple or fraction, and what was authored is none.
+    `scale` is all of them together.  A slow motion may come on top, with the same arc or another:
+    then the whole is an even multiple or fraction, and what was authored is none.
     """
-    return _is_close(scale, 1) or (_is_even(scale) and not _is_even(scale / own))
+    if _is_close(scale, 1) or (_is_even(scale) and not _is_even(scale / own)):
+        return True
+    return any(_is_close(arc, 1) for arc in _scales_of_rated_arcs(prim, layer))
+
+
+def _scales_of_rated_arcs(prim: Any, layer: Any) -> Iterator[float]:
+    """The scales, authored and added, of the arcs that bring a layer to a prim at another rate."""
+    waiting = [prim.GetPrimIndex().rootNode]
+    while waiting:
+        node = waiting.pop()
+        waiting += node.children
+        if layer in node.layerStack.layers:
+            while node.parent and _rate(node.parent) == _rate(node):
+                node = node.parent
+            if node.parent:
+                yield node.mapToParent.timeOffset.scale
+
+
+def _rate(node: Any) -> float:
+    """The rate of the layers of a node."""
+    return float(node.layerStack.identifier.rootLayer.timeCodesPerSecond)
 
 
 def _displaced(

@@ -12,6 +12,7 @@ from pxr import UsdGeom
 from usdvol_lint import schema
 from usdvol_lint.facts.layers.turns import Corrections
 from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.instances import as_shown
 
 UP_AXIS = "upAxis"
 UNITS = "metersPerUnit"
@@ -98,7 +99,7 @@ def _order(item: tuple[tuple[Any, str, bool], Any]) -> tuple[str, str, bool]:
 
 
 def _sorted(prims: list[Any]) -> tuple[Any, ...]:
-    return tuple(sorted(dict.fromkeys(prims), key=lambda prim: prim.GetPath()))
+    return tuple(as_shown(prims))
 
 
 def _said_by(stage: Any) -> list[str]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from functools import cache
 from typing import Any, NamedTuple
 
-from pxr import Usd
+from pxr import Sdf, Usd
 
 
 class Shown(NamedTuple):
@@ -22,6 +24,21 @@ def shown(prim: Any) -> Shown:
     through = [shown(instance) for instance in instances_of(_prototype(prim))]
     path = min(instance.path for instance in through)
     return Shown(path + below, sum(instance.instances for instance in through))
+
+
+def as_shown(prims: Iterable[Any]) -> list[Any]:
+    """Prims in the order of the paths at which they appear, each once.
+
+    The paths of prototypes are no order: USD numbers these differently from run to run.
+    """
+    prototypes = cache(lambda prototype: shown(prototype).path)
+
+    def path(prim: Any) -> Any:
+        if not prim.IsInPrototype():
+            return prim.GetPath()
+        return Sdf.Path(prototypes(_prototype(prim)) + path_in_prototype(prim))
+
+    return sorted(dict.fromkeys(prims), key=path)
 
 
 def shown_paths(prim: Any) -> list[str]:
