@@ -37,6 +37,8 @@ def lookalikes(stage: Any, unbound: Collection[Any]) -> list[Lookalike]:
     for prim in chain(_above(stage, unbound), _first_groups(stage)):
         names = get_property_names(prim)
         binding = _binding(prim, names, unbound) if unbound and names else None
+        if binding and _is_above_volume(prim):
+            continue  # which may forward to it, in a variant that is not selected
         if binding or (names and _has_arrays(names)):
             found[prim] = Lookalike(prim, binding)
     return sorted(found.values(), key=lambda each: each.prim.GetPath())
@@ -71,6 +73,10 @@ def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any |
             if any(in_prototype(target).GetPath() in unbound for target in targets if target):
                 return relationship
     return None
+
+
+def _is_above_volume(prim: Any) -> bool:
+    return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim))
 
 
 def _has_arrays(names: Collection[str]) -> bool:
