@@ -216,3 +216,40 @@ def test_bindings(case: Case, lint_text: Lint) -> None:
         if found.code.startswith("VOL") and found.code not in ("VOL011", "VOL012")
     ]
     assert told == [(case.code, case.message, case.advice)]
+
+
+FORWARDED = """#usda 1.0
+def Xform "fx"
+{
+    custom rel field:heat = </fx/caches/heat>
+
+    def Scope "caches"
+    {
+        def OpenVDBAsset "heat"
+        {
+        }
+    }
+
+    def Volume "cloud" (
+        prepend variantSets = "heat"
+        variants = {
+            string heat = "none"
+        }
+    )
+    {
+        variantSet "heat" = {
+            "none" {
+            }
+            "cached" {
+                rel field:heat = </fx.field:heat>
+            }
+        }
+    }
+}
+"""
+
+
+def test_a_group_that_only_a_variant_forwards_is_no_volume(lint_text: Lint) -> None:
+    assert "SCH014" not in {finding.code for finding in lint_text(FORWARDED).findings}
+    without = FORWARDED.replace("def Volume", "def Scope")
+    assert "SCH014" in {finding.code for finding in lint_text(without).findings}
