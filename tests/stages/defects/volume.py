@@ -152,7 +152,7 @@ def extent_elsewhere(subject: VolumeSubject, rng: Random) -> None:
     subject.prim.properties["extent"] = Attribute("float3[]", corners)
 
 
-@on_volume("VOL013", needs=_WITH_VOXELS)
+@on_volume("VOL013", needs={**_WITH_VOXELS, "movement": "none"})
 def extent_cuts_one_side(subject: VolumeSubject, rng: Random) -> None:
     extent = subject.prim.attribute("extent")
     (x, y, _), high = next(extent.each())
