@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
-    from usdvol_lint.facts.files.stillness import Packs, Still
+    from usdvol_lint.facts.files.stillness import Families, Packs, Still
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
 
@@ -131,6 +131,9 @@ class Files(Wing):
 
         None also where it hides its own animation, which `Prims.hidden_animation` tells.
         """
+        paths = self.paths(field)
+        if time_range is None and len(paths.samples) == 1:
+            return None  # on a still stage
         from usdvol_lint.facts.files.stillness import find_still
         from usdvol_lint.facts.usd.hidden import hidden_animation
 
@@ -138,12 +141,17 @@ class Files(Wing):
         if sequence and sequence.is_animated:
             return None  # nearly always
         clips = self._clips.reaching(field)
-        paths = self.paths(field)
-        found = find_still(paths, self._disk, self._find_packs, clips, time_range)
+        found = find_still(paths, self._families, self._find_packs, clips, time_range)
         return None if found and hidden_animation(paths.attribute, clips) else found
 
     def _find_packs(self) -> Packs:
         return self._packs
+
+    @cached_property
+    def _families(self) -> Families:
+        from usdvol_lint.facts.files.stillness import Families
+
+        return Families(self._disk)
 
     @cached_property
     def _packs(self) -> Packs:

@@ -52,6 +52,26 @@ class _Frames(NamedTuple):
     on_disk: Mapping[int, str]
 
 
+class Families:
+    """The files on disk of which a file may be one frame, looked for once for all of them."""
+
+    def __init__(self, disk: Disk) -> None:
+        self._disk = disk
+        self._on_disk: dict[tuple[Family, int], Mapping[int, str]] = {}
+
+    def around(self, sample: AssetSample, *, is_lost: bool) -> _Frames | None:
+        """The name of a file as that of a frame, and the frames beside it; None if it is none."""
+        folder, name = split_path(sample.resolved)
+        frame = read_lost_number(name) if is_lost else read_frame_name(name)
+        if frame is None:
+            return None
+        family = (folder, frame.before, frame.after)
+        key = family, len(frame.digits)
+        if key not in self._on_disk:
+            self._on_disk[key] = frame.among(self._disk.listing(folder))
+        return _Frames(frame, family, self._on_disk[key])
+
+
 class Packs:
     """Which files of one family several fields show, each its own: they are no frames.
 
@@ -81,7 +101,7 @@ class Packs:
 
 def find_still(
     paths: AssetSamples,
-    disk: Disk,
+    families: Families,
     packs: Callable[[], Packs],
     clips: Sequence[ClipSet],
     time_range: tuple[float, float] | None,
@@ -91,8 +111,8 @@ def find_still(
     if sample is None or is_packaged(sample.resolved):
         return None
     if len(_timed(paths)) > 1:
-        return _animated_in_name_only(paths, sample, disk, packs)
-    frames = _frames(sample, disk, is_lost=False)
+        return _animated_in_name_only(paths, sample, families, packs)
+    frames = families.around(sample, is_lost=False)
     if frames is None or time_range is None or not time_range[0] < time_range[1]:
         return None
     if frames.on_disk.keys().isdisjoint((frames.name.number - 1, frames.name.number + 1)):
@@ -107,10 +127,10 @@ def find_still(
 
 
 def _animated_in_name_only(
-    paths: AssetSamples, sample: AssetSample, disk: Disk, packs: Callable[[], Packs]
+    paths: AssetSamples, sample: AssetSample, families: Families, packs: Callable[[], Packs]
 ) -> Still | None:
     """Several samples that all name one file, where their times are the numbers of the others."""
-    frames = _frames(sample, disk, is_lost=False) or _frames(sample, disk, is_lost=True)
+    frames = families.around(sample, is_lost=False) or families.around(sample, is_lost=True)
     if frames is None:
         return None
     times = _times(paths)
@@ -161,15 +181,6 @@ def _family(resolved: str) -> tuple[FrameName, Family] | None:
     folder, name = split_path(resolved)
     frame = read_frame_name(name)
     return (frame, (folder, frame.before, frame.after)) if frame else None
-
-
-def _frames(sample: AssetSample, disk: Disk, *, is_lost: bool) -> _Frames | None:
-    folder, name = split_path(sample.resolved)
-    frame = read_lost_number(name) if is_lost else read_frame_name(name)
-    if frame is None:
-        return None
-    family = (folder, frame.before, frame.after)
-    return _Frames(frame, family, frame.among(disk.listing(folder)))
 
 
 def _times(paths: AssetSamples) -> list[float]:
