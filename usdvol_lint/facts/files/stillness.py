@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from pxr import Sdf, UsdGeom
+from pxr import Sdf
 
 from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
@@ -22,7 +22,8 @@ from usdvol_lint.model import format_time
 _FEWEST = 5
 """A range of fewer frames than these proves nothing, however well the files fit."""
 _SHOWN = 5
-_STAND_INS = frozenset({UsdGeom.Tokens.proxy, UsdGeom.Tokens.guide})
+_STAND_INS = frozenset({"proxy", "guide"})
+"""The purposes of what stands in for the picture itself."""
 
 Family = tuple[str, str, str]
 """What files have in common that differ in their frame numbers alone: folder, name around it."""
@@ -203,6 +204,8 @@ def _fills(frames: _Frames, time_range: tuple[float, float]) -> bool:
 
 def _may_be_held(paths: AssetSamples, frames: _Frames, packs: Packs) -> bool:
     """Whether one frame may do: for a proxy or guide, or beside a field that plays them all."""
+    from pxr import UsdGeom  # costs start-up time
+
     purpose = UsdGeom.Imageable(paths.attribute.GetPrim()).ComputePurpose()
     return purpose in _STAND_INS or packs.are_played(frames)
 

@@ -175,8 +175,16 @@ class Layers(Wing):
         return self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
 
     @cached_property
+    def _is_one_layer(self) -> bool:
+        """Whether nothing but the root layer says anything, for which others need no looking."""
+        session = self._stage.GetSessionLayer()
+        return {*self._stage.GetUsedLayers(), session} <= {self._stage.GetRootLayer(), session}
+
+    @cached_property
     def unsaid_rates(self) -> tuple[UnsaidRate, ...]:
         """The layers that say no rate and whose samples the stage therefore has at other times."""
+        if self._is_one_layer:
+            return ()
         from usdvol_lint.facts.layers.rates import unsaid_rates
 
         return unsaid_rates(self._stage, self.tables, self._clips, self.time_range)
@@ -192,6 +200,8 @@ class Layers(Wing):
     @cached_property
     def unlike_stage(self) -> tuple[UnlikeStage, ...]:
         """The layers that say another up axis or other units, and bring what nothing corrects."""
+        if self._is_one_layer:
+            return ()
         from usdvol_lint.facts.layers.units import layers_unlike_stage
 
         return layers_unlike_stage(self._stage, self.tables)
