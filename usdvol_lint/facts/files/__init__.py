@@ -131,9 +131,6 @@ class Files(Wing):
 
         None also where it hides its own animation, which `Prims.hidden_animation` tells.
         """
-        paths = self.paths(field)
-        if time_range is None and len(paths.samples) == 1:
-            return None  # on a still stage
         from usdvol_lint.facts.files.stillness import find_still
         from usdvol_lint.facts.usd.hidden import hidden_animation
 
@@ -141,6 +138,7 @@ class Files(Wing):
         if sequence and sequence.is_animated:
             return None  # nearly always
         clips = self._clips.reaching(field)
+        paths = self.paths(field)
         found = find_still(paths, self._families, self._find_packs, clips, time_range)
         return None if found and hidden_animation(paths.attribute, clips) else found
 
@@ -192,7 +190,11 @@ class Files(Wing):
     def _marks(self) -> PathMarks:
         from usdvol_lint.facts.files.marks import PathMarks
 
-        return PathMarks(self._disk, self._has_packages)
+        return PathMarks(
+            self._disk,
+            has_packages=self._has_packages,
+            has_range=self._stage.HasAuthoredTimeCodeRange(),
+        )
 
     @cached_property
     def _has_packages(self) -> bool:

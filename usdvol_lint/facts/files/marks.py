@@ -19,12 +19,14 @@ _UNPLAIN = re.compile(r"(?s)/|.*[\\:~\s]")
 class PathMarks:
     """Finds the marks of the fields of a stage; fields that name the same one file share theirs.
 
-    `has_packages` is whether any layer of the stage lies in a package.
+    `has_packages` is whether any layer of the stage lies in a package, `has_range` whether the
+    stage has a time range.
     """
 
-    def __init__(self, disk: Disk, has_packages: bool) -> None:
+    def __init__(self, disk: Disk, *, has_packages: bool, has_range: bool) -> None:
         self._disk = disk
         self._has_packages = has_packages
+        self._has_range = has_range
         self._known: dict[tuple[str, str, Authored], frozenset[Enum]] = {}
 
     def of(self, paths: Iterable[AssetSamples], authored: Authored) -> list[frozenset[Enum]]:
@@ -51,7 +53,7 @@ class PathMarks:
         extension = next(extensions, "")
         if any(not sample.path.endswith(extension) for sample in paths.samples):
             found.add(PathMark.FOREIGN)
-        if len(paths.samples) == 1 and _NUMBERED.search(paths.samples[0].path):
+        if self._has_range and len(paths.samples) == 1 and _NUMBERED.search(paths.samples[0].path):
             found.add(PathMark.NUMBERED)
         if any(map(_UNPLAIN.match, (sample.path for sample in paths.samples))):
             found.add(PathMark.UNPLAIN)

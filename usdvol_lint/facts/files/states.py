@@ -46,7 +46,7 @@ class PathMark(Enum):
     SEVERAL = auto()
     """There is more than one value."""
     NUMBERED = auto()
-    """A file name ends in a number of three digits or more."""
+    """The one file name ends in a number of three digits or more, and the stage has a range."""
     UNPLAIN = auto()
     """A path is absolute, or has blanks, backslashes, a colon or a tilde in it."""
     FOREIGN = auto()
