@@ -107,11 +107,7 @@ class Volumes(Wing):
         accounts for, also one whose type is hidden or missing: those below it, and those that its
         relationships probably intended.
         """
-        from usdvol_lint.facts.volumes.usage import (
-            accounted_for,
-            accounted_for_by_other,
-            any_targets,
-        )
+        from usdvol_lint.facts.volumes import usage
 
         slots, used = self.tables.field_slots, self._users
         self._used.add(path for path, slot in slots.items() if slot in used)
@@ -121,17 +117,17 @@ class Volumes(Wing):
         if not volumes and len(slots) > 1:
             return []
         hidden = self._layers.undefined_prims
-        if not volumes and any_targets(self._stage, next(iter(slots)), hidden):
+        if not volumes and usage.any_targets(self._stage, next(iter(slots)), hidden):
             return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
         for volume in volumes:
             self._used.add(
-                accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
+                usage.accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
             )
         others = [each.prim for each in self._layers.retyped]
         for prim in (*others, *(each.prim for each in self.lookalikes)):
-            self._used.add(accounted_for_by_other(prim, self._kinds))
+            self._used.add(usage.accounted_for_by_other(prim, self._kinds))
         return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
 
     @cached_property
