@@ -196,7 +196,7 @@ def test_one_defect_is_one_finding(
     array = data.draw(st.sampled_from(present))
     frame = data.draw(st.integers(0, len(particles.frames) - 1))
     row = data.draw(st.integers(0, 299))
-    if name == "far out" and len(particles.frames[frame][array]) <= 10:
+    if name == "far out" and array in particles.half and len(particles.frames[frame][array]) <= 10:
         return  # one of so few, where halves are coarse, is more than a tenth: said as well
     broken = particles.changed(array, defect(row), frame)
     (finding,) = lint(engine, broken, tmp_path / "stage.usdc")

@@ -18,10 +18,6 @@ def volume_without_its_type(subject: VolumeSubject, rng: Random) -> None:
     subject.prim.type = rng.choice(_TYPES)
 
 
-@on_particles(
-    "SCH014",
-    needs={"arrays": True, "type": "ParticleField3DGaussianSplat"},
-    without=("prototype below over",),
-)
+@on_particles("SCH014", needs={"arrays": True, "type": "ParticleField3DGaussianSplat"})
 def splat_without_its_type(subject: ParticleSubject, rng: Random) -> None:
     subject.prim.type = rng.choice(_TYPES)

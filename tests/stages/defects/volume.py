@@ -152,11 +152,14 @@ def extent_elsewhere(subject: VolumeSubject, rng: Random) -> None:
     subject.prim.properties["extent"] = Attribute("float3[]", corners)
 
 
-@on_volume("VOL013", needs={**_WITH_VOXELS, "movement": "none"})
+@on_volume("VOL013", needs=_WITH_VOXELS)
 def extent_cuts_one_side(subject: VolumeSubject, rng: Random) -> None:
+    is_moved = any("xformOp:translate" in part.prim.properties for part in subject.fields)
     extent = subject.prim.attribute("extent")
     (x, y, _), high = next(extent.each())
-    subject.prim.properties["extent"] = Attribute("float3[]", [(x, y, 0.55), high])
+    subject.prim.properties["extent"] = Attribute(
+        "float3[]", [(x, y, 0.8 if is_moved else 0.55), high]
+    )
 
 
 @on_volume("VOL014", needs={"files": "several", "fields": (2, 3)}, is_info=True)
