@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -473,10 +472,10 @@ def test_pages_say_the_same_in_both_modes(
                 file.write_text(text, encoding="utf-8")
             one, other = (engine.lint(str(folder / "stage.usda")) for engine in (selected, every))
             assert [
-                replace(each, detail=None)
+                each._replace(detail=None)
                 for each in other.findings
                 if not (each.site.variant or "").startswith("/")
-            ] == [replace(each, detail=None) for each in one.findings]
+            ] == [each._replace(detail=None) for each in one.findings]
 
 
 # --- the command ----------------------------------------------------------------------------------

@@ -7,7 +7,6 @@ import os
 import re
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -82,13 +81,11 @@ SMOKE = StageReport(
             suggestion="author metersPerUnit",
         ),
         MISSING,
-        replace(
-            MISSING,
+        MISSING._replace(
             code="GRD001",
             name="grid-missing",
             message="no grid 'density' in '../vdb/smoke.0101.vdb', which holds 'Density'",
-            site=replace(
-                MISSING.site,
+            site=MISSING.site._replace(
                 property="fieldName",
                 layer=f"{LONG_FOLDER}/smoke_payload.usda",
                 line=7,
@@ -329,7 +326,7 @@ def test_wrapping_counts_the_cells_of_a_terminal() -> None:
 )
 def test_frames_in_words(times: tuple[float, ...], at_default: bool, expected: str) -> None:
     site = Site("a.usda", times=times, at_default=at_default)
-    stage = StageReport("a.usda", Status.CHECKED, findings=(replace(MISSING, site=site),))
+    stage = StageReport("a.usda", Status.CHECKED, findings=(MISSING._replace(site=site),))
     assert expected in map(str.strip, render(report(stage), "full", Options()).splitlines())
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from pxr import Tf
@@ -72,8 +71,8 @@ class StageCheck:
             for stamped in self._other(error):
                 if stamped.identity not in known:
                     known.add(stamped.identity)
-                    site = replace(stamped.finding.site, variant=selection)
-                    yield stamped._replace(finding=replace(stamped.finding, site=site))
+                    site = stamped.finding.site._replace(variant=selection)
+                    yield stamped._replace(finding=stamped.finding._replace(site=site))
         for left_out in selections.not_checked():
             yield from self._stamp.stamp(NOT_CHECKED, left_out)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from itertools import chain
 
 from pxr import Sdf
@@ -109,12 +108,12 @@ class Engine:
             self._send(unsent)
 
 
-@dataclass(slots=True)
 class _Stopwatch:
     """Wall-clock seconds by phase."""
 
-    seconds: dict[str, float] = field(default_factory=dict)
-    _since: float = field(default_factory=time.perf_counter)
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._since = time.perf_counter()
 
     def lap(self, phase: str) -> None:
         now = time.perf_counter()

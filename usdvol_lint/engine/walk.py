@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from itertools import compress, islice, repeat
 from typing import Any
 
@@ -23,7 +22,6 @@ From 64 to 4,096 the time is the same.
 """
 
 
-@dataclass(slots=True)
 class Walk:
     """The number of prims on the stage, and those that some rule asks for, by kind.
 
@@ -35,10 +33,11 @@ class Walk:
     ancestors, and maybe others.
     """
 
-    prims: int = 0
-    clipped: list[Any] = field(default_factory=list)
-    kept: dict[KindKey, list[Any]] = field(default_factory=dict)
-    undefined: dict[Any, list[Any]] = field(default_factory=lambda: defaultdict(list))
+    def __init__(self) -> None:
+        self.prims = 0
+        self.clipped: list[Any] = []
+        self.kept: dict[KindKey, list[Any]] = {}
+        self.undefined: dict[Any, list[Any]] = defaultdict(list)
 
 
 def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:

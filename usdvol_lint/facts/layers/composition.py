@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf, Usd
 
@@ -29,8 +28,7 @@ from usdvol_lint.facts.usd.instances import as_shown, in_prototype
 _ASSET_ERRORS = frozenset({Pcp.ErrorType_InvalidAssetPath, Pcp.ErrorType_InvalidSublayerPath})
 
 
-@dataclass(frozen=True, slots=True)
-class MissingLayer:
+class MissingLayer(NamedTuple):
     """A layer that USD can't open, named by an arc or a clip set.
 
     `arc`, `asset`, `path` and `spec` are as in `LayerArc`.
@@ -56,8 +54,7 @@ class MissingLayer:
         return is_uri(self.asset)
 
 
-@dataclass(frozen=True, slots=True)
-class CompositionError:
+class CompositionError(NamedTuple):
     """Any other error.
 
     `message`: USD's text in one line.
@@ -75,17 +72,23 @@ class CompositionError:
         return self.prims[0]
 
 
-@dataclass(frozen=True)
 class Composition:
     """What a stage could not compose, without duplicates and in the same order in every run.
 
     `unloaded`: the prims with payloads that were not loaded.
     """
 
-    missing_layers: tuple[MissingLayer, ...]
-    empty_arcs: tuple[EmptyArc, ...]
-    errors: tuple[CompositionError, ...]
-    unloaded: tuple[Any, ...]
+    def __init__(
+        self,
+        missing_layers: tuple[MissingLayer, ...],
+        empty_arcs: tuple[EmptyArc, ...],
+        errors: tuple[CompositionError, ...],
+        unloaded: tuple[Any, ...],
+    ) -> None:
+        self.missing_layers = missing_layers
+        self.empty_arcs = empty_arcs
+        self.errors = errors
+        self.unloaded = unloaded
 
     @property
     def is_whole(self) -> bool:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -29,8 +28,7 @@ _OPENED = 4
 _FILE_PATH = "filePath"
 
 
-@dataclass(frozen=True, slots=True)
-class LostClips:
+class LostClips(NamedTuple):
     """A clip set on `prim` that USD does not use; `name` is "" where clips stand outside of one.
 
     `attributes` are those, at least one, that lack the values of the clips; `spec` is the prim spec

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Tf
 
@@ -24,8 +23,7 @@ _FEW = 4
 """Samples outside of the range count from a quarter of them on: some overhang at an end is none."""
 
 
-@dataclass(frozen=True, slots=True)
-class Displaced:
+class Displaced(NamedTuple):
     """Time samples that land elsewhere because their layer says no rate.
 
     `times`: those that land between frames, or else outside of the stage's time range.
@@ -38,8 +36,7 @@ class Displaced:
     total: int
 
 
-@dataclass(frozen=True, slots=True)
-class UnsaidRate:
+class UnsaidRate(NamedTuple):
     """A layer that says neither timeCodesPerSecond nor framesPerSecond.
 
     `rate`: the stage's; `scale`: that by which USD therefore scales times in the layer.

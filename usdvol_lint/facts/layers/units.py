@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import UsdGeom
 
@@ -24,8 +23,7 @@ _PLACED = frozenset({"extent", "filePath", *schema.attributes_of(schema.API_ATTR
 """The attributes whose values have a place or a size."""
 
 
-@dataclass(frozen=True, slots=True)
-class UnlikeStage:
+class UnlikeStage(NamedTuple):
     """A layer that says another up axis or other units than the stage.
 
     `key`: the name of that metadata, with the value in the `layer` and that of the `stage`.

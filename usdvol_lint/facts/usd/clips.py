@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import chain
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Sdf, Tf, Usd
 
@@ -19,8 +18,7 @@ _CLIPS_OPENED = 4
 _ALL = Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)
 
 
-@dataclass(frozen=True, slots=True)
-class ClipSet:
+class ClipSet(NamedTuple):
     """One clip set authored on `prim`.
 
     `clips` and `manifest` are `Sdf.AssetPath`s, resolved by USD.
