@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf
@@ -21,11 +22,33 @@ class Layered(NamedTuple):
     parents: list[Any]
 
 
-def prims_with_arcs(stage: Any) -> list[Any]:
-    """The prims on which an arc is authored in any layer, in no certain order.
+class Arcs:
+    """Where the opinions on a stage come from: its layers, and the arcs between prims."""
 
-    USD's cache of compositions knows them: to ask every prim would take as long as the walk.
-    """
+    def __init__(self, stage: Any) -> None:
+        self._stage = stage
+
+    @cached_property
+    def is_one_layer(self) -> bool:
+        """Whether nothing but the root layer says anything."""
+        session = self._stage.GetSessionLayer()
+        return {*self._stage.GetUsedLayers(), session} <= {self._stage.GetRootLayer(), session}
+
+    @cached_property
+    def prims(self) -> tuple[Any, ...]:
+        """The prims on which an arc is authored in any layer, in no certain order."""
+        return tuple(_prims_with_arcs(self._stage))
+
+    @cached_property
+    def layered(self) -> tuple[Layered, ...]:
+        """The live prims that several specs make up; those in instances as the walk meets them."""
+        if self.is_one_layer and not self.prims:
+            return ()
+        return tuple(_layered(self._stage, self.prims))
+
+
+def _prims_with_arcs(stage: Any) -> Iterator[Any]:
+    """USD's cache of compositions knows them: to ask every prim would take as long as the walk."""
     cache = stage._GetPcpCache()
     root = Sdf.Path.absoluteRootPath
     stacks = {
@@ -38,14 +61,13 @@ def prims_with_arcs(stage: Any) -> list[Any]:
         for stack in stacks
         for dependency in cache.FindSiteDependencies(stack, root, _DIRECT, True, False, True)
     }
-    return list(filter(None, map(stage.GetPrimAtPath, paths)))
+    return filter(None, map(stage.GetPrimAtPath, paths))
 
 
-def layered_prims(stage: Any) -> Iterator[Layered]:
-    """The live prims that several specs make up; those in instances as the walk meets them."""
+def _layered(stage: Any, with_arcs: Iterable[Any]) -> Iterator[Layered]:
     local = [layer.pseudoRoot for layer in stage.GetLayerStack()]
     pending = _children_of_several(stage.GetPseudoRoot(), local)
-    pending += prims_with_arcs(stage)
+    pending += with_arcs
     seen = set()
     while pending:
         prim = in_prototype(pending.pop())
