@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from usdvol_lint.facts.particles.bits import bits
+from usdvol_lint.facts.particles.bits import bits, ordered
 from usdvol_lint.facts.particles.chunks import Row, Rows, fold
 
 Mask: TypeAlias = Callable[[Rows, int], Rows]
@@ -49,6 +49,21 @@ def outside(chunk: Rows, low: float | Row, high: float | Row) -> Rows:
     beyond: Rows = ((chunk < low) | (chunk > high)) & np.isfinite(chunk)
     rows: Rows = np.logical_or.reduce(beyond, axis=1)
     return rows
+
+
+def rows_outside(chunk: Rows, low: Rows, high: Rows) -> Rows:
+    """The indices of rows with a number outside the limits of its column, or nearly so.
+
+    Limits are rounded inwards to the precision of the chunk, and keys of halfs are compared.
+    """
+    kind = chunk.dtype.type
+    lowest = np.nextafter(low.astype(kind), kind(np.inf))
+    highest = np.nextafter(high.astype(kind), kind(-np.inf))
+    keys, lows, highs = map(ordered, (chunk, lowest, highest))
+    beyond: Rows = np.zeros(len(chunk), np.bool_)
+    for column, least, greatest in zip(keys.T, lows, highs, strict=True):  # faster than all at once
+        beyond |= (column < least) | (column > greatest)
+    return np.flatnonzero(beyond)
 
 
 def is_finite(chunk: Rows) -> Rows:
