@@ -66,6 +66,16 @@ def rows_outside(chunk: Rows, low: Rows, high: Rows) -> Rows:
     return np.flatnonzero(beyond)
 
 
+def rows_below(chunk: Rows, limit: float) -> Rows:
+    """The indices of rows whose numbers are all below a limit, or nearly so, as `rows_outside`."""
+    kind = chunk.dtype.type
+    keys, highest = ordered(chunk), ordered(np.nextafter(np.array([limit], kind), kind(np.inf)))
+    below: Rows = np.ones(len(chunk), np.bool_)
+    for column in keys.T:
+        below &= column < highest
+    return np.flatnonzero(below)
+
+
 def is_finite(chunk: Rows) -> Rows:
     """Which rows contain neither NaN nor infinity."""
     rows: Rows = np.logical_and.reduce(np.isfinite(chunk), axis=1)
