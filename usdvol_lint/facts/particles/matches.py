@@ -69,11 +69,11 @@ def rows_outside(chunk: Rows, low: Rows, high: Rows) -> Rows:
 def rows_below(chunk: Rows, limit: float) -> Rows:
     """The indices of rows whose numbers are all below a limit, or nearly so, as `rows_outside`."""
     kind = chunk.dtype.type
-    keys, highest = ordered(chunk), ordered(np.nextafter(np.array([limit], kind), kind(np.inf)))
-    below: Rows = np.ones(len(chunk), np.bool_)
-    for column in keys.T:
-        below &= column < highest
-    return np.flatnonzero(below)
+    highest = ordered(np.nextafter(np.array([limit], kind), kind(np.inf)))
+    rows = np.flatnonzero(ordered(chunk) < highest) // chunk.shape[1]
+    last = rows[chunk.shape[1] - 1 :]  # of a row that is there with all its numbers
+    selected: Rows = last[last == rows[: len(last)]]
+    return selected
 
 
 def is_finite(chunk: Rows) -> Rows:
