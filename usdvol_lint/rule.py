@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
+from usdvol_lint import schema
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.files.states import AssetState, FileFault, PathMark
@@ -22,6 +23,7 @@ __all__ = [
     "ABSTRACT_TYPE",
     "ERROR",
     "INFO",
+    "OURS",
     "STAGE",
     "UNKNOWN_TYPE",
     "WARNING",
@@ -53,6 +55,7 @@ __all__ = [
     "file_paths",
     "format_time",
     "frame_ranges",
+    "layered",
     "quoted",
     "rule",
 ]
@@ -66,6 +69,9 @@ else:
     AssetSample = Content = ContentClass = ParticleArray = Any
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
+
+OURS = tuple(sorted(schema.OURS))
+"""What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
 Prim: TypeAlias = Any
 """A `pxr.Usd.Prim`; spelt so that rules can be loaded where pxr is not imported."""
@@ -166,6 +172,11 @@ class When(NamedTuple):
 def authored(*names: str) -> When:
     """When one of these attributes is authored, or has values in clips."""
     return When(Prims.authored, lambda authored: not authored.declared.keys().isdisjoint(names))
+
+
+def layered() -> When:
+    """When several specs make up a prim, or value clips apply to it."""
+    return When(Prims.authored, lambda authored: authored.is_layered or authored.is_clipped)
 
 
 def file_paths(*marks: Enum) -> When:
