@@ -6,7 +6,7 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from pxr import Tf
 
@@ -26,7 +26,7 @@ _FEW = 4
 
 @dataclass(frozen=True, slots=True)
 class Displaced:
-    """Time samples that land elsewhere because their layer says no rate.
+    """Time samples that land elsewhere because their layer says no rate: an `Occurrence`.
 
     `times`: those that land between frames, or else outside of the stage's time range.
     `total`: the number of the attribute's samples.
@@ -36,6 +36,8 @@ class Displaced:
     times: tuple[float, ...]
     are_between: bool
     total: int
+    at_default: ClassVar[bool] = False
+    asset: ClassVar[None] = None
 
 
 @dataclass(frozen=True, slots=True)
