@@ -13,6 +13,7 @@ from pxr import Tf
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.instances import as_shown
+from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import sample_times
 from usdvol_lint.schema import OURS
@@ -136,10 +137,7 @@ def _is_undone(prim: Any, layer: Any, scale: float, own: float) -> bool:
 
 def _scales_of_rated_arcs(prim: Any, layer: Any) -> Iterator[float]:
     """The scales, authored and added, of the arcs that bring a layer to a prim at another rate."""
-    waiting = [prim.GetPrimIndex().rootNode]
-    while waiting:
-        node = waiting.pop()
-        waiting += node.children
+    for node in nodes_of(prim.GetPrimIndex()):
         if layer in node.layerStack.layers:
             while node.parent and _rate(node.parent) == _rate(node):
                 node = node.parent
