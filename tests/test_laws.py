@@ -7,6 +7,7 @@ import inspect
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import pytest
@@ -61,6 +62,10 @@ WITHOUT_USD = (
     "engine/lines.py",
 )
 """What the parent process may import: there neither pxr nor numpy may be named at module level."""
+
+LONGEST_RULE = 49
+LONGEST_HALF_OF_RULES = 21
+"""How many lines a rule's module has at most, and how many the shorter half of them have."""
 
 RULE_MODULES = sorted(path for path in RULES.rglob("*.py") if not path.name.startswith("_"))
 ENGINE_MODULES = sorted(ENGINE.rglob("*.py"))
@@ -206,6 +211,13 @@ def test_a_rule_module(path: Path) -> None:
     }
     assert called.isdisjoint({"print", "open", "input", "exec", "eval", "breakpoint"})
     assert path.with_suffix(".md").is_file()
+
+
+def test_rules_are_short() -> None:
+    """A longer one says several things, or finds what a fact should find."""
+    lengths = {path.stem: len(path.read_text("utf-8").splitlines()) for path in RULE_MODULES}
+    assert {name: lines for name, lines in lengths.items() if lines > LONGEST_RULE} == {}
+    assert median(lengths.values()) <= LONGEST_HALF_OF_RULES
 
 
 def test_rules_say_what_they_are(built_in: dict[str, Rule]) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
+from usdvol_lint import schema
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.files.states import AssetState, FileFault, PathMark
@@ -21,6 +22,7 @@ __all__ = [
     "ABSTRACT_TYPE",
     "ERROR",
     "INFO",
+    "OURS",
     "STAGE",
     "UNKNOWN_TYPE",
     "WARNING",
@@ -52,6 +54,7 @@ __all__ = [
     "file_paths",
     "format_time",
     "frame_ranges",
+    "layered",
     "quoted",
     "rule",
 ]
@@ -65,6 +68,9 @@ else:
     AssetSample = Content = ContentClass = ParticleArray = Any
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
+
+OURS = tuple(sorted(schema.OURS))
+"""What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
 Prim: TypeAlias = Any
 """A `pxr.Usd.Prim`; spelt so that rules can be loaded where pxr is not imported."""
@@ -179,6 +185,11 @@ class When(NamedTuple):
 def authored(*names: str) -> When:
     """When one of these attributes is authored, or has values in clips."""
     return When(Prims.authored, lambda authored: not authored.declared.keys().isdisjoint(names))
+
+
+def layered() -> When:
+    """When several specs make up a prim, or value clips apply to it."""
+    return When(Prims.authored, lambda authored: authored.is_layered or authored.is_clipped)
 
 
 def file_paths(*marks: Enum) -> When:

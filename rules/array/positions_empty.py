@@ -9,7 +9,7 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
     late = arrays.late_positions
     if not (arrays.lack_positions or late) or facts.layers.may_lack_values(particles):
         return
-    if any(slip.intended.startswith("positions") for slip in facts.prims.misspelt(particles)):
+    if facts.particles.is_misspelt(particles, "positions"):
         return  # SCH004 says it
     if late:
         filled = format_time(late.filled)

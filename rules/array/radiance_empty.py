@@ -10,7 +10,7 @@ def radiance_empty(particles: Prim, facts: Facts) -> Problems:
         return
     if facts.particles.material_is_bound(particles) or facts.layers.may_lack_values(particles):
         return
-    if any("Coefficients" in slip.intended for slip in facts.prims.misspelt(particles)):
+    if facts.particles.is_misspelt(particles, "radiance:sphericalHarmonicsCoefficients"):
         return  # SCH004 says it
     has_colour = particles.GetAttribute("primvars:displayColor").HasAuthoredValue()
     yield Problem(

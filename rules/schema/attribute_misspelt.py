@@ -2,12 +2,12 @@
 
 from typing import Any
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
+from usdvol_lint.rule import ERROR, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
 
 @rule(
     "SCH004",
-    on=("Volume", "VolumeFieldBase", "ParticleField"),
+    on=OURS,
     when=When(Prims.authored, lambda authored: bool(authored.misspellings)),
     severity=ERROR,
     since="0.1",

@@ -1,6 +1,6 @@
 """SCH005: an attribute with a list of allowed tokens holds one of them."""
 
-from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
+from usdvol_lint.rule import ERROR, OURS, STAGE, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 from usdvol_lint.spelling import misspelt_token
 
 _EFFECTS = {
@@ -10,13 +10,7 @@ _EFFECTS = {
 """What a token of UsdGeom's that is none comes to, on the prim and all below it."""
 
 
-@rule(
-    "SCH005",
-    on=("Volume", "VolumeFieldBase", "ParticleField", STAGE),
-    when=When(Prims.may_have_unlisted_tokens, bool),
-    severity=ERROR,
-    since="0.1",
-)
+@rule("SCH005", on=(*OURS, STAGE), when=When(Prims.may_have_unlisted_tokens, bool), severity=ERROR, since="0.1")
 def token_not_allowed(prim: Prim, facts: Facts) -> Problems:
     for each in facts.prims.above_ours if prim.IsPseudoRoot() else (prim,):
         yield from _of_prim(each, facts)

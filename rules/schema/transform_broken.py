@@ -1,15 +1,9 @@
 """SCH015: a transform needs ops that are there, and numbers that are finite."""
 
-from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, authored, rule
+from usdvol_lint.rule import OURS, STAGE, WARNING, Facts, Prim, Problem, Problems, authored, rule
 
 
-@rule(
-    "SCH015",
-    on=("Volume", "VolumeFieldBase", "ParticleField", STAGE),
-    when=authored("xformOpOrder"),
-    severity=WARNING,
-    since="0.1",
-)
+@rule("SCH015", on=(*OURS, STAGE), when=authored("xformOpOrder"), severity=WARNING, since="0.1")
 def transform_broken(prim: Prim, facts: Facts) -> Problems:
     for each in facts.prims.above_ours if prim.IsPseudoRoot() else (prim,):
         yield from _of_prim(each, facts)

@@ -3,13 +3,7 @@
 from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, rule
 
 
-@rule(
-    "VOL001",
-    on="Volume",
-    when=bindings(TargetState.MISSING, TargetState.UNLOADED),
-    severity=ERROR,
-    since="0.1",
-)
+@rule("VOL001", on="Volume", when=bindings(TargetState.MISSING, TargetState.UNLOADED), severity=ERROR, since="0.1")
 def target_missing(volume: Prim, facts: Facts) -> Problems:
     bindings = facts.volumes.bindings(volume)
     for binding, target in bindings.with_target(TargetState.MISSING):

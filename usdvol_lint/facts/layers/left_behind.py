@@ -12,6 +12,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 
 _ARCS = ("references", "payload", "inheritPaths", "specializes")
@@ -125,10 +126,7 @@ def _users(layers: Iterable[Any]) -> dict[Any, list[Any]]:
 def _root_behind(prim: Any, spec: Any, carrier: _Carrier) -> Any | None:
     """The root layer of those that a spec and a carrier are composed of; None if they differ."""
     on_stage = prim.GetStage().GetPrimAtPath(shown(prim).path)
-    waiting = [on_stage.GetPrimIndex().rootNode]
-    while waiting:
-        node = waiting.pop()
-        waiting += node.children
+    for node in nodes_of(on_stage.GetPrimIndex()):
         layers = node.layerStack.layers
         if node.path == spec.path and spec.layer in layers and carrier.layer in layers:
             return node.layerStack.identifier.rootLayer

@@ -12,6 +12,7 @@ from pxr import Sdf
 
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_path, get_prim_stack
 from usdvol_lint.facts.usd.instances import in_prototype, shown
+from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.nearest import is_one_slip_from
 
 _PROTOTYPES = "prototypes"
@@ -137,8 +138,8 @@ class _Arcs:
 
     def lead_below(self, over: Any) -> bool:
         """Whether an arc leads to an `over` or below it, by one of its paths."""
-        index = over.ComputeExpandedPrimIndex()  # its nodes do not keep it alive
-        return not self._targets.isdisjoint(_paths(index.rootNode))
+        nodes = nodes_of(over.ComputeExpandedPrimIndex())
+        return not self._targets.isdisjoint(node.path.StripAllVariantSelections() for node in nodes)
 
     def draw_one_of(self, prims: Iterable[Any]) -> bool:
         """Whether a spec of these undefined prims is also that of a prim which is drawn."""
@@ -163,13 +164,6 @@ class _Arcs:
             )
         bare = (target.StripAllVariantSelections() for target in targets)
         return frozenset(prefix for target in bare for prefix in target.GetPrefixes())
-
-
-def _paths(node: Any) -> Iterator[Any]:
-    """The paths of a prim in all layers that it is composed of."""
-    yield node.path.StripAllVariantSelections()
-    for child in node.children:
-        yield from _paths(child)
 
 
 def _targets_at(layer: Any, path: Any) -> Iterator[Any]:

@@ -12,6 +12,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.layers.turns import Corrections
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.instances import as_shown
+from usdvol_lint.facts.usd.nodes import nodes_of
 
 UP_AXIS = "upAxis"
 UNITS = "metersPerUnit"
@@ -137,7 +138,9 @@ def _bringing(
     What the root layer of a referenced layer stack says goes for its sublayers that say nothing.
     """
     own = stage.GetRootLayer()
-    for node in _nodes(prim.GetPrimIndex().rootNode):
+    for node in nodes_of(prim.GetPrimIndex()):
+        if node.isInert or not node.hasSpecs:
+            continue
         top = node.layerStack.identifier.rootLayer
         for layer in node.layerStack.layers:
             if not _brings_a_place(layer.GetPrimAtPath(node.path)):
@@ -146,13 +149,6 @@ def _bringing(
                 yield layer, top == own or (layer != top and top not in unlike)
             elif top in unlike and _said(layer, key) is None:
                 yield top, False
-
-
-def _nodes(node: Any) -> Iterator[Any]:
-    if node.hasSpecs and not node.isInert:
-        yield node
-    for child in node.children:
-        yield from _nodes(child)
 
 
 def _brings_a_place(spec: Any | None) -> bool:

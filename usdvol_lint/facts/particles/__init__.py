@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
     from usdvol_lint.facts.particles.extent import OutsideExtent
     from usdvol_lint.facts.particles.reach import KernelsOutside
+    from usdvol_lint.facts.particles.scales import Scales
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -69,17 +70,22 @@ class Particles(Wing):
             self._advance,
         )
 
-    def positions_outside_extent(
-        self, prim: Any, slack: float, clamp: float
-    ) -> OutsideExtent | None:
-        """The positions outside the authored extent, if there are any."""
-        from usdvol_lint.facts.particles.extent import positions_outside_extent
+    def is_misspelt(self, prim: Any, name: str) -> bool:
+        """Whether an attribute is probably meant for the float or half array of this float name."""
+        return any(slip.intended in (name, f"{name}h") for slip in self._prims.misspelt(prim))
 
+    def positions_outside_extent(
+        self, prim: Any, slack: float, half_slack: float, clamp: float
+    ) -> OutsideExtent | None:
+        """The positions outside the authored extent, if any; `half_slack` is that of halfs."""
         extent = prim.GetAttribute("extent")
         positions = next(self.arrays(prim).used("positions"), None)
         if not positions or not extent.HasAuthoredValue():
-            return None
-        return positions_outside_extent(positions, extent, slack, clamp)
+            return None  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.extent import positions_outside_extent
+
+        relative_slack = half_slack if positions.is_half else slack
+        return positions_outside_extent(positions, extent, relative_slack, clamp)
 
     def kernels_outside_extent(
         self, prim: Any, share: float, clamp: float
@@ -103,11 +109,17 @@ class Particles(Wing):
 
         return coarse_positions(arrays, factor)
 
-    def mean(self, array: ParticleArray) -> float:
-        """The mean of all numbers in all samples of an array."""
-        from usdvol_lint.facts.particles.numbers import mean_of
+    @fact
+    def scales(self, prim: Any) -> Scales | None:
+        """The scales that count, beside the places of particles; None if not all are finite."""
+        arrays = self.arrays(prim)
+        array = arrays.finite("scales")
+        span = array.span if array else None
+        if not array or not span:
+            return None
+        from usdvol_lint.facts.particles.scales import Scales
 
-        return mean_of(array)
+        return Scales(array, *span, arrays)
 
     def range_within(self, array: ParticleArray, low: float, high: float) -> tuple[Row, Row] | None:
         """The least and greatest number in each column, if all lie within the limits."""
@@ -120,13 +132,6 @@ class Particles(Wing):
         from usdvol_lint.facts.particles.numbers import are_whole
 
         return are_whole(array)
-
-    def spacing(self, prim: Any) -> float:
-        """How far particles lie apart if they are spread evenly over the positions' bounds."""
-        from usdvol_lint.facts.particles.numbers import spacing
-
-        arrays = self.arrays(prim)
-        return spacing(arrays.positions, arrays.most_particles) if arrays.positions else 0.0
 
     def longest_side(self, prim: Any) -> float:
         """That of the first authored extent; 0 without one."""

@@ -115,6 +115,12 @@ class ParticleArray:
         return joined(max, (measured.high for _, measured in self.ranges))
 
     @property
+    def span(self) -> tuple[float, float] | None:
+        """The least and the greatest finite number in all columns."""
+        low, high = self.low, self.high
+        return (min(low), max(high)) if low and high else None
+
+    @property
     def has_nan(self) -> bool:
         return any(measured.has_nan for _, measured in self.ranges)
 

@@ -122,6 +122,11 @@ class ParticleArrays:
             if array and array.is_populated and (not nouns or array.noun in nouns):
                 yield array
 
+    def finite(self, noun: str) -> ParticleArray | None:
+        """The array with this noun that renderers read elements of, if all numbers are finite."""
+        array = next(self.used(noun), None)
+        return None if array is None or array.has_nan or array.has_infinity else array
+
     @property
     def late_positions(self) -> LateArray | None:
         """Float positions that begin empty, so that OpenUSD draws no particle at any time."""
