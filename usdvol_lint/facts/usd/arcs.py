@@ -8,13 +8,14 @@ from typing import Any, NamedTuple
 from pxr import Pcp, Sdf
 
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
-from usdvol_lint.facts.usd.instances import in_prototype, is_live
+from usdvol_lint.facts.usd.drawn import Drawn
+from usdvol_lint.facts.usd.instances import in_prototype
 
 _DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
 
 
 class Layered(NamedTuple):
-    """A live prim that several specs make up, strongest first; `parents` have children."""
+    """A drawn prim that several specs make up, strongest first; `parents` have children."""
 
     prim: Any
     specs: list[Any]
@@ -41,15 +42,15 @@ def prims_with_arcs(stage: Any) -> list[Any]:
     return list(filter(None, map(stage.GetPrimAtPath, paths)))
 
 
-def layered_prims(stage: Any) -> Iterator[Layered]:
-    """The live prims that several specs make up; those in instances as the walk meets them."""
+def layered_prims(stage: Any, drawn: Drawn) -> Iterator[Layered]:
+    """The drawn prims that several specs make up; those in instances as the walk meets them."""
     local = [layer.pseudoRoot for layer in stage.GetLayerStack()]
     pending = _children_of_several(stage.GetPseudoRoot(), local)
-    pending += prims_with_arcs(stage)
+    pending += (*prims_with_arcs(stage), *drawn.roots)
     seen = set()
     while pending:
         prim = in_prototype(pending.pop())
-        if prim in seen or not is_live(prim):
+        if prim in seen or prim not in drawn:
             continue
         seen.add(prim)
         specs = get_prim_stack(prim)
@@ -60,7 +61,7 @@ def layered_prims(stage: Any) -> Iterator[Layered]:
 
 
 def _children_of_several(prim: Any, parents: Sequence[Any]) -> list[Any]:
-    """The live children of a prim of which several of its specs say something."""
+    """The drawn children of a prim of which several of its specs say something."""
     if len(parents) < 2:
         return []  # nearly always: the names of many children are read only where they matter
     seen: set[str] = set()
