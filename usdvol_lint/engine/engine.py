@@ -16,8 +16,7 @@ from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
-from usdvol_lint.engine.walk import Walk
-from usdvol_lint.facts import Context, Facts
+from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.model import Finding, StageReport, Status, with_fingerprints
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
@@ -121,7 +120,7 @@ class _Stopwatch:
         self._since = now
 
 
-def _stats(walked: Walk, facts: Facts, files_checked: int) -> dict[str, int]:
+def _stats(walked: Walked, facts: Facts, files_checked: int) -> dict[str, int]:
     return {
         "prims": walked.prims,
         "volumes": len(facts.prims.of(schema.VOLUME)),

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.arcs import Arcs
     from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import PrimKinds
 
 
@@ -36,6 +37,7 @@ class Layers(Wing):
         clips: Clips,
         kinds: PrimKinds,
         undefined: Mapping[Any, Sequence[Any]],
+        drawn: Drawn,
     ) -> None:
         """`undefined`: by an `over`, the prims of our types that it takes off the stage."""
         super().__init__(tables)
@@ -43,6 +45,7 @@ class Layers(Wing):
         self._clips = clips
         self._kinds = kinds
         self._undefined = undefined
+        self._drawn = drawn
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
@@ -133,8 +136,8 @@ class Layers(Wing):
         if self._stage.GetPrototypes():
             from usdvol_lint.facts.layers.instancing import lost_overrides
 
-            ours = chain.from_iterable(map(self.tables.prims, sorted(schema.OURS)))
-            yield from lost_overrides(self._stage, self._arcs.layered, self._kinds, ours)
+            layered = self._arcs.layered
+            yield from lost_overrides(self._stage, layered, self._kinds, self._ours())
 
     @cached_property
     def _retyped(self) -> dict[Any, Retyped]:
@@ -151,14 +154,14 @@ class Layers(Wing):
             return iter(())
         from usdvol_lint.facts.layers.undefined import find_undefined
 
-        return find_undefined(self._stage, self._undefined, self._drawn, self.may_lack)
+        return find_undefined(self._stage, self._undefined, self._ours, self.may_lack)
 
     @property
     def undefined_prims(self) -> Iterator[Any]:
         """The prims of ours that an `over` takes off the stage, also of libraries."""
         return chain.from_iterable(self._undefined.values())
 
-    def _drawn(self) -> Iterator[Any]:
+    def _ours(self) -> Iterator[Any]:
         return chain.from_iterable(map(self.tables.prims, schema.OURS))
 
     @cached_property
@@ -204,7 +207,7 @@ class Layers(Wing):
     def _arcs(self) -> Arcs:
         from usdvol_lint.facts.usd.arcs import Arcs
 
-        return Arcs(self._stage)
+        return Arcs(self._stage, self._drawn)
 
     @cached_property
     def _composition(self) -> Composition:

@@ -9,13 +9,14 @@ from typing import Any, NamedTuple
 from pxr import Pcp, Sdf
 
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
-from usdvol_lint.facts.usd.instances import in_prototype, is_live
+from usdvol_lint.facts.usd.drawn import Drawn
+from usdvol_lint.facts.usd.instances import in_prototype
 
 _DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
 
 
 class Layered(NamedTuple):
-    """A live prim that several specs make up, strongest first; `parents` have children."""
+    """A drawn prim that several specs make up, strongest first; `parents` have children."""
 
     prim: Any
     specs: list[Any]
@@ -25,8 +26,9 @@ class Layered(NamedTuple):
 class Arcs:
     """Where the opinions on a stage come from: its layers, and the arcs between prims."""
 
-    def __init__(self, stage: Any) -> None:
+    def __init__(self, stage: Any, drawn: Drawn) -> None:
         self._stage = stage
+        self._drawn = drawn
 
     @cached_property
     def is_one_layer(self) -> bool:
@@ -41,10 +43,10 @@ class Arcs:
 
     @cached_property
     def layered(self) -> tuple[Layered, ...]:
-        """The live prims that several specs make up; those in instances as the walk meets them."""
+        """The drawn prims that several specs make up; those in instances as the walk meets them."""
         if self.is_one_layer and not self.prims:
             return ()
-        return tuple(_layered(self._stage, self.prims))
+        return tuple(_layered(self._stage, self.prims, self._drawn))
 
 
 def _prims_with_arcs(stage: Any) -> Iterator[Any]:
@@ -64,14 +66,14 @@ def _prims_with_arcs(stage: Any) -> Iterator[Any]:
     return filter(None, map(stage.GetPrimAtPath, paths))
 
 
-def _layered(stage: Any, with_arcs: Iterable[Any]) -> Iterator[Layered]:
+def _layered(stage: Any, with_arcs: Iterable[Any], drawn: Drawn) -> Iterator[Layered]:
     local = [layer.pseudoRoot for layer in stage.GetLayerStack()]
     pending = _children_of_several(stage.GetPseudoRoot(), local)
-    pending += with_arcs
+    pending += (*with_arcs, *drawn.roots)
     seen = set()
     while pending:
         prim = in_prototype(pending.pop())
-        if prim in seen or not is_live(prim):
+        if prim in seen or prim not in drawn:
             continue
         seen.add(prim)
         specs = get_prim_stack(prim)
@@ -82,7 +84,7 @@ def _layered(stage: Any, with_arcs: Iterable[Any]) -> Iterator[Layered]:
 
 
 def _children_of_several(prim: Any, parents: Sequence[Any]) -> list[Any]:
-    """The live children of a prim of which several of its specs say something."""
+    """The drawn children of a prim of which several of its specs say something."""
     if len(parents) < 2:
         return []  # nearly always: the names of many children are read only where they matter
     seen: set[str] = set()
