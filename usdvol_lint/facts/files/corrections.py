@@ -11,6 +11,7 @@ from pxr import Ar, Sdf
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.paths import count_names
 from usdvol_lint.facts.files.patterns import matching_frames
+from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.model import quoted
 from usdvol_lint.nearest import closest_match
 
@@ -77,7 +78,7 @@ def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
 
     `path` is the absolute form of `authored`; the paths begin as `authored` does.
     """
-    folder, name = os.path.split(path)
+    folder, name, _ = place_of(path)
     found = matching_frames(name, disk.listing(folder))
     return [(frame.number, _with_end(authored, name, frame.name)) for frame in found]
 

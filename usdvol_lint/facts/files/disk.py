@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 from pxr import Ar, Tf
 
 from usdvol_lint.facts.files.paths import is_packaged
+from usdvol_lint.facts.files.places import names_listed
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
@@ -53,11 +54,7 @@ class Disk:
     def listing(self, folder: str) -> tuple[str, ...]:
         """The names in a folder, sorted; none if it can't be read."""
         if folder not in self._listings:
-            names = _package_names if os.path.isfile(folder) else os.listdir
-            try:
-                self._listings[folder] = tuple(sorted(names(folder)))
-            except OSError:
-                self._listings[folder] = ()
+            self._listings[folder] = tuple(names_listed(folder))
         return self._listings[folder]
 
     def names(self, folder: str) -> dict[str, str]:
@@ -169,16 +166,6 @@ def _package_fault(path: str) -> str | None:
     if asset is None:
         return FileFault.UNREADABLE
     return FileFault.EMPTY if asset.GetSize() == 0 else None
-
-
-def _package_names(package: str) -> list[str]:
-    from zipfile import BadZipFile, ZipFile  # costs start-up time, and few stages ask
-
-    try:
-        with ZipFile(package) as archive:
-            return archive.namelist()
-    except BadZipFile:
-        return []
 
 
 def _group_by_numbers(names: Iterable[str]) -> dict[_Numbers, list[str]]:

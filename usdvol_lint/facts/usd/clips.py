@@ -185,7 +185,7 @@ class Clips:
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets that apply to a prim: its own, then those of each ancestor upwards."""
-        return tuple(chain.from_iterable(map(self._on, self.bearers(prim))))
+        return tuple(chain.from_iterable(map(self.on, self.bearers(prim))))
 
     def bearers(self, prim: Any) -> Iterator[Any]:
         """The prim and its ancestors, those of them on which clip sets are authored."""
@@ -194,7 +194,8 @@ class Clips:
                 yield prim
             prim = prim.GetParent()
 
-    def _on(self, prim: Any) -> tuple[ClipSet, ...]:
+    def on(self, prim: Any) -> tuple[ClipSet, ...]:
+        """The clip sets authored on a prim itself, as `clip_sets_on` finds them."""
         if prim not in self._own:
             self._own[prim] = clip_sets_on(prim)
         return self._own[prim]
