@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from stages import package
+from stages import package, said
 
 from usdvol_lint.model import StageReport
 
@@ -83,3 +83,14 @@ def test_clips_that_a_template_names(
         (tmp_path / name).write_bytes(content)
     found = [each for each in lint_text(text).findings if each.code != "LNT004"]
     assert [f"{each.code} {each.message} -> {each.suggestion}" for each in found] == expected
+
+
+@pytest.mark.parametrize("folder", ["", "clips/"])
+def test_a_clip_of_a_template_is_called_as_the_template_would(
+    folder: str, lint_text: Lint, tmp_path: Path
+) -> None:
+    text = SPLAT.replace("clip.###", f"{folder}clip.###") % ("/splat", "./", "1")
+    package(tmp_path / "shot.usdz", text, {f"{folder}clip.001.usda": b"#usda 1.0\n)"})
+    report = lint_text("#usda 1.0\n(\n    subLayers = [@./shot.usdz@]\n)\n")
+    [found] = [each for each in said(report) if each.startswith("STG001")]
+    assert found.startswith(f"STG001 the clip './{folder}clip.001.usda' can't be read: ")

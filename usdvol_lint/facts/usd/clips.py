@@ -72,8 +72,14 @@ class ClipSet:
             return re.sub("#+", lambda marks: f"{number:0{len(marks[0])}}", self.template, count=1)
         active = sorted(map(tuple, api.GetClipActive(self.name) or ()))
         before = [index for start, index in active if start <= time]
-        clip = self.clips[int(before[-1])] if before else None
-        return (authored_path(clip) or str(clip.path)) if clip else None
+        return self.named(self.clips[int(before[-1])]) if before else None
+
+    def named(self, clip: Any) -> str:
+        """The path of one of the clips as the set, or its template, names it."""
+        if not self.template:
+            return authored_path(clip) or str(clip.path)
+        folder, slash, _ = self.template.rpartition("/")
+        return folder + slash + re.split(r"[/\[]", clip.path)[-1].rstrip("]")
 
     def spec_with(self, key: str) -> Any:
         """The strongest spec of the prim that authors a key of the clip set, or the strongest."""
