@@ -83,6 +83,31 @@ def test_files_inside_a_package(
     assert said(engine.lint("scene.usda")) == expected
 
 
+@pytest.mark.parametrize(
+    ("start", "others"),
+    [
+        ("./shot.usdz[gone/", ": no folder 'gone' in 'shot.usdz', where 1 other field should"),
+        ("./shot.usdz[vdb/gone/", ": no folder 'vdb/gone' in 'shot.usdz', where 1 other field"),
+        ("./gone.usdz[vdb/", ": no package './gone.usdz', where 1 other field should have"),
+        ("./shot.usdz[vdb/", None),
+        ("./shot.usdz[", None),
+        ("./shot.usdz[in.usdz[vdb/", None),
+    ],
+)
+def test_a_folder_that_a_package_lacks_is_one_finding(
+    start: str, others: str | None, lint_text: Lint, tmp_path: Path
+) -> None:
+    package(tmp_path / "shot.usdz", "#usda 1.0\n", {"vdb/b/cloud.vdb": CONTENT, "in.usdz": CONTENT})
+    one, two = (f"{start}{name}.vdb]{']' * (start.count('[') - 1)}" for name in ("mist", "sparks"))
+    first, second = (volume(f"asset filePath = @{path}@") for path in (one, two))
+    found = said(lint_text(first + second.replace("cloud", "second").replace("#usda 1.0", "")))
+    if others:
+        [finding] = found
+        assert finding.startswith(f"AST002 no file at '{one}'{others}")
+    else:
+        assert found == [f"AST002 no file at '{path}' in 'shot.usdz'" for path in (one, two)]
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
 def test_a_named_pipe_is_no_file_and_is_not_opened(lint_text: Lint, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.vdb")

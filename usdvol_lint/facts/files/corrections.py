@@ -9,7 +9,7 @@ from typing import NamedTuple
 from pxr import Ar, Sdf
 
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.paths import count_names
+from usdvol_lint.facts.files.paths import count_names, is_packaged
 from usdvol_lint.facts.files.patterns import matching_frames
 from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.model import quoted
@@ -33,7 +33,9 @@ def find_absence(disk: Disk, path: str, authored: str) -> Absence:
             return _absence_of_package(disk, package, authored)
         similar = None if corrected else _closest_name(disk, package, inner)
         corrected = _with_end(authored, inner, similar) if similar else corrected
-        return Absence(f" in {quoted(os.path.basename(package))}", corrected)
+        folder = disk.missing_in_package(package, inner)
+        what = f": no folder {quoted(folder)}" if folder else ""
+        return Absence(f"{what} in {quoted(os.path.basename(package))}", corrected)
     missing = _first_missing(path)
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
@@ -50,10 +52,16 @@ def find_absence(disk: Disk, path: str, authored: str) -> Absence:
     return Absence(f": no folder {quoted(shown)}" if below else "", corrected)
 
 
-def missing_folder(path: str) -> str | None:
-    """The topmost folder that does not exist above an absolute path, if one does not."""
+def missing_folder(disk: Disk, path: str) -> str | None:
+    """The topmost folder or package that does not exist above an absolute path, if one does not."""
+    if is_packaged(path):
+        package, inner = Ar.SplitPackageRelativePathOuter(path)
+        if not os.path.isfile(package):
+            return _first_missing(package)
+        folder = disk.missing_in_package(package, inner)
+        return str(Ar.JoinPackageRelativePath(package, folder)) if folder else None
     missing = _first_missing(path)
-    return None if missing == path or Ar.IsPackageRelativePath(path) else missing
+    return None if missing == path else missing
 
 
 def correct_case(disk: Disk, path: str, authored: str) -> str | None:

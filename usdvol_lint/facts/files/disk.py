@@ -7,12 +7,13 @@ import re
 import stat
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 from typing import Any, TypeAlias
 
 from pxr import Ar, Tf
 
 from usdvol_lint.facts.files.paths import is_packaged
-from usdvol_lint.facts.files.places import names_listed
+from usdvol_lint.facts.files.places import folders_above, names_listed
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
@@ -34,6 +35,7 @@ class Disk:
         self._faults: dict[str, str | None] = {}
         self._listings: dict[str, tuple[str, ...]] = {}
         self._by_numbers: dict[str, dict[_Numbers, list[str]]] = {}
+        self._folders: dict[str, frozenset[str]] = {}
         self._by_case: dict[str, dict[str, str]] = {}
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._ignores_case: dict[str, bool] = {}
@@ -64,6 +66,16 @@ class Disk:
             lower = {name.lower(): name for name in listing}
             self._by_case[folder] = lower | {name: name for name in listing}
         return self._by_case[folder]
+
+    def missing_in_package(self, package: str, inner: str) -> str | None:
+        """The topmost folder that a package lacks above a path in it, if it lacks one."""
+        if package not in self._folders:
+            listing = self.listing(package)
+            self._folders[package] = frozenset(chain.from_iterable(map(folders_above, listing)))
+        there = self._folders[package]
+        outermost = inner.partition("[")[0]
+        missing = (each for each in folders_above(outermost) if each not in there)
+        return None if inner.startswith("../") else next(missing, None)
 
     def names_numbered_alike(self, folder: str, name: str) -> Sequence[str]:
         """The names in a folder whose numbers are the same as in `name`."""

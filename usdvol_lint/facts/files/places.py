@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from pxr import Ar
@@ -30,6 +31,11 @@ def place_of(path: str) -> Place:
         package, inner = Ar.SplitPackageRelativePathOuter(path)
         return Place(package, inner, True)
     return Place(*os.path.split(path), False)
+
+
+def folders_above(name: str) -> Iterator[str]:
+    """The folders in the path of a file in a package, the topmost first."""
+    yield from (name[:at] for at, letter in enumerate(name) if letter == "/")
 
 
 def names_listed(folder: str) -> list[str]:
