@@ -13,6 +13,7 @@ from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.files import classify
 from usdvol_lint.facts.files.corrections import Absence, find_absence
 from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.facts.files.paths import extension_of, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.model import StageReport
@@ -228,10 +229,12 @@ def test_a_moved_cache_is_looked_for_once(tmp_path: Path, monkeypatch: pytest.Mo
 
 def test_no_end_of_folders_is_searched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path, "moved/0.vdb", "other/1.vdb")
-    monkeypatch.setattr("usdvol_lint.facts.files.disk._NAMES_TRIED", 3)
-    disk = Disk()
+    monkeypatch.setattr("usdvol_lint.facts.files.folders._NAMES_TRIED", 3)
+    folders = Folders()
+    disk = Disk(folders)
     assert disk.sibling_with(f"{tmp_path}/a", "/0.vdb") == "moved"
     assert disk.sibling_with(f"{tmp_path}/b", "/1.vdb") is None
+    assert Disk(folders).sibling_with(f"{tmp_path}/b", "/1.vdb") is None  # of the next stage
 
 
 def test_bare_names_are_looked_for_beside_their_layer(lint_text: Lint, tmp_path: Path) -> None:

@@ -72,7 +72,7 @@ def correct_case(disk: Disk, path: str, authored: str) -> str | None:
     authored, _ = Sdf.Layer.SplitIdentifier(authored)
     if Ar.IsPackageRelativePath(path):
         package, inner = Ar.SplitPackageRelativePathOuter(path)
-        actual = disk.names(package).get(inner.lower(), inner)
+        actual = disk.listing(package).by_case.get(inner.lower(), inner)
         return _with_end(authored, inner, actual) if actual != inner else None
     count = count_names(authored)
     found = disk.in_case(path, count)
@@ -87,7 +87,7 @@ def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
     `path` is the absolute form of `authored`; the paths begin as `authored` does.
     """
     folder, name, _ = place_of(path)
-    found = matching_frames(name, disk.listing(folder))
+    found = matching_frames(name, disk.listing(folder).names)
     return [(frame.number, _with_end(authored, name, frame.name)) for frame in found]
 
 
@@ -101,7 +101,7 @@ def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
 
 def _closest_name(disk: Disk, folder: str, name: str) -> str | None:
     """The closest other name in a folder; a name with other numbers is no misspelling."""
-    others = [other for other in disk.names_numbered_alike(folder, name) if other != name]
+    others = [other for other in disk.listing(folder).numbered_like(name) if other != name]
     swapped = {
         f"{name[:at]}{name[at + 1]}{name[at]}{name[at + 2 :]}" for at in range(len(name) - 1)
     }
