@@ -104,9 +104,9 @@ def test_a_search_is_made_once_for_all_stages(
     settle(tmp_path)
     folders = Folders()
     for _ in range(3):
-        assert Disk(folders).sibling_with(f"{tmp_path}/a", "/0.vdb") == "moved"
-    assert Disk(folders).sibling_with(f"{tmp_path}/b", "/1.vdb") == "other"
-    assert Disk(folders).sibling_with(f"{tmp_path}/b", "/2.vdb") is None
+        assert Disk(folders).siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
+    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == ["other"]
+    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/2.vdb") == []
 
 
 def test_a_second_lint_sees_what_the_disk_holds_by_then(

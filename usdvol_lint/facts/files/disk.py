@@ -56,8 +56,8 @@ class Disk:
         missing = (each for each in folders_above(outermost) if each not in there)
         return None if inner.startswith("../") else next(missing, None)
 
-    def sibling_with(self, folder: str, below: str) -> str | None:
-        """The name of the one folder beside another that has a file at the path `below`, `/a.vdb`.
+    def siblings_with(self, folder: str, below: str) -> list[str]:
+        """The names of the folders beside another that have a file at the path `below`, `/a.vdb`.
 
         Which folders come into question is looked for once for each `folder`, by the first file.
         """
@@ -65,10 +65,9 @@ class Disk:
         if folder not in self._siblings:
             is_top = os.path.dirname(parent) == parent
             self._siblings[folder] = () if is_top else self._all_folders.with_file(parent, below)
-        there = [
+        return [
             name for name in self._siblings[folder] if os.path.isfile(f"{parent}/{name}{below}")
         ]
-        return there[0] if len(there) == 1 else None
 
     def in_case(self, path: str, count: int) -> str | None:
         """An absolute path with its last `count` names as the folders on disk spell them.
