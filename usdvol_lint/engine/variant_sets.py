@@ -9,6 +9,8 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Sdf, Usd
 
 from usdvol_lint import schema
+from usdvol_lint.facts.usd.calls import DRAWN_BELOW
+from usdvol_lint.facts.usd.instancers import undefined_prototypes
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
 _CHECKED = frozenset(
@@ -50,12 +52,19 @@ class Variant(NamedTuple):
 
 
 def survey(stage: Any, start: Any, kinds: PrimKinds) -> Survey:
-    """Looks at `start` and all prims below it, and into all prototypes."""
+    """Looks at `start` and all prims below it, into all prototypes, and at what instancers draw."""
     switches, checked = [], []
+    instancers: list[Any] = []
     starts = (*([start] if start else []), *stage.GetPrototypes())
-    for prim in chain.from_iterable(map(Usd.PrimRange, starts)):
-        if not _CHECKED.isdisjoint(kinds.names(kinds.key(prim))):
+    below = (Usd.PrimRange(each, DRAWN_BELOW) for each in starts)
+    # A generator, which looks at the instancers only once those are known.
+    undefined = undefined_prototypes(instancers, kinds)
+    for prim in chain.from_iterable(chain(below, undefined)):
+        names = kinds.names(kinds.key(prim))
+        if not _CHECKED.isdisjoint(names):
             checked.append(prim)
+        if schema.POINT_INSTANCER in names:
+            instancers.append(prim)
         if prim.HasVariantSets():
             switches.append(prim)
     return Survey(switches, _holders(checked))

@@ -1,18 +1,19 @@
-"""Traverses a stage once, and keeps every live prim that some rule asks for, by kind."""
+"""Traverses a stage once, and keeps every live prim that a rule or fact asks for, by kind."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import compress, islice, repeat
+from itertools import chain, compress, islice, repeat
 from typing import Any
 
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import COMPOSED, DRAWN_BELOW, has_metadata, is_defined
-from usdvol_lint.facts.usd.instances import appears, in_prototype
+from usdvol_lint.facts.usd.calls import COMPOSED, has_metadata, is_defined
+from usdvol_lint.facts.usd.instancers import undefined_prototypes
+from usdvol_lint.facts.usd.instances import appears
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 from usdvol_lint.rule import Rule
 
@@ -25,7 +26,7 @@ From 64 to 4,096 the time is the same.
 
 @dataclass(slots=True)
 class Walk:
-    """The number of prims on the stage, and those that some rule asks for, by kind.
+    """The number of prims on the stage, and those that rules or facts ask for, by kind.
 
     `prims` counts what is composed, `kept` are the prims that are drawn: those that are defined, up
     to the root or up to a PointInstancer's prototype.
@@ -47,8 +48,7 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
     Whether a prim is kept is decided once for each combination of type and applied schemas, so
     the cost does not grow with the number of rules.
     """
-    asked_for = schema.OURS.union(*(rule.on for rule in rules))
-    wanted = asked_for | {schema.POINT_INSTANCER}
+    wanted = schema.OURS.union({schema.POINT_INSTANCER}, *(rule.on for rule in rules))
     kept_of_kind: dict[KindKey, list[Any] | None] = {}
     result = Walk()
     for prims in _batches(stage):
@@ -65,26 +65,18 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
             # Depth first: an ancestor of one of these is among them, or an ancestor of the first.
             around = [*_ancestors(prims[0]), *prims]
             result.clipped += compress(around, map(has_metadata, around, repeat("clips")))
-    _sort(result, {key: kept for key, kept in kept_of_kind.items() if kept}, kinds, asked_for)
+    _sort(result, {key: kept for key, kept in kept_of_kind.items() if kept}, kinds)
     return result
 
 
-def _sort(
-    result: Walk,
-    found: Mapping[KindKey, list[Any]],
-    kinds: PrimKinds,
-    asked_for: frozenset[str],
-) -> None:
-    """Keeps the prims that are drawn and that rules ask for; of the others, notes those of ours."""
+def _sort(result: Walk, found: Mapping[KindKey, list[Any]], kinds: PrimKinds) -> None:
+    """Keeps the prims that are drawn; of the others, notes those of ours."""
     partly = [key for key, prims in found.items() if not all(map(is_defined, prims))]
     drawn = _prototypes(found, kinds) if partly else set()
     for key, prims in found.items():
-        names = kinds.names(key)
-        if asked_for.isdisjoint(names):
-            continue
         if key in partly:
             others = [prim for prim in prims if not is_defined(prim) and prim not in drawn]
-            if not schema.OURS.isdisjoint(names):
+            if not schema.OURS.isdisjoint(kinds.names(key)):
                 for prim in filter(Usd.Prim.HasDefiningSpecifier, others):
                     result.undefined[_topmost_undefined(prim, drawn)].append(prim)
             prims = [prim for prim in prims if is_defined(prim) or prim in drawn]
@@ -95,19 +87,8 @@ def _sort(
 def _prototypes(found: Mapping[KindKey, list[Any]], kinds: PrimKinds) -> set[Any]:
     """The prims that nothing defines and that are drawn all the same, as PointInstancers do it."""
     of_instancers = (key for key in found if schema.POINT_INSTANCER in kinds.names(key))
-    waiting = [prim for key in of_instancers for prim in found[key] if is_defined(prim)]
-    drawn: set[Any] = set()
-    while waiting:
-        instancer = waiting.pop()
-        for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
-            target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
-            root = in_prototype(target) if target else None
-            if not root or root in drawn or is_defined(root) or not DRAWN_BELOW(root):
-                continue
-            prims = list(Usd.PrimRange(root, DRAWN_BELOW))
-            drawn.update(prims)
-            waiting += (prim for prim in prims if kinds.is_a(prim, schema.POINT_INSTANCER))
-    return drawn
+    defined = (prim for key in of_instancers for prim in found[key] if is_defined(prim))
+    return set(chain.from_iterable(undefined_prototypes(defined, kinds)))
 
 
 def _topmost_undefined(prim: Any, drawn: Collection[Any]) -> Any:

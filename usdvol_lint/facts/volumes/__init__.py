@@ -136,13 +136,16 @@ class Volumes(Wing):
 
         Left out are those whose type is hidden, and those that may lack opinions.
         """
+        from usdvol_lint.facts.usd.instancers import undefined_prototypes
         from usdvol_lint.facts.volumes.lookalikes import lookalikes
 
         slots, users = self.tables.field_slots, self._users
         unbound = {path for path, slot in slots.items() if slot not in users}
+        instancers = self.tables.prims(schema.POINT_INSTANCER)
+        drawn = undefined_prototypes(instancers, self._kinds)
         return [
             each
-            for each in lookalikes(self._stage, unbound)
+            for each in lookalikes(self._stage, unbound, drawn)
             if not self._layers.may_lack(each.prim) and not self._layers.hides_ours(each.prim)
         ]
 

@@ -31,10 +31,15 @@ class Lookalike(NamedTuple):
     binding: Any | None = None
 
 
-def lookalikes(stage: Any, unbound: Collection[Any]) -> list[Lookalike]:
-    """By path: what would bind one of the fields at these paths, or has all the splat arrays."""
+def lookalikes(
+    stage: Any, unbound: Collection[Any], undefined: Iterable[Iterable[Any]]
+) -> list[Lookalike]:
+    """By path: what would bind one of the fields at these paths, or has all the splat arrays.
+
+    `undefined` are the prims that are drawn though no traversal visits them.
+    """
     found = {}
-    for prim in chain(_above(stage, unbound), _first_groups(stage)):
+    for prim in chain(_above(stage, unbound), _first_groups(stage, undefined)):
         names = get_property_names(prim)
         binding = _binding(prim, names, unbound) if unbound and names else None
         if binding and _is_above_volume(prim):
@@ -56,9 +61,9 @@ def _above(stage: Any, paths: Iterable[Any]) -> Iterator[Any]:
             prim = get_parent(prim)
 
 
-def _first_groups(stage: Any) -> Iterator[Any]:
+def _first_groups(stage: Any, undefined: Iterable[Iterable[Any]]) -> Iterator[Any]:
     """The first prims of the stage that have a type in question."""
-    ranges = [stage.Traverse(), *map(Usd.PrimRange, live_prototypes(stage))]
+    ranges = chain([stage.Traverse()], map(Usd.PrimRange, live_prototypes(stage)), undefined)
     first = islice(chain.from_iterable(ranges), _SEARCHED)
     return (prim for prim in first if get_type(prim) in _GROUP_TYPES)
 
