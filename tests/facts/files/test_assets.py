@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from pxr import Ar
 from stages import CONTENT, findings, only, package, said, volume, write
 
 from usdvol_lint.engine.engine import Engine
@@ -460,6 +462,64 @@ def test_placeholders(path: str, pattern: str | None) -> None:
 )
 def test_schemes(path: str, expected: bool) -> None:
     assert is_uri(path) is expected
+
+
+@pytest.mark.skipif(os.name == "nt", reason="names have no colons here")
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [
+        ("op:/obj/pyro/OUT.vdb", []),
+        ("op:/obj/pyro/OUT.vdb:SDF_FORMAT_ARGS:a=b", []),
+        ("op:/obj/pyro/OUT", ["AST006"]),
+        ("op:/obj/pyro/empty.vdb", ["AST005"]),
+        ("op:/obj/pyro/GONE.vdb", ["AST010"]),
+        ("asset:smoke.vdb", []),
+        ("asset:gone.vdb", ["AST010"]),
+    ],
+)
+def test_a_resolver_that_answers_for_what_looks_like_a_uri(
+    path: str, expected: list[str], lint_text: Lint, assets: Path, tmp_path: Path
+) -> None:
+    """USD's own does, where its search path leads to such a file."""
+    for name in ("op:/obj/pyro/OUT.vdb", "op:/obj/pyro/OUT", "asset:smoke.vdb"):
+        (tmp_path / "search" / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(assets / "cloud.vdb", tmp_path / "search" / name)
+    (tmp_path / "search/op:/obj/pyro/empty.vdb").touch()
+    Ar.DefaultResolver.SetDefaultSearchPath([str(tmp_path / "search")])
+    try:
+        found = lint_text(volume(f"asset filePath = @{path}@")).findings
+    finally:
+        Ar.DefaultResolver.SetDefaultSearchPath([])
+    assert [each.code for each in found] == expected
+
+
+def test_what_a_resolver_that_is_registered_does_not_find(
+    lint_text: Lint, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is missing, and nothing else is known of it; no wheel of USD has such a resolver."""
+    monkeypatch.setattr(Ar, "GetRegisteredURISchemes", lambda: ["asset"])
+    paths = ("asset://show/fx/smoke.vdb", "asset:smoke.vdb", "ASSET://show/fx/smoke.0001.vdb")
+    one, *others = (volume(f"asset filePath = @{path}@") for path in paths)
+    for number, other in enumerate(others):
+        one += other.replace("cloud", f"cloud_{number}").replace("#usda 1.0", "")
+    assert said(lint_text(one)) == [f"AST002 no file at {path!r}" for path in paths]
+
+
+@pytest.mark.parametrize(("resolved", "expected"), [("a.vdb", []), ("a", ["AST006"])])
+@pytest.mark.parametrize("path", ["./a.vdb", "asset:a", "./a"])
+def test_the_extension_that_counts_is_that_of_what_a_resolver_answers(
+    path: str,
+    resolved: str,
+    expected: list[str],
+    lint_text: Lint,
+    assets: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    answer = str(shutil.copyfile(assets / "cloud.vdb", tmp_path / resolved))
+    monkeypatch.setattr(classify, "_resolved_without_arguments", lambda *asked: answer)
+    report = lint_text(volume(f"asset filePath = @{path}:SDF_FORMAT_ARGS:a=b.vdb@"))
+    assert [each.code for each in report.findings] == expected
 
 
 @pytest.mark.parametrize(

@@ -40,7 +40,12 @@ class Absence(NamedTuple):
 
 
 def find_absence(disk: Disk, path: str, authored: str) -> Absence:
-    """Why nothing is at an absolute path; `authored` is the text that it comes from."""
+    """Why nothing is at an absolute path; `authored` is the text that it comes from.
+
+    Of what is no path on disk, such as a URI for an installed resolver, nothing is known.
+    """
+    if not os.path.isabs(path):
+        return Absence("", None)
     authored, _ = Sdf.Layer.SplitIdentifier(authored)
     corrected = correct_case(disk, path, authored)
     if Ar.IsPackageRelativePath(path):
