@@ -17,6 +17,7 @@ from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
+from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.model import Finding, StageReport, Status, with_fingerprints
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
@@ -54,6 +55,7 @@ class Engine:
         self._advance = advance
         self._send = send
         self._volume_files = VolumeFiles()
+        self._folders = Folders()
 
     def lint(self, path: str) -> StageReport:
         """The report on one stage; never raises for what the stage holds or a rule does."""
@@ -65,7 +67,7 @@ class Engine:
             clock.lap("open")
             return report_trouble(path, error.trouble, seconds=clock.seconds)
         clock.lap("open")
-        context = Context.of(stage, self._depth, self._volume_files, self._advance)
+        context = Context.of(stage, self._depth, self._volume_files, self._folders, self._advance)
         return self._report(path, context, clock)
 
     def _report(self, path: str, context: Context, clock: _Stopwatch) -> StageReport:

@@ -16,6 +16,7 @@ from usdvol_lint.facts.volumes import Volumes
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.disk import Disk
+    from usdvol_lint.facts.files.folders import Folders
     from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
     from usdvol_lint.facts.volumes.usage import UsedFields
@@ -46,9 +47,10 @@ class Context(NamedTuple):
         stage: Any,
         depth: Depth = Depth(),  # noqa: B008  (it can't change)
         volume_files: VolumeFiles | None = None,
+        folders: Folders | None = None,
         advance: Callable[[int], None] = lambda samples: None,
     ) -> Context:
-        """The context of a stage with empty caches, but for those of `volume_files`."""
+        """The context of a stage with empty caches, but for `volume_files` and `folders`."""
         from usdvol_lint.facts.files.disk import Disk
         from usdvol_lint.facts.usd.kinds import PrimKinds
         from usdvol_lint.facts.volumes.usage import UsedFields
@@ -56,7 +58,7 @@ class Context(NamedTuple):
 
         kinds = PrimKinds(stage.GetMetadata("fallbackPrimTypes"))
         files = volume_files or VolumeFiles()
-        return cls(stage, kinds, depth, Disk(), files, UsedFields(), advance)
+        return cls(stage, kinds, depth, Disk(folders), files, UsedFields(), advance)
 
 
 class Walked(NamedTuple):

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from pxr import Ar
 from stages import CONTENT, findings, only, package, said, volume, write
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.files import classify
 from usdvol_lint.facts.files.corrections import Absence, find_absence
 from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.facts.files.paths import extension_of, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.model import StageReport
@@ -81,6 +84,31 @@ def test_files_inside_a_package(
     )
     assert said(engine.lint("shot.usdz")) == expected
     assert said(engine.lint("scene.usda")) == expected
+
+
+@pytest.mark.parametrize(
+    ("start", "others"),
+    [
+        ("./shot.usdz[gone/", ": no folder 'gone' in 'shot.usdz', where 1 other field should"),
+        ("./shot.usdz[vdb/gone/", ": no folder 'vdb/gone' in 'shot.usdz', where 1 other field"),
+        ("./gone.usdz[vdb/", ": no package './gone.usdz', where 1 other field should have"),
+        ("./shot.usdz[vdb/", None),
+        ("./shot.usdz[", None),
+        ("./shot.usdz[in.usdz[vdb/", None),
+    ],
+)
+def test_a_folder_that_a_package_lacks_is_one_finding(
+    start: str, others: str | None, lint_text: Lint, tmp_path: Path
+) -> None:
+    package(tmp_path / "shot.usdz", "#usda 1.0\n", {"vdb/b/cloud.vdb": CONTENT, "in.usdz": CONTENT})
+    one, two = (f"{start}{name}.vdb]{']' * (start.count('[') - 1)}" for name in ("mist", "sparks"))
+    first, second = (volume(f"asset filePath = @{path}@") for path in (one, two))
+    found = said(lint_text(first + second.replace("cloud", "second").replace("#usda 1.0", "")))
+    if others:
+        [finding] = found
+        assert finding.startswith(f"AST002 no file at '{one}'{others}")
+    else:
+        assert found == [f"AST002 no file at '{path}' in 'shot.usdz'" for path in (one, two)]
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
@@ -155,9 +183,7 @@ def test_what_a_missing_path_may_have_meant(path: str, expected: Absence, tmp_pa
         ("./fx/sim/fire.vdb", "./effects/sim/fire.vdb"),
         ("./cache/fire.vdb", "./sparks/fire.vdb"),
         ("./cache/smoke.0001.vdb", None),
-        ("./cache/both.vdb", None),
         ("./sparkl/fire.vdb", "./sparks/fire.vdb"),
-        ("./gone/both.vdb", None),
         ("./effects/sin/fire.vdb", "./effects/sim/fire.vdb"),
         ("./cahce_v1/smoke.0001.vdb", "./cache_v1/smoke.0001.vdb"),
     ],
@@ -170,7 +196,38 @@ def test_a_file_that_lies_in_a_sibling_folder(
         tmp_path, *files, "sparks/fire.vdb", "sparks/both.vdb", "cache_v1/both.vdb", "sparkle/a.vdb"
     )
     found = find_absence(Disk(), os.path.normpath(tmp_path / path), path)
-    assert found.similar == similar
+    assert (found.similar, found.elsewhere) == (similar, ())
+
+
+@pytest.mark.parametrize(
+    ("path", "elsewhere"),
+    [
+        (
+            "./cache_v2/a.vdb",
+            "'./cache_v10/a.vdb', './cache_v3/a.vdb', './cache_v1/a.vdb' and 1 more",
+        ),
+        (
+            "./old/a.vdb",
+            "'./old_caches_of_wednesday/a.vdb', './cache_v10/a.vdb', './cache_v3/a.vdb' and 1 more",
+        ),
+        ("./sparkle/b.vdb", "'./sparks/b.vdb', './cache_v10/b.vdb'"),
+        ("./sparkk/b.vdb", "'./sparks/b.vdb', './cache_v10/b.vdb'"),
+        (
+            "./cache_v3/../cache_v2/b.vdb",
+            "'./cache_v3/../cache_v10/b.vdb', './cache_v3/../sparks/b.vdb'",
+        ),
+        ("./gone/shot.usdz[c.vdb]", "'./cache_v3/shot.usdz[c.vdb]', './cache_v1/shot.usdz[c.vdb]'"),
+    ],
+)
+def test_a_file_that_lies_in_several_sibling_folders(
+    path: str, elsewhere: str, tmp_path: Path
+) -> None:
+    folders = ("cache_v1", "cache_v3", "cache_v10", "old_caches_of_wednesday")
+    write(tmp_path, *(f"{folder}/a.vdb" for folder in folders))
+    write(tmp_path, "sparks/b.vdb", "cache_v10/b.vdb", "sparkle/c.vdb")
+    write(tmp_path, "cache_v1/shot.usdz", "cache_v3/shot.usdz")
+    found = find_absence(Disk(), os.path.normpath(tmp_path / path), path)
+    assert found.advice == f"there are files of that name at {elsewhere}"
 
 
 @pytest.mark.parametrize(("path", "count"), [("./gone.vdb", 2), ("./gone/a.vdb", 1)])
@@ -197,16 +254,18 @@ def test_a_moved_cache_is_looked_for_once(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(os.path, "isfile", lambda path: asked.append(path) or is_file(path))
     disk = Disk()
     for file in range(9):
-        assert disk.sibling_with(f"{tmp_path}/a", f"/{file}.vdb") == "moved"
+        assert disk.siblings_with(f"{tmp_path}/a", f"/{file}.vdb") == ["moved"]
     assert len(asked) < 2 * 9
 
 
 def test_no_end_of_folders_is_searched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path, "moved/0.vdb", "other/1.vdb")
-    monkeypatch.setattr("usdvol_lint.facts.files.disk._NAMES_TRIED", 3)
-    disk = Disk()
-    assert disk.sibling_with(f"{tmp_path}/a", "/0.vdb") == "moved"
-    assert disk.sibling_with(f"{tmp_path}/b", "/1.vdb") is None
+    monkeypatch.setattr("usdvol_lint.facts.files.folders._NAMES_TRIED", 3)
+    folders = Folders()
+    disk = Disk(folders)
+    assert disk.siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
+    assert disk.siblings_with(f"{tmp_path}/b", "/1.vdb") == []
+    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == []  # of the next stage
 
 
 def test_bare_names_are_looked_for_beside_their_layer(lint_text: Lint, tmp_path: Path) -> None:
@@ -403,6 +462,64 @@ def test_placeholders(path: str, pattern: str | None) -> None:
 )
 def test_schemes(path: str, expected: bool) -> None:
     assert is_uri(path) is expected
+
+
+@pytest.mark.skipif(os.name == "nt", reason="names have no colons here")
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [
+        ("op:/obj/pyro/OUT.vdb", []),
+        ("op:/obj/pyro/OUT.vdb:SDF_FORMAT_ARGS:a=b", []),
+        ("op:/obj/pyro/OUT", ["AST006"]),
+        ("op:/obj/pyro/empty.vdb", ["AST005"]),
+        ("op:/obj/pyro/GONE.vdb", ["AST010"]),
+        ("asset:smoke.vdb", []),
+        ("asset:gone.vdb", ["AST010"]),
+    ],
+)
+def test_a_resolver_that_answers_for_what_looks_like_a_uri(
+    path: str, expected: list[str], lint_text: Lint, assets: Path, tmp_path: Path
+) -> None:
+    """USD's own does, where its search path leads to such a file."""
+    for name in ("op:/obj/pyro/OUT.vdb", "op:/obj/pyro/OUT", "asset:smoke.vdb"):
+        (tmp_path / "search" / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(assets / "cloud.vdb", tmp_path / "search" / name)
+    (tmp_path / "search/op:/obj/pyro/empty.vdb").touch()
+    Ar.DefaultResolver.SetDefaultSearchPath([str(tmp_path / "search")])
+    try:
+        found = lint_text(volume(f"asset filePath = @{path}@")).findings
+    finally:
+        Ar.DefaultResolver.SetDefaultSearchPath([])
+    assert [each.code for each in found] == expected
+
+
+def test_what_a_resolver_that_is_registered_does_not_find(
+    lint_text: Lint, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is missing, and nothing else is known of it; no wheel of USD has such a resolver."""
+    monkeypatch.setattr(Ar, "GetRegisteredURISchemes", lambda: ["asset"])
+    paths = ("asset://show/fx/smoke.vdb", "asset:smoke.vdb", "ASSET://show/fx/smoke.0001.vdb")
+    one, *others = (volume(f"asset filePath = @{path}@") for path in paths)
+    for number, other in enumerate(others):
+        one += other.replace("cloud", f"cloud_{number}").replace("#usda 1.0", "")
+    assert said(lint_text(one)) == [f"AST002 no file at {path!r}" for path in paths]
+
+
+@pytest.mark.parametrize(("resolved", "expected"), [("a.vdb", []), ("a", ["AST006"])])
+@pytest.mark.parametrize("path", ["./a.vdb", "asset:a", "./a"])
+def test_the_extension_that_counts_is_that_of_what_a_resolver_answers(
+    path: str,
+    resolved: str,
+    expected: list[str],
+    lint_text: Lint,
+    assets: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    answer = str(shutil.copyfile(assets / "cloud.vdb", tmp_path / resolved))
+    monkeypatch.setattr(classify, "_resolved_without_arguments", lambda *asked: answer)
+    report = lint_text(volume(f"asset filePath = @{path}:SDF_FORMAT_ARGS:a=b.vdb@"))
+    assert [each.code for each in report.findings] == expected
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ import pytest
 from process import ASSETS
 
 from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.folders import Listing
 from usdvol_lint.facts.files.numbering import Numbering, find_numbering
 from usdvol_lint.model import StageReport
 
@@ -332,7 +333,7 @@ def test_case_where_the_file_system_ignores_it(
         str(tmp_path / "cache"): ("smoke.0001.vdb", "Smoke.0002.vdb"),
         str(tmp_path / "Cache"): ("smoke.0001.vdb", "Smoke.0002.vdb"),
     }
-    monkeypatch.setattr(Disk, "listing", lambda self, folder: listings.get(folder, ()))
+    monkeypatch.setattr(Disk, "listing", lambda self, folder: Listing(listings.get(folder, ())))
     names = ["./cache/smoke.0001.vdb", "./cache/smoke.0002.vdb"]
     stage = sampled(enumerate(names, start=1))
     assert said(lint_text(stage)) == []

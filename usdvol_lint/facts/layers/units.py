@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from pxr import UsdGeom
 
 from usdvol_lint import schema
-from usdvol_lint.facts.layers.turns import Corrections
+from usdvol_lint.facts.layers.turns import Corrections, resetting
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
@@ -44,6 +44,11 @@ class UnlikeStage(NamedTuple):
     def prim(self) -> Any:
         """The first of the prims."""
         return self.prims[0]
+
+    @property
+    def resetting(self) -> Any | None:
+        """The prim with `!resetXformStack!` up to which a rotation or scale of it would count."""
+        return resetting(self.prim)
 
 
 def layers_unlike_stage(stage: Any, tables: Tables) -> tuple[UnlikeStage, ...]:
