@@ -153,6 +153,38 @@ def test_what_an_over_takes_off_the_stage(tmp_path: Path) -> None:
     assert [[prim.GetName() for prim in kept] for kept in result.kept.values()] == [["a"]]
 
 
+@pytest.mark.parametrize(
+    ("text", "untyped"),
+    [
+        ('def "a"\n{\nrel field:x = </x>\n}\n', ["/a"]),
+        ('def Scope "a"\n{\nfloat3[] radiance:sphericalHarmonicsCoefficients\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nhalf3[] radiance:sphericalHarmonicsCoefficientsh\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nfloat3[] primvars:field:x\n}\n', []),
+        ('def Cube "a"\n{\nrel field:x = </x>\n}\n', []),
+        ('over "a"\n{\nrel field:x = </x>\n}\n', []),
+        (
+            'def "a" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n'
+            "{\nrel field:x = </x>\n}\n",
+            ["/a"],
+        ),
+    ],
+)
+def test_prims_of_other_types_that_have_our_data(
+    text: str, untyped: list[str], tmp_path: Path
+) -> None:
+    stage = Usd.Stage.Open(write_stage(tmp_path, LIVE + text))
+    assert [str(prim.GetPath()) for prim in walk(stage, [], PrimKinds()).untyped] == untyped
+
+
+def test_only_so_many_prims_of_other_types_are_looked_into(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("usdvol_lint.engine.walk._GROUPS", 300)
+    groups = "".join(f'def Xform "a{n}"\n{{\nrel field:x = </x>\n}}\n' for n in range(1000))
+    stage = Usd.Stage.Open(write_stage(tmp_path, groups))
+    assert 300 <= len(walk(stage, [], PrimKinds()).untyped) < 600
+
+
 CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'
 INSTANCE = 'def "{}" (\n    instanceable = true\n    references = @./lib.usda@</{}>\n)\n{{\n}}\n'
 
