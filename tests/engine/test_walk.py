@@ -153,6 +153,38 @@ def test_what_an_over_takes_off_the_stage(tmp_path: Path) -> None:
     assert [[prim.GetName() for prim in kept] for kept in result.kept.values()] == [["a"]]
 
 
+@pytest.mark.parametrize(
+    ("text", "untyped"),
+    [
+        ('def "a"\n{\nrel field:x = </x>\n}\n', ["/a"]),
+        ('def Scope "a"\n{\nfloat3[] radiance:sphericalHarmonicsCoefficients\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nhalf3[] radiance:sphericalHarmonicsCoefficientsh\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nfloat3[] primvars:field:x\n}\n', []),
+        ('def Cube "a"\n{\nrel field:x = </x>\n}\n', []),
+        ('over "a"\n{\nrel field:x = </x>\n}\n', []),
+        (
+            'def "a" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n'
+            "{\nrel field:x = </x>\n}\n",
+            ["/a"],
+        ),
+    ],
+)
+def test_prims_of_other_types_that_have_our_data(
+    text: str, untyped: list[str], tmp_path: Path
+) -> None:
+    stage = Usd.Stage.Open(write_stage(tmp_path, LIVE + text))
+    assert [str(prim.GetPath()) for prim in walk(stage, [], PrimKinds()).untyped] == untyped
+
+
+def test_only_so_many_prims_of_other_types_are_looked_into(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("usdvol_lint.engine.walk._GROUPS", 300)
+    groups = "".join(f'def Xform "a{n}"\n{{\nrel field:x = </x>\n}}\n' for n in range(1000))
+    stage = Usd.Stage.Open(write_stage(tmp_path, groups))
+    assert 300 <= len(walk(stage, [], PrimKinds()).untyped) < 600
+
+
 CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'
 INSTANCE = 'def "{}" (\n    instanceable = true\n    references = @./lib.usda@</{}>\n)\n{{\n}}\n'
 
@@ -193,6 +225,8 @@ def test_instances_inside_instances_are_walked_once(tmp_path: Path) -> None:
             + instancer("i", "/library/a"),
             [],
         ),
+        (f'class "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n', []),
+        (f'over "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n', []),
         (INSTANCE.format("a", "below_over"), []),
         (INSTANCE.format("a", "below_class"), []),
         (INSTANCE.format("a", "below_over") + INSTANCE.format("b", "cloud"), ["prototype/thick"]),
@@ -334,8 +368,33 @@ def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
     assert [str(prim.GetPath()) for prims in result.kept.values() for prim in prims] == ["/live"]
 
 
+def below(specifier: str, name: str, *instances: str) -> str:
+    texts = "".join(INSTANCE.format(each, "cloud") for each in instances)
+    return f'{specifier} "{name}"\n{{\n{texts}}}\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "prim"),
+    [
+        (below("def", "set", "b", "a", "c"), "seen (shown by 3 instances)", "/set/a/thick"),
+        (
+            below("over", "library", "b", "c")
+            + below("class", "again", "d")
+            + below("def", "set", "a"),
+            "seen",
+            "/set/a/thick",
+        ),
+        (
+            below("over", "library", "b", "a")
+            + below("class", "again", "d")
+            + instancer("i", "/library/a", "/library/b"),
+            "seen (shown by 2 instances)",
+            "/library/a/thick",
+        ),
+    ],
+)
 def test_an_instanced_finding_says_where_and_how_often(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    text: str, message: str, prim: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from usdvol_lint.packs.activation import ActiveRules
     from usdvol_lint.rule import Problem
@@ -346,9 +405,8 @@ def test_an_instanced_finding_says_where_and_how_often(
         lambda prim, facts: iter([Problem("seen", at=prim)]),
         {},
     )
-    text = "".join(INSTANCE.format(name, "cloud") for name in ("b", "a", "c"))
     write_stage(tmp_path, text, lib=CLOUD)
     engine = Engine({"SEE001": seen}, ActiveRules({"SEE001": Severity.INFO}, {}))
     (finding,) = engine.lint("stage.usda").findings
-    assert finding.message == "seen (shown by 3 instances)"
-    assert (finding.site.prim, finding.site.layer, finding.site.line) == ("/a/thick", "lib.usda", 4)
+    assert finding.message == message
+    assert (finding.site.prim, finding.site.layer, finding.site.line) == (prim, "lib.usda", 4)
