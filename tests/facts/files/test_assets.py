@@ -1,4 +1,4 @@
-"""The files that fields name: what the rule pages can not show."""
+"""The files that fields name, there or not: what the rule pages can not show."""
 
 from __future__ import annotations
 
@@ -7,14 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from stages import CONTENT, findings, only, package, said, volume, write
+from stages import CONTENT, only, package, said, volume, write
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.files import classify
-from usdvol_lint.facts.files.corrections import Absence, find_absence
-from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.paths import extension_of, is_uri
-from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]
@@ -118,95 +114,6 @@ def test_a_symbolic_link_to_a_file_is_a_file(lint_text: Lint, tmp_path: Path) ->
     write(tmp_path, "cloud.vdb")
     (tmp_path / "link.vdb").symlink_to("cloud.vdb")
     assert said(lint_text(volume("asset filePath = @./link.vdb@"))) == []
-
-
-@pytest.mark.parametrize(
-    ("path", "expected"),
-    [
-        ("./clod.vdb", Absence("", "./cloud.vdb")),
-        ("clod.vdb", Absence("", "cloud.vdb")),
-        ("./CLOUD.vdb", Absence("", "./cloud.vdb")),
-        ("./nothing.vdb", Absence("", None)),
-        ("./smok/smoke.0001.vdb", Absence(": no folder './smok'", "./smoke/smoke.0001.vdb")),
-        ("./smok/smoke.0009.vdb", Absence(": no folder './smok'", "./smoke")),
-        ("./smoke/v2/smoke.0001.vdb", Absence(": no folder './smoke/v2'", None)),
-        ("./x/y/smoke.vdb", Absence(": no folder './x'", None)),
-        ("./smoke/smoke.1.vdb", Absence("", "./smoke/smoke.0001.vdb")),
-        ("./smoke/smok.0002.vdb", Absence("", "./smoke/smoke.0002.vdb")),
-        ("./smoke/smoke.0004.vdb", Absence("", None)),
-        ("./smoke/../clod.vdb", Absence("", "./smoke/../cloud.vdb")),
-        ("./clod.vdb:SDF_FORMAT_ARGS:a=b", Absence("", "./cloud.vdb")),
-    ],
-)
-def test_what_a_missing_path_may_have_meant(path: str, expected: Absence, tmp_path: Path) -> None:
-    """Another frame is another file, never a misspelling."""
-    write(tmp_path, "cloud.vdb", *(f"smoke/smoke.{frame:04}.vdb" for frame in (1, 2, 3)))
-    absolute = os.path.normpath(tmp_path / path.partition(":")[0])
-    assert find_absence(Disk(), absolute, path) == expected
-
-
-@pytest.mark.parametrize(
-    ("path", "similar"),
-    [
-        ("./cahce/cloud.vdb", "./cache/cloud.vdb"),
-        ("./cahce/gone.vdb", "./cache"),
-        ("./cache_v2/smoke.0001.vdb", "./cache_v1/smoke.0001.vdb"),
-        ("./cache_v2/smoke.0002.vdb", None),
-        ("./fx/sim/fire.vdb", "./effects/sim/fire.vdb"),
-        ("./cache/fire.vdb", "./sparks/fire.vdb"),
-        ("./cache/smoke.0001.vdb", None),
-        ("./cache/both.vdb", None),
-        ("./sparkl/fire.vdb", "./sparks/fire.vdb"),
-        ("./gone/both.vdb", None),
-        ("./effects/sin/fire.vdb", "./effects/sim/fire.vdb"),
-        ("./cahce_v1/smoke.0001.vdb", "./cache_v1/smoke.0001.vdb"),
-    ],
-)
-def test_a_file_that_lies_in_a_sibling_folder(
-    path: str, similar: str | None, tmp_path: Path
-) -> None:
-    files = ("cache/cloud.vdb", "cache_v1/smoke.0001.vdb", "effects/sim/fire.vdb")
-    write(
-        tmp_path, *files, "sparks/fire.vdb", "sparks/both.vdb", "cache_v1/both.vdb", "sparkle/a.vdb"
-    )
-    found = find_absence(Disk(), os.path.normpath(tmp_path / path), path)
-    assert found.similar == similar
-
-
-@pytest.mark.parametrize(("path", "count"), [("./gone.vdb", 2), ("./gone/a.vdb", 1)])
-def test_a_folder_is_one_finding_and_a_file_one_for_each_field(
-    path: str, count: int, lint_text: Lint
-) -> None:
-    one = volume(f"asset filePath = @{path}@")
-    found = findings(lint_text(one + one.replace("cloud", "second")))
-    assert [each.code for each in found] == ["AST002"] * count
-
-
-def test_what_lies_beside_the_folder_of_a_layer_is_another_asset(tmp_path: Path) -> None:
-    write(tmp_path, "a/cloud.vdb", "b/other.vdb")
-    assert find_absence(Disk(), f"{tmp_path}/b/cloud.vdb", "./cloud.vdb") == Absence("", None)
-
-
-def test_a_moved_cache_is_looked_for_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write(tmp_path, *(f"{folder}/{file}.vdb" for folder in "abcd" for file in range(9)))
-    (tmp_path / "a").rename(tmp_path / "moved")
-    for folder in "bcd":
-        (tmp_path / folder / "0.vdb").unlink()
-    asked: list[str] = []
-    is_file = os.path.isfile
-    monkeypatch.setattr(os.path, "isfile", lambda path: asked.append(path) or is_file(path))
-    disk = Disk()
-    for file in range(9):
-        assert disk.sibling_with(f"{tmp_path}/a", f"/{file}.vdb") == "moved"
-    assert len(asked) < 2 * 9
-
-
-def test_no_end_of_folders_is_searched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write(tmp_path, "moved/0.vdb", "other/1.vdb")
-    monkeypatch.setattr("usdvol_lint.facts.files.disk._NAMES_TRIED", 3)
-    disk = Disk()
-    assert disk.sibling_with(f"{tmp_path}/a", "/0.vdb") == "moved"
-    assert disk.sibling_with(f"{tmp_path}/b", "/1.vdb") is None
 
 
 def test_bare_names_are_looked_for_beside_their_layer(lint_text: Lint, tmp_path: Path) -> None:
@@ -337,88 +244,6 @@ def test_expressions_in_a_usd_that_forgets_them(
         "AST002 no file at './clod.vdb' (from '`\"./${TAKE}.vdb\"`') "
         "(1 of 1 samples, authored as frame 1)"
     ]
-
-
-def test_time_samples_to_paste(lint_text: Lint, tmp_path: Path) -> None:
-    """All of them, by number; padding counts, and what only resembles the pattern does not."""
-    write(tmp_path, *(f"fx/smoke.{frame:04}.vdb" for frame in (-5, 1, 2, 3, 10, 100)))
-    write(tmp_path, "fx/smoke.7.vdb", "fx/smoke.0001.vdb.tmp", "fx/old_smoke.0001.vdb")
-    finding = only(lint_text(volume("asset filePath = @./fx/smoke.%04d.vdb@")))
-    assert finding.suggestion == (
-        "5 files found: author filePath.timeSamples = { 1: @./fx/smoke.0001.vdb@, "
-        "2: @./fx/smoke.0002.vdb@, 3: @./fx/smoke.0003.vdb@, 10: @./fx/smoke.0010.vdb@, "
-        "100: @./fx/smoke.0100.vdb@ }"
-    )
-
-
-@pytest.mark.parametrize(
-    ("path", "pattern"),
-    [
-        ("smoke.$F.vdb", "$F"),
-        ("smoke.$F4.vdb", "$F4"),
-        ("smoke.${F4}.vdb", "${F4}"),
-        ("smoke.$FF.vdb", "$FF"),
-        ("smoke.$SF4.vdb", "$SF4"),
-        ("smoke.####.vdb", "####"),
-        ("smoke.#.vdb", "#"),
-        ("smoke.%d.vdb", "%d"),
-        ("smoke.%04d.vdb", "%04d"),
-        ("smoke.<UDIM>.vdb", "<UDIM>"),
-        ("smoke.%(UDIM)d.vdb", "%(UDIM)d"),
-        ("smoke.<f>.vdb", "<f>"),
-        ("smoke.<f4>.vdb", "<f4>"),
-        ("smoke.<frame>.vdb", "<frame>"),
-        ("smoke.{frame:04d}.vdb", "{frame:04d}"),
-        ("smoke.@@@@.vdb", "@@@@"),
-        ("smoke.*.vdb", "*"),
-        ("smoke.$F4/density.vdb", "$F4"),
-        ("$HIP/smoke.vdb", "$HIP"),
-        ("${JOB}/smoke.vdb", "${JOB}"),
-        ("smoke.0001.vdb", None),
-        ("take#3/smoke.vdb", None),
-        ("100%done/smoke.vdb", None),
-        ("me@studio/smoke.vdb", None),
-        ("5$/smoke.vdb", None),
-        ("a{b}/smoke.vdb", None),
-        ("<draft>/smoke.vdb", None),
-    ],
-)
-def test_placeholders(path: str, pattern: str | None) -> None:
-    assert find_pattern(path) == pattern
-
-
-@pytest.mark.parametrize(
-    ("path", "expected"),
-    [
-        ("omniverse://host/a.vdb", True),
-        ("https://host/a.vdb:SDF_FORMAT_ARGS:a=b", True),
-        ("op:/obj/geo", True),
-        ("./a.vdb:SDF_FORMAT_ARGS:a=b", False),
-        ("a.vdb:SDF_FORMAT_ARGS:a=b", False),
-        ("cloud:SDF_FORMAT_ARGS:a=b", False),
-        ("C:/shots/a.vdb", False),
-        ("./a:b.vdb", False),
-        ("a.vdb", False),
-    ],
-)
-def test_schemes(path: str, expected: bool) -> None:
-    assert is_uri(path) is expected
-
-
-@pytest.mark.parametrize(
-    ("path", "expected"),
-    [
-        ("./a.vdb", ".vdb"),
-        ("./a.0001.VDB", ".vdb"),
-        ("./a.nvdb:SDF_FORMAT_ARGS:b=c.vdb", ".nvdb"),
-        ("./shot.usdz[vdb/a.vdb]", ".vdb"),
-        ("./shot.usdz[a.f3d]:SDF_FORMAT_ARGS:b=c", ".f3d"),
-        ("./v1.0/a", ""),
-        ("", ""),
-    ],
-)
-def test_extensions(path: str, expected: str) -> None:
-    assert extension_of(path) == expected
 
 
 def test_a_path_in_a_package_may_have_format_arguments(lint_text: Lint, tmp_path: Path) -> None:
