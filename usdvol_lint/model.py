@@ -5,7 +5,6 @@ from __future__ import annotations
 import builtins
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from enum import IntEnum, StrEnum
 from typing import NamedTuple
 
@@ -65,8 +64,7 @@ class Status(StrEnum):
     TIMED_OUT = "timed_out"
 
 
-@dataclass(frozen=True, slots=True)
-class Site:
+class Site(NamedTuple):
     """Where a finding is: the layer with the opinion, the composed prim, the time codes.
 
     `layer` is relative to the working directory, with `/`.
@@ -94,8 +92,7 @@ class Site:
         return f"default, {ranges}" if self.at_default else ranges
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(NamedTuple):
     """One problem, ready to be reported."""
 
     code: str
@@ -249,7 +246,7 @@ def with_fingerprints(findings: Iterable[Finding]) -> tuple[Finding, ...]:
         if seen[identity]:
             text += f"\0{seen[identity]}"
         seen[identity] += 1
-        stamped.append(replace(finding, fingerprint=_digest(text)))
+        stamped.append(finding._replace(fingerprint=_digest(text)))
     return tuple(stamped)
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from posixpath import commonprefix
 
 CLOSE = 0.84
 """The least similarity, from 0 to 1, at which a word is offered for another."""
 _LONG_ENOUGH = 4
+_NUMBER = re.compile(r"[0-9]+")
 
 
 def closest_match(
@@ -25,6 +27,17 @@ def closest_match(
     folded = {fold(other): other for other in known}
     matches = get_close_matches(fold(word), folded, n=1, cutoff=cutoff)
     return folded[matches[0]] if matches else None
+
+
+def by_nearness(word: str, others: Iterable[str]) -> list[str]:
+    """Words from the most similar on; of those that differ in numbers alone, the highest first."""
+    from difflib import SequenceMatcher
+
+    def distance(other: str) -> tuple[float, list[int], str]:
+        matcher = SequenceMatcher(None, _NUMBER.sub("", word), _NUMBER.sub("", other))
+        return -matcher.ratio(), [-int(number) for number in _NUMBER.findall(other)], other
+
+    return sorted(others, key=distance)
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator
-from dataclasses import KW_ONLY, dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
@@ -94,7 +93,6 @@ class Occurrence(Protocol):
     def asset(self) -> str | None: ...
 
 
-@dataclass(frozen=True, slots=True)
 class _Result:
     """What a rule reports, and where.
 
@@ -104,29 +102,33 @@ class _Result:
     `spec` names another `Sdf` spec.
     """
 
-    message: str
-    _: KW_ONLY
-    at: Any
-    times: tuple[float, ...] = ()
-    at_default: bool = False
-    suggestion: str | None = None
-    spec: Any = None
-    asset: str | None = None
+    __slots__ = ("asset", "at", "at_default", "message", "spec", "suggestion", "times")
 
-    def __post_init__(self) -> None:
-        occurrence, times = self.at, self.times
-        if hasattr(occurrence, "at_default"):
-            times = occurrence.times
-            object.__setattr__(self, "at", occurrence.attribute)
-            object.__setattr__(self, "at_default", occurrence.at_default)
-            object.__setattr__(self, "asset", occurrence.asset)
-        object.__setattr__(self, "times", tuple(map(float, times)))
+    def __init__(
+        self,
+        message: str,
+        *,
+        at: Any,
+        times: Iterable[float] = (),
+        at_default: bool = False,
+        suggestion: str | None = None,
+        spec: Any = None,
+        asset: str | None = None,
+    ) -> None:
         # What is no text here would fail where reports are written, for all stages at once.
-        if not all(isinstance(text, str) for text in (self.message, self.suggestion or "")):
+        if not all(isinstance(text, str) for text in (message, suggestion or "")):
             raise TypeError("message and suggestion of a problem are text")
+        if hasattr(at, "at_default"):
+            at, times, at_default, asset = at.attribute, at.times, at.at_default, at.asset
+        self.message = message
+        self.at = at
+        self.times = tuple(map(float, times))
+        self.at_default = at_default
+        self.suggestion = suggestion
+        self.spec = spec
+        self.asset = asset
 
 
-@dataclass(frozen=True, slots=True)
 class Problem(_Result):
     """What a rule yields: what is wrong, and where.
 
@@ -135,14 +137,25 @@ class Problem(_Result):
     not reported.
     """
 
-    _: KW_ONLY
-    severity: Severity | None = None
-    holds: Callable[[], bool] | None = None
+    __slots__ = ("holds", "severity")
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        severity: Severity | None = None,
+        holds: Callable[[], bool] | None = None,
+        **where: Any,
+    ) -> None:
+        super().__init__(message, **where)
+        self.severity = severity
+        self.holds = holds
 
 
-@dataclass(frozen=True, slots=True)
 class NotChecked(_Result):
     """What a rule could not check, and why: reported as LNT005, never as an error."""
+
+    __slots__ = ()
 
 
 Problems: TypeAlias = Iterator[Problem | NotChecked]
@@ -194,18 +207,17 @@ def contents(*keys: Callable[[Content], Hashable | None]) -> When:
     return When(Grids.content_classes, AnyKey(keys))
 
 
-@dataclass(frozen=True, slots=True)
 class AnyKey:
     """Whether any of these keys is not None for any class of contents."""
 
-    keys: tuple[Callable[[Content], Hashable | None], ...]
+    def __init__(self, keys: tuple[Callable[[Content], Hashable | None], ...]) -> None:
+        self.keys = keys
 
     def __call__(self, classes: Iterable[ContentClass]) -> bool:
         return any(contents.answer(key) is not None for contents in classes for key in self.keys)
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(NamedTuple):
     """One rule: what it is called, which prims it checks, and how.
 
     `on` are schema names: a prim type, also as a base, or an applied API; or one of `STAGE` (the

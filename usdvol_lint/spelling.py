@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from usdvol_lint.nearest import CLOSE, closest_match
+from usdvol_lint.nearest import CLOSE, closest_match, is_one_slip_from
 from usdvol_lint.schema import API_ATTRIBUTES, API_INCLUDES, CONCRETE_TYPES, POSITION_BASE
 
 PRE_STANDARD_TYPES: dict[str, str] = {
@@ -139,6 +139,12 @@ def misspelt_attribute(name: str, candidates: Iterable[str]) -> str | None:
     if any(name.startswith(other) and name[len(other) :][:1].isupper() for other in names):
         return None
     return closest_name(name, names, cutoff=0.81)
+
+
+def is_certainly_misspelt(name: str, meant: str) -> bool:
+    """Whether an attribute name is a usual guess, or one slip of the hand from what was meant."""
+    guesses = (_fold(guessed) for guessed, right in GUESSED_ATTRIBUTES.items() if right == meant)
+    return is_one_slip_from(name, meant) or _fold(name) in {_fold(meant), *guesses}
 
 
 def is_alike(one: str, other: str) -> bool:

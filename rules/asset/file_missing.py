@@ -1,6 +1,6 @@
 """AST002: the file that a field names must exist."""
 
-from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, quoted, rule
+from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
 
 @rule("AST002", on="FieldAsset", when=file_paths(AssetState.MISSING), severity=ERROR, since="0.1")
@@ -10,11 +10,11 @@ def file_missing(field: Prim, facts: Facts) -> Problems:
         fields = facts.files.sharing_missing_folder(field)
         if fields and fields[0] != field:
             return
-        reason, similar = facts.files.absence(missing.anchored(), missing.first.path)
+        absence = facts.files.absence(missing.anchored(), missing.first.path)
         others = len(fields) - 1
         shared = f", where {others} other field{'s' * (others > 1)} should have files too" if others > 0 else ""
         yield Problem(
-            f"no file at {missing.shown}{reason}{shared}{missing.count}",
+            f"no file at {missing.shown}{absence.reason}{shared}{missing.count}",
             at=missing,
-            suggestion=f"did you mean {quoted(similar)}?" if similar else None,
+            suggestion=absence.advice,
         )

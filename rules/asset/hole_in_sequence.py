@@ -8,7 +8,7 @@ _NOTHING = file_paths(AssetState.BLOCKED, AssetState.EMPTY)
 @rule("AST018", on="FieldAsset", when=_NOTHING, severity=WARNING, since="0.1")
 def hole_in_sequence(field: Prim, facts: Facts) -> Problems:
     holes = facts.files.holes(field)
-    if holes:
+    if holes and not facts.layers.may_lack_values(field):
         affected = holes.affected
         what = "the clip there has no filePath" if holes.clip else "filePath is empty or blocked"
         yield Problem(

@@ -8,7 +8,7 @@ _NAMED = 20
 @rule("SCH007", on=STAGE, severity=WARNING, since="0.1")
 def extent_missing(stage: Prim, facts: Facts) -> Problems:
     bare = facts.prims.without_extent
-    prims = [prim for prim in bare if not facts.layers.may_lack_values(prim)]
+    prims = [prim for prim in bare if not facts.layers.may_lack_values(prim) and not _is_misspelt(prim, facts)]
     if not prims:
         return
     names = [f"{prim.GetTypeName()} <{facts.prims.shown_path(prim)}>" for prim in prims[:_NAMED]]
@@ -18,3 +18,8 @@ def extent_missing(stage: Prim, facts: Facts) -> Problems:
         at=prims[0],
         suggestion="author extent, at every time at which the shape changes",
     )
+
+
+def _is_misspelt(prim: Prim, facts: Facts) -> bool:
+    """Whether there is an extent by another name, which SCH004 tells."""
+    return any(slip.intended == "extent" for slip in facts.prims.misspelt(prim))

@@ -27,10 +27,8 @@ def _said(empty: Any) -> str:
     if empty.target:
         return f"the {empty.arc} brings nothing: there is no prim <{empty.target}> in {layer}"
     if empty.default:
-        return (
-            f"the {empty.arc} names no prim and brings nothing: the defaultPrim of {layer} is "
-            f"{quoted(empty.default)}, and there is no such prim"
-        )
+        named = quoted(empty.default)
+        return f"the {empty.arc} to {layer} brings nothing: its defaultPrim {named} names no prim in it"
     return f"the {empty.arc} names no prim and brings nothing: {layer} has no defaultPrim"
 
 

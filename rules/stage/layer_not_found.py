@@ -19,8 +19,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             )
             continue
         reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"
-        absence = facts.files.absence(missing.path, missing.asset)
-        similar = None if missing.reason else absence.similar
+        absence = None if missing.reason else facts.files.absence(missing.path, missing.asset)
         concerns_ours = facts.layers.may_bring_ours(missing.asset, str(missing.spec.path))
         yield Problem(
             f"{layer} {reason}; what it holds was not checked{where}",
@@ -28,7 +27,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             spec=missing.spec,
             asset=missing.asset,
             severity=None if concerns_ours else WARNING,
-            suggestion=f"did you mean {quoted(similar)}?" if similar else None,
+            suggestion=absence.advice if absence else None,
         )
     unloaded = [str(prim.GetPath()) for prim in facts.layers.unloaded]
     if unloaded:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -127,10 +126,10 @@ def test_pages_say_the_same_in_both_modes(
                 file.write_text(text, encoding="utf-8")
             one, other = (engine.lint(str(folder / "stage.usda")) for engine in (selected, every))
             assert [
-                replace(each, detail=None)
+                each._replace(detail=None)
                 for each in other.findings
                 if not (each.site.variant or "").startswith("/")
-            ] == [replace(each, detail=None) for each in one.findings]
+            ] == [each._replace(detail=None) for each in one.findings]
 
 
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

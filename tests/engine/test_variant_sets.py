@@ -109,3 +109,18 @@ def test_what_can_not_show_ours_is_not_composed(variant: str, composed: int, lin
     text = prim("model", variant_set("look", a="", b=variant), look="a", inside=field("1", "mesh"))
     text = text.replace("def OpenVDBAsset", "def Mesh") + 'def Mesh "mesh"\n{\n}\n'
     assert lint(stage=text).stats["variant_selections"] == composed
+
+
+@pytest.mark.parametrize("selected", [volume("1"), ""])
+@pytest.mark.parametrize(
+    ("target", "is_drawn"), [("/library/model", True), ("/library/more", True), ("/library", False)]
+)
+def test_variants_of_what_an_instancer_draws_below_an_over(
+    target: str, is_drawn: bool, selected: str, lint: Lint
+) -> None:
+    model = prim("model", variant_set("look", thick=selected, thin=volume("9")), look="thick")
+    instancer = 'def PointInstancer "{}"\n{{\n    rel prototypes = <{}>\n}}\n'
+    library = f'over "library"\n{{\n{model}{instancer.format("more", "/library/model")}}}\n'
+    report = lint(stage=instancer.format("all", target) + library)
+    of_variant = ("AST002", "/library/model/v/d", "/library/model{look=thin}")
+    assert [each for each in found(report) if each[0] != "STG005"] == [of_variant] * is_drawn

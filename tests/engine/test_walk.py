@@ -12,8 +12,8 @@ from pxr import Usd
 
 from usdvol_lint.engine.assign import assign
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.engine.walk import Walk, walk
-from usdvol_lint.facts import Context, Facts
+from usdvol_lint.engine.walk import walk
+from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.model import Severity
 from usdvol_lint.packs.catalog import Catalog
@@ -32,9 +32,9 @@ def write_stage(folder: Path, text: str, **layers: str) -> str:
     return str(path)
 
 
-def assigned(stage: Usd.Stage, found: Walk, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
+def assigned(stage: Usd.Stage, found: Walked, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
     """Each rule with each prim that it is handed; no precondition fails."""
-    facts = Facts(Context.of(stage), found.kept, found.clipped, found.undefined)
+    facts = Facts(Context.of(stage), found)
     failed: list[object] = []
     pairs = list(assign(found, rules, facts, {}, lambda *failure: failed.append(failure)))
     assert failed == []
@@ -101,6 +101,11 @@ def instancer(name: str, *prototypes: str, below: str = "") -> str:
     [
         (("/library/live",), f'over "library"\n{{\n{LIVE}}}\n', ["/library/live"]),
         (("/library/live.size",), f'over "library"\n{{\n{LIVE}}}\n', ["/library/live"]),
+        (
+            ("/library.chosen",),
+            f'over "library"\n{{\nrel chosen = </library/live>\n{LIVE}}}\n',
+            ["/library/live"],
+        ),
         (("/library/gone",), f'over "library"\n{{\n{LIVE}}}\n', []),
         (("/library",), f'over "library"\n{{\n{LIVE}}}\n', []),
         (("/library",), f'class "library"\n{{\n{LIVE}}}\n', []),
@@ -161,6 +166,73 @@ def test_instances_inside_instances_are_walked_once(tmp_path: Path) -> None:
     sky = 'def Xform "sky"\n{\n' + INSTANCE.format("left", "cloud") + "}\n"
     text = "".join(INSTANCE.format(f"i{n}", "sky") for n in range(5))
     assert walked(tmp_path, text, lib=CLOUD + sky) == (9, ["prototype/thick"])
+
+
+@pytest.mark.parametrize(
+    ("text", "kept"),
+    [
+        (f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n', []),
+        (f'class "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n', []),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + INSTANCE.format("b", "cloud"),
+            ["prototype/thick"],
+        ),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + instancer("i", "/library/a"),
+            ["prototype/thick"],
+        ),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + instancer("i", "/library/a/thick"),
+            ["prototype/thick"],
+        ),
+        (
+            f'class "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + instancer("i", "/library/a"),
+            [],
+        ),
+        (INSTANCE.format("a", "below_over"), []),
+        (INSTANCE.format("a", "below_class"), []),
+        (INSTANCE.format("a", "below_over") + INSTANCE.format("b", "cloud"), ["prototype/thick"]),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n'
+            + instancer("i", "/library/a/left"),
+            ["prototype/thick"],
+        ),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "flock")}}}\n'
+            + instancer("i", "/library/a"),
+            ["prototype/library/live"],
+        ),
+    ],
+)
+def test_what_is_in_instances_is_drawn_with_one_of_them(
+    text: str, kept: list[str], tmp_path: Path
+) -> None:
+    left = INSTANCE.format("left", "cloud")
+    lib = (
+        f'{CLOUD}def "sky"\n{{\n{left}}}\n'
+        f'def "below_over"\n{{\nover "library"\n{{\n{left}}}\n}}\n'
+        f'def "below_class"\n{{\nclass "library"\n{{\n{left}}}\n}}\n'
+        f'def "flock"\n{{\n{instancer("swarm", "/flock/library/live")}'
+        f'over "library"\n{{\n{LIVE}}}\n}}\n'
+    )
+    assert walked(tmp_path, text, lib=lib)[1] == kept
+
+
+def test_what_an_over_takes_off_the_stage_in_instances(tmp_path: Path) -> None:
+    sky = f'def "sky"\n{{\n{INSTANCE.format("left", "cloud")}}}\n'
+    instances = "".join(INSTANCE.format(name, "sky") for name in "ab")
+    text = f'over "one"\n{{\n{instances}}}\nover "two"\n{{\n{INSTANCE.format("c", "sky")}}}\n'
+    text += f'class "library"\n{{\n{INSTANCE.format("d", "sky")}}}\n'
+    stage = Usd.Stage.Open(write_stage(tmp_path, text, lib=CLOUD + sky))
+    result = walk(stage, [], PrimKinds())
+    found = {
+        over.GetName(): [_path(prim) for prim in prims] for over, prims in result.undefined.items()
+    }
+    assert found == {"one": ["prototype/thick"], "two": ["prototype/thick"]}
 
 
 def test_payloads(tmp_path: Path) -> None:

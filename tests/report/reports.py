@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -60,13 +59,11 @@ SMOKE = StageReport(
             suggestion="author metersPerUnit",
         ),
         MISSING,
-        replace(
-            MISSING,
+        MISSING._replace(
             code="GRD001",
             name="grid-missing",
             message="no grid 'density' in '../vdb/smoke.0101.vdb', which holds 'Density'",
-            site=replace(
-                MISSING.site,
+            site=MISSING.site._replace(
                 property="fieldName",
                 layer=f"{LONG_FOLDER}/smoke_payload.usda",
                 line=7,

@@ -6,7 +6,6 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import jsonschema  # type: ignore[import-untyped]
@@ -168,7 +167,7 @@ def test_wrapping_counts_the_cells_of_a_terminal() -> None:
 )
 def test_frames_in_words(times: tuple[float, ...], at_default: bool, expected: str) -> None:
     site = Site("a.usda", times=times, at_default=at_default)
-    stage = StageReport("a.usda", Status.CHECKED, findings=(replace(MISSING, site=site),))
+    stage = StageReport("a.usda", Status.CHECKED, findings=(MISSING._replace(site=site),))
     assert expected in map(str.strip, render(report(stage), "full", Options()).splitlines())
 
 

@@ -8,8 +8,7 @@ from operator import itemgetter
 from typing import Any, TypeAlias
 
 from usdvol_lint import schema
-from usdvol_lint.engine.walk import Walk
-from usdvol_lint.facts import Facts
+from usdvol_lint.facts import Facts, Walked
 from usdvol_lint.facts.prims.tables import Chunk, Table
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.kinds import KindKey
@@ -22,7 +21,7 @@ Failed: TypeAlias = Callable[[Sequence[Rule], Exception], None]
 
 
 def assign(
-    walked: Walk, rules: Iterable[Rule], facts: Facts, options: Options, failed: Failed
+    walked: Walked, rules: Iterable[Rule], facts: Facts, options: Options, failed: Failed
 ) -> Iterator[tuple[Rule, Any]]:
     """Each rule with each kept prim of its schemas that passes its precondition.
 
@@ -133,7 +132,7 @@ class _RulesByKey:
             return True
 
 
-def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[KindKey, Chunk]]:
+def _fields_first(walked: Walked, facts: Facts) -> Iterator[tuple[KindKey, Chunk]]:
     """The kept prims in chunks of one kind, roughly in the order of the walk.
 
     Facts about Volumes need facts about their fields: of prims that the walk met together, fields

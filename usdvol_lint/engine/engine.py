@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from itertools import chain
 
 from pxr import Sdf
@@ -17,8 +16,8 @@ from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
-from usdvol_lint.engine.walk import Walk
-from usdvol_lint.facts import Context, Facts
+from usdvol_lint.facts import Context, Facts, Walked
+from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.model import Finding, StageReport, Status, with_fingerprints
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
@@ -56,6 +55,7 @@ class Engine:
         self._advance = advance
         self._send = send
         self._volume_files = VolumeFiles()
+        self._folders = Folders()
 
     def lint(self, path: str) -> StageReport:
         """The report on one stage; never raises for what the stage holds or a rule does."""
@@ -67,7 +67,7 @@ class Engine:
             clock.lap("open")
             return report_trouble(path, error.trouble, seconds=clock.seconds)
         clock.lap("open")
-        context = Context.of(stage, self._depth, self._volume_files, self._advance)
+        context = Context.of(stage, self._depth, self._volume_files, self._folders, self._advance)
         return self._report(path, context, clock)
 
     def _report(self, path: str, context: Context, clock: _Stopwatch) -> StageReport:
@@ -109,12 +109,12 @@ class Engine:
             self._send(unsent)
 
 
-@dataclass(slots=True)
 class _Stopwatch:
     """Wall-clock seconds by phase."""
 
-    seconds: dict[str, float] = field(default_factory=dict)
-    _since: float = field(default_factory=time.perf_counter)
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._since = time.perf_counter()
 
     def lap(self, phase: str) -> None:
         now = time.perf_counter()
@@ -122,7 +122,7 @@ class _Stopwatch:
         self._since = now
 
 
-def _stats(walked: Walk, facts: Facts, files_checked: int) -> dict[str, int]:
+def _stats(walked: Walked, facts: Facts, files_checked: int) -> dict[str, int]:
     return {
         "prims": walked.prims,
         "volumes": len(facts.prims.of(schema.VOLUME)),

@@ -9,6 +9,8 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Sdf, Usd
 
 from usdvol_lint import schema
+from usdvol_lint.facts.usd.calls import DRAWN_BELOW, get_path
+from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
 _CHECKED = frozenset(
@@ -50,14 +52,21 @@ class Variant(NamedTuple):
 
 
 def survey(stage: Any, start: Any, kinds: PrimKinds) -> Survey:
-    """Looks at `start` and all prims below it, and into all prototypes."""
-    switches, checked = [], []
-    starts = (*([start] if start else []), *stage.GetPrototypes())
-    for prim in chain.from_iterable(map(Usd.PrimRange, starts)):
-        if not _CHECKED.isdisjoint(kinds.names(kinds.key(prim))):
-            checked.append(prim)
-        if prim.HasVariantSets():
-            switches.append(prim)
+    """Looks at `start` and all prims below it, into all prototypes, and at what instancers draw."""
+    switches, checked, instancers = [], [], []
+    starts = [*([start] if start else []), *stage.GetPrototypes()]
+    surveyed: set[Any] = set()
+    while starts:
+        surveyed.update(starts)
+        for prim in chain.from_iterable(Usd.PrimRange(each, DRAWN_BELOW) for each in starts):
+            names = kinds.names(kinds.key(prim))
+            if not _CHECKED.isdisjoint(names):
+                checked.append(prim)
+            if schema.POINT_INSTANCER in names:
+                instancers.append(prim)
+            if prim.HasVariantSets():
+                switches.append(prim)
+        starts = sorted(Drawn(instancers).roots - surveyed, key=get_path)
     return Survey(switches, _holders(checked))
 
 

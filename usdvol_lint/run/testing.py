@@ -7,7 +7,6 @@ import shutil
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import chdir
-from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -103,11 +102,10 @@ def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
         return text.replace(f"{folder.name}/", "")
 
     return tuple(
-        replace(
-            finding,
+        finding._replace(
             message=anywhere(finding.message),
             suggestion=finding.suggestion and anywhere(finding.suggestion),
-            site=replace(finding.site, layer=anywhere(finding.site.layer)),
+            site=finding.site._replace(layer=anywhere(finding.site.layer)),
         )
         for finding in findings
         if finding.code != USD_TOO_OLD.code

@@ -11,6 +11,7 @@ from stages import findings, volume, write
 
 from usdvol_lint.facts.files.corrections import Absence, find_absence
 from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]
@@ -51,9 +52,7 @@ def test_what_a_missing_path_may_have_meant(path: str, expected: Absence, tmp_pa
         ("./fx/sim/fire.vdb", "./effects/sim/fire.vdb"),
         ("./cache/fire.vdb", "./sparks/fire.vdb"),
         ("./cache/smoke.0001.vdb", None),
-        ("./cache/both.vdb", None),
         ("./sparkl/fire.vdb", "./sparks/fire.vdb"),
-        ("./gone/both.vdb", None),
         ("./effects/sin/fire.vdb", "./effects/sim/fire.vdb"),
         ("./cahce_v1/smoke.0001.vdb", "./cache_v1/smoke.0001.vdb"),
     ],
@@ -66,7 +65,38 @@ def test_a_file_that_lies_in_a_sibling_folder(
         tmp_path, *files, "sparks/fire.vdb", "sparks/both.vdb", "cache_v1/both.vdb", "sparkle/a.vdb"
     )
     found = find_absence(Disk(), os.path.normpath(tmp_path / path), path)
-    assert found.similar == similar
+    assert (found.similar, found.elsewhere) == (similar, ())
+
+
+@pytest.mark.parametrize(
+    ("path", "elsewhere"),
+    [
+        (
+            "./cache_v2/a.vdb",
+            "'./cache_v10/a.vdb', './cache_v3/a.vdb', './cache_v1/a.vdb' and 1 more",
+        ),
+        (
+            "./old/a.vdb",
+            "'./old_caches_of_wednesday/a.vdb', './cache_v10/a.vdb', './cache_v3/a.vdb' and 1 more",
+        ),
+        ("./sparkle/b.vdb", "'./sparks/b.vdb', './cache_v10/b.vdb'"),
+        ("./sparkk/b.vdb", "'./sparks/b.vdb', './cache_v10/b.vdb'"),
+        (
+            "./cache_v3/../cache_v2/b.vdb",
+            "'./cache_v3/../cache_v10/b.vdb', './cache_v3/../sparks/b.vdb'",
+        ),
+        ("./gone/shot.usdz[c.vdb]", "'./cache_v3/shot.usdz[c.vdb]', './cache_v1/shot.usdz[c.vdb]'"),
+    ],
+)
+def test_a_file_that_lies_in_several_sibling_folders(
+    path: str, elsewhere: str, tmp_path: Path
+) -> None:
+    folders = ("cache_v1", "cache_v3", "cache_v10", "old_caches_of_wednesday")
+    write(tmp_path, *(f"{folder}/a.vdb" for folder in folders))
+    write(tmp_path, "sparks/b.vdb", "cache_v10/b.vdb", "sparkle/c.vdb")
+    write(tmp_path, "cache_v1/shot.usdz", "cache_v3/shot.usdz")
+    found = find_absence(Disk(), os.path.normpath(tmp_path / path), path)
+    assert found.advice == f"there are files of that name at {elsewhere}"
 
 
 @pytest.mark.parametrize(("path", "count"), [("./gone.vdb", 2), ("./gone/a.vdb", 1)])
@@ -93,13 +123,15 @@ def test_a_moved_cache_is_looked_for_once(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(os.path, "isfile", lambda path: asked.append(path) or is_file(path))
     disk = Disk()
     for file in range(9):
-        assert disk.sibling_with(f"{tmp_path}/a", f"/{file}.vdb") == "moved"
+        assert disk.siblings_with(f"{tmp_path}/a", f"/{file}.vdb") == ["moved"]
     assert len(asked) < 2 * 9
 
 
 def test_no_end_of_folders_is_searched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path, "moved/0.vdb", "other/1.vdb")
-    monkeypatch.setattr("usdvol_lint.facts.files.disk._NAMES_TRIED", 3)
-    disk = Disk()
-    assert disk.sibling_with(f"{tmp_path}/a", "/0.vdb") == "moved"
-    assert disk.sibling_with(f"{tmp_path}/b", "/1.vdb") is None
+    monkeypatch.setattr("usdvol_lint.facts.files.folders._NAMES_TRIED", 3)
+    folders = Folders()
+    disk = Disk(folders)
+    assert disk.siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
+    assert disk.siblings_with(f"{tmp_path}/b", "/1.vdb") == []
+    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == []  # of the next stage

@@ -79,6 +79,31 @@ def test_files_inside_a_package(
     assert said(engine.lint("scene.usda")) == expected
 
 
+@pytest.mark.parametrize(
+    ("start", "others"),
+    [
+        ("./shot.usdz[gone/", ": no folder 'gone' in 'shot.usdz', where 1 other field should"),
+        ("./shot.usdz[vdb/gone/", ": no folder 'vdb/gone' in 'shot.usdz', where 1 other field"),
+        ("./gone.usdz[vdb/", ": no package './gone.usdz', where 1 other field should have"),
+        ("./shot.usdz[vdb/", None),
+        ("./shot.usdz[", None),
+        ("./shot.usdz[in.usdz[vdb/", None),
+    ],
+)
+def test_a_folder_that_a_package_lacks_is_one_finding(
+    start: str, others: str | None, lint_text: Lint, tmp_path: Path
+) -> None:
+    package(tmp_path / "shot.usdz", "#usda 1.0\n", {"vdb/b/cloud.vdb": CONTENT, "in.usdz": CONTENT})
+    one, two = (f"{start}{name}.vdb]{']' * (start.count('[') - 1)}" for name in ("mist", "sparks"))
+    first, second = (volume(f"asset filePath = @{path}@") for path in (one, two))
+    found = said(lint_text(first + second.replace("cloud", "second").replace("#usda 1.0", "")))
+    if others:
+        [finding] = found
+        assert finding.startswith(f"AST002 no file at '{one}'{others}")
+    else:
+        assert found == [f"AST002 no file at '{path}' in 'shot.usdz'" for path in (one, two)]
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
 def test_a_named_pipe_is_no_file_and_is_not_opened(lint_text: Lint, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.vdb")
@@ -244,26 +269,3 @@ def test_expressions_in_a_usd_that_forgets_them(
         "AST002 no file at './clod.vdb' (from '`\"./${TAKE}.vdb\"`') "
         "(1 of 1 samples, authored as frame 1)"
     ]
-
-
-def test_a_path_in_a_package_may_have_format_arguments(lint_text: Lint, tmp_path: Path) -> None:
-    package(tmp_path / "shot.usdz", "#usda 1.0\n", {"a.vdb": CONTENT})
-    path = "./shot.usdz[a.vdb]:SDF_FORMAT_ARGS:b=c"
-    assert said(lint_text(volume(f"asset filePath = @{path}@"))) == []
-
-
-@pytest.mark.parametrize("where", [".", "elsewhere"])
-def test_the_search_path_begins_with_the_folder_of_the_stage(
-    where: str, engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A path without `./` in a layer of another folder, from whatever working directory."""
-    write(tmp_path, "shot/cloud.vdb")
-    for name, text in {
-        "shot/root.usda": "#usda 1.0\n(\n    subLayers = [@./fx/smoke.usda@]\n)\n",
-        "shot/fx/smoke.usda": volume("asset filePath = @cloud.vdb@"),
-    }.items():
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    (tmp_path / "elsewhere").mkdir()
-    monkeypatch.chdir(tmp_path / where)
-    assert said(engine.lint(str(tmp_path / "shot" / "root.usda"))) == []

@@ -11,6 +11,7 @@ from fieldtexts import CODES, Lint, field, frames, said, sampled, write
 from process import ASSETS
 
 from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.folders import Listing
 
 
 @pytest.mark.parametrize(
@@ -125,7 +126,7 @@ def test_case_where_the_file_system_ignores_it(
         str(tmp_path / "cache"): ("smoke.0001.vdb", "Smoke.0002.vdb"),
         str(tmp_path / "Cache"): ("smoke.0001.vdb", "Smoke.0002.vdb"),
     }
-    monkeypatch.setattr(Disk, "listing", lambda self, folder: listings.get(folder, ()))
+    monkeypatch.setattr(Disk, "listing", lambda self, folder: Listing(listings.get(folder, ())))
     names = ["./cache/smoke.0001.vdb", "./cache/smoke.0002.vdb"]
     stage = sampled(enumerate(names, start=1))
     assert said(lint_text(stage)) == []

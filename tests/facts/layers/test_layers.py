@@ -193,7 +193,7 @@ def test_a_default_prim_that_leads_nowhere(
     (tmp_path / "lib.usda").write_text(f"#usda 1.0\n{library}")
     report = lint_text('#usda 1.0\ndef "a" (\n    references = @./lib.usda@\n)\n{\n}\n')
     [finding] = findings(report)
-    assert f"the defaultPrim of './lib.usda' is '{default}', and there is" in finding.message
+    assert f"brings nothing: its defaultPrim '{default}' names no prim in it" in finding.message
     assert finding.suggestion == (
         meant or "name the prim, one of </cloud>, </b>, or write a defaultPrim into that layer"
     )

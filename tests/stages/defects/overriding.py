@@ -17,11 +17,7 @@ def _hide(subject: Subject, prim: Prim, rng: Random) -> None:
     prim.type = rng.choice(("Xform", "Scope"))
 
 
-OVERS = ("prototype below over",)
-"""What several layers make up is not looked for where nothing defines a prototype."""
-
-
-@on_volume("SCH012", without=OVERS)
+@on_volume("SCH012")
 def volume_hidden(subject: VolumeSubject, rng: Random) -> None:
     subject.root.children = [
         child for child in subject.root.children if not child.name.endswith("_twin")
@@ -29,14 +25,14 @@ def volume_hidden(subject: VolumeSubject, rng: Random) -> None:
     _hide(subject, subject.prim, rng)
 
 
-@on_volume("SCH012", needs=ONE_FILE, without=OVERS)
+@on_volume("SCH012", needs=ONE_FILE)
 def field_hidden(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
     _hide(subject, prim, rng)
     return prim
 
 
-@on_particles("SCH012", without=OVERS)
+@on_particles("SCH012")
 def splat_hidden(subject: ParticleSubject, rng: Random) -> None:
     _hide(subject, subject.prim, rng)
 
@@ -85,16 +81,14 @@ def _override_an_instance(subject: Subject, rng: Random) -> Prim:
     return over
 
 
-@on_volume(
-    "STG006", needs={**ONE_FILE, "place": "below", "twin": False}, without=("inherited", *OVERS)
-)
+@on_volume("STG006", needs={**ONE_FILE, "place": "below", "twin": False}, without=("inherited",))
 def extent_below_an_instance(subject: VolumeSubject, rng: Random) -> Prim:
     over = _override_an_instance(subject, rng)
     over.properties["extent"] = Attribute("float3[]", [(-2e6, -2e6, -2e6), (2e6, 2e6, 2e6)])
     return over
 
 
-@on_particles("STG006", needs={"arrays": True}, without=("inherited", *OVERS))
+@on_particles("STG006", needs={"arrays": True}, without=("inherited",))
 def opacities_below_an_instance(subject: ParticleSubject, rng: Random) -> Prim:
     over = _override_an_instance(subject, rng)
     name = subject.name_of("opacities")

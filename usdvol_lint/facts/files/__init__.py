@@ -164,7 +164,7 @@ class Files(Wing):
         from usdvol_lint.facts.files.absences import common_missing_folder
 
         found = (
-            (field, common_missing_folder(paths))
+            (field, common_missing_folder(paths, self._disk))
             for field, paths in self.paths.readable(schema.FIELD_ASSET)
             if AssetState.MISSING in paths.states
         )

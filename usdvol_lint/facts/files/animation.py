@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 
 
-@dataclass(frozen=True, slots=True)
-class UnlistedClips:
+class UnlistedClips(NamedTuple):
     """Clips that hold samples of an attribute that their manifest does not declare.
 
     `clip` and `manifest` are display names of layers; `spec` is the prim spec that authors

@@ -43,8 +43,11 @@ class AssetSample(NamedTuple):
 
     @property
     def extension(self) -> str:
-        """The extension of the path in lower case with its dot, or empty."""
-        return extension_of(self.path)
+        """The extension of the file in lower case with its dot, or empty.
+
+        Readers are chosen by what the resolver answers, which may end in another one than the path.
+        """
+        return extension_of(self.resolved or self.path)
 
 
 class AssetSamples(NamedTuple):

@@ -4,26 +4,48 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from pxr import Ar, Sdf
 
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.paths import count_names
+from usdvol_lint.facts.files.paths import count_names, is_packaged
 from usdvol_lint.facts.files.patterns import matching_frames
+from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.model import quoted
-from usdvol_lint.nearest import closest_match
+from usdvol_lint.nearest import by_nearness, closest_match
+
+_NAMED = 3
 
 
 class Absence(NamedTuple):
-    """Why nothing is at a path, in words that follow it, and a similar path with a file, if any."""
+    """Why nothing is at a path, in words that follow it, and which path was probably meant, if any.
+
+    `elsewhere`: paths of which none is more probable, the nearest first.
+    """
 
     reason: str
     similar: str | None
+    elsewhere: tuple[str, ...] = ()
+
+    @property
+    def advice(self) -> str | None:
+        """Where such a file is."""
+        if self.similar:
+            return f"did you mean {quoted(self.similar)}?"
+        more = len(self.elsewhere) - _NAMED
+        shown = ", ".join(map(quoted, self.elsewhere[:_NAMED])) + (f" and {more} more" * (more > 0))
+        return f"there are files of that name at {shown}" if shown else None
 
 
 def find_absence(disk: Disk, path: str, authored: str) -> Absence:
-    """Why nothing is at an absolute path; `authored` is the text that it comes from."""
+    """Why nothing is at an absolute path; `authored` is the text that it comes from.
+
+    Of what is no path on disk, such as a URI for an installed resolver, nothing is known.
+    """
+    if not os.path.isabs(path):
+        return Absence("", None)
     authored, _ = Sdf.Layer.SplitIdentifier(authored)
     corrected = correct_case(disk, path, authored)
     if Ar.IsPackageRelativePath(path):
@@ -32,27 +54,36 @@ def find_absence(disk: Disk, path: str, authored: str) -> Absence:
             return _absence_of_package(disk, package, authored)
         similar = None if corrected else _closest_name(disk, package, inner)
         corrected = _with_end(authored, inner, similar) if similar else corrected
-        return Absence(f" in {quoted(os.path.basename(package))}", corrected)
+        folder = disk.missing_in_package(package, inner)
+        what = f": no folder {quoted(folder)}" if folder else ""
+        return Absence(f"{what} in {quoted(os.path.basename(package))}", corrected)
     missing = _first_missing(path)
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
     shown = _with_end(authored, below, "") if below else authored
     similar = None if corrected else _closest_name(disk, folder, name)
     has_file = bool(similar) and os.path.exists(f"{folder}/{similar}{below}")
-    moved = None if corrected or has_file else _moved(disk, path, missing, authored)
-    if moved:
-        corrected = _with_end(authored, *moved)
-    elif similar:
+    moved = () if corrected or has_file else tuple(_moved(disk, path, missing, authored))
+    if len(moved) == 1:
+        corrected, moved = moved[0], ()
+    elif similar and not moved:
         corrected = _with_end(authored, name + below, similar + below if has_file else similar)
+    reason = f": no folder {quoted(shown)}" if below else ""
     if os.path.islink(missing):
-        return Absence(f": {_broken_link(missing)}", corrected)
-    return Absence(f": no folder {quoted(shown)}" if below else "", corrected)
+        reason = f": {_broken_link(missing)}"
+    return Absence(reason, corrected, moved)
 
 
-def missing_folder(path: str) -> str | None:
-    """The topmost folder that does not exist above an absolute path, if one does not."""
+def missing_folder(disk: Disk, path: str) -> str | None:
+    """The topmost folder or package that does not exist above an absolute path, if one does not."""
+    if is_packaged(path):
+        package, inner = Ar.SplitPackageRelativePathOuter(path)
+        if not os.path.isfile(package):
+            return _first_missing(package)
+        folder = disk.missing_in_package(package, inner)
+        return str(Ar.JoinPackageRelativePath(package, folder)) if folder else None
     missing = _first_missing(path)
-    return None if missing == path or Ar.IsPackageRelativePath(path) else missing
+    return None if missing == path else missing
 
 
 def correct_case(disk: Disk, path: str, authored: str) -> str | None:
@@ -63,7 +94,7 @@ def correct_case(disk: Disk, path: str, authored: str) -> str | None:
     authored, _ = Sdf.Layer.SplitIdentifier(authored)
     if Ar.IsPackageRelativePath(path):
         package, inner = Ar.SplitPackageRelativePathOuter(path)
-        actual = disk.names(package).get(inner.lower(), inner)
+        actual = disk.listing(package).by_case.get(inner.lower(), inner)
         return _with_end(authored, inner, actual) if actual != inner else None
     count = count_names(authored)
     found = disk.in_case(path, count)
@@ -77,30 +108,31 @@ def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
 
     `path` is the absolute form of `authored`; the paths begin as `authored` does.
     """
-    folder, name = os.path.split(path)
-    found = matching_frames(name, disk.listing(folder))
+    folder, name, _ = place_of(path)
+    found = matching_frames(name, disk.listing(folder).names)
     return [(frame.number, _with_end(authored, name, frame.name)) for frame in found]
 
 
 def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
     shown, inner = Ar.SplitPackageRelativePathOuter(authored)
-    reason, corrected = find_absence(disk, package, shown)
+    reason, corrected, elsewhere = find_absence(disk, package, shown)
     if corrected and corrected.endswith(os.path.splitext(shown)[1]):  # else it corrects a folder
         corrected = str(Ar.JoinPackageRelativePath(corrected, inner))
-    return Absence(reason or f": no package {quoted(shown)}", corrected)
+    inside = tuple(str(Ar.JoinPackageRelativePath(other, inner)) for other in elsewhere)
+    return Absence(reason or f": no package {quoted(shown)}", corrected, inside)
 
 
 def _closest_name(disk: Disk, folder: str, name: str) -> str | None:
     """The closest other name in a folder; a name with other numbers is no misspelling."""
-    others = [other for other in disk.names_numbered_alike(folder, name) if other != name]
+    others = [other for other in disk.listing(folder).numbered_like(name) if other != name]
     swapped = {
         f"{name[:at]}{name[at + 1]}{name[at]}{name[at + 2 :]}" for at in range(len(name) - 1)
     }
     return next(filter(swapped.__contains__, others), None) or closest_match(name, others)
 
 
-def _moved(disk: Disk, path: str, missing: str, authored: str) -> tuple[str, str] | None:
-    """The end of a path and what to write for it, if the very file lies in a sibling folder.
+def _moved(disk: Disk, path: str, missing: str, authored: str) -> Iterator[str]:
+    """What to write instead, where the very file lies in sibling folders, the nearest first.
 
     That is one beside the folder that is missing; or, where only the file is, beside its own.
     Where that has a number, its neighbours in other folders are versions or takes of the frame.
@@ -108,11 +140,12 @@ def _moved(disk: Disk, path: str, missing: str, authored: str) -> tuple[str, str
     """
     folder, name = os.path.split(missing) if missing == path else (missing, "")
     if name and any(map(str.isdigit, name)):
-        return None
+        return
     below = path[len(folder) :]
-    end = os.path.basename(folder) + below
-    sibling = disk.sibling_with(folder, below) if authored.endswith(end) else None
-    return (end, sibling + below) if sibling else None
+    own_name = os.path.basename(folder)
+    if authored.endswith(own_name + below):
+        for sibling in by_nearness(own_name, disk.siblings_with(folder, below)):
+            yield _with_end(authored, own_name + below, sibling + below)
 
 
 def _first_missing(path: str) -> str:

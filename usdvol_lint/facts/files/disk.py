@@ -3,41 +3,34 @@
 from __future__ import annotations
 
 import os
-import re
 import stat
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, TypeAlias
+from typing import Any
 
 from pxr import Ar, Tf
 
+from usdvol_lint.facts.files.folders import Folders, Listing
 from usdvol_lint.facts.files.paths import is_packaged
+from usdvol_lint.facts.files.places import folders_above
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
 _LFS_POINTER_LIMIT = 1024
-_NUMBER = re.compile(r"[0-9]+")
-_NAMES_TRIED = 10_000
-"""In so many folders, for all paths of a stage, a file is looked for that may have moved."""
-
-_Numbers: TypeAlias = tuple[int, ...]
 
 
 class Disk:
     """Looks at files and folders, and keeps what it saw for all variant selections of a stage.
 
     What it says of a folder it says of a package, `package.usdz`, too.
+    `folders` know what is in them, for the stages before and after this one too.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, folders: Folders | None = None) -> None:
+        self._all_folders = folders or Folders()
         self._faults: dict[str, str | None] = {}
-        self._listings: dict[str, tuple[str, ...]] = {}
-        self._by_numbers: dict[str, dict[_Numbers, list[str]]] = {}
-        self._by_case: dict[str, dict[str, str]] = {}
+        self._listings: dict[str, Listing] = {}
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._ignores_case: dict[str, bool] = {}
         self._siblings: dict[str, tuple[str, ...]] = {}
-        self._names_left = _NAMES_TRIED
 
     @property
     def checked(self) -> int:
@@ -50,51 +43,31 @@ class Disk:
             self._faults[resolved] = file_fault(resolved)
         return self._faults[resolved]
 
-    def listing(self, folder: str) -> tuple[str, ...]:
-        """The names in a folder, sorted; none if it can't be read."""
+    def listing(self, folder: str) -> Listing:
+        """What is in a folder; nothing if it can't be read."""
         if folder not in self._listings:
-            names = _package_names if os.path.isfile(folder) else os.listdir
-            try:
-                self._listings[folder] = tuple(sorted(names(folder)))
-            except OSError:
-                self._listings[folder] = ()
+            self._listings[folder] = self._all_folders.listing(folder)
         return self._listings[folder]
 
-    def names(self, folder: str) -> dict[str, str]:
-        """The names in a folder, by themselves and by their lower case."""
-        if folder not in self._by_case:
-            listing = self.listing(folder)
-            lower = {name.lower(): name for name in listing}
-            self._by_case[folder] = lower | {name: name for name in listing}
-        return self._by_case[folder]
+    def missing_in_package(self, package: str, inner: str) -> str | None:
+        """The topmost folder that a package lacks above a path in it, if it lacks one."""
+        there = self.listing(package).folders
+        outermost = inner.partition("[")[0]
+        missing = (each for each in folders_above(outermost) if each not in there)
+        return None if inner.startswith("../") else next(missing, None)
 
-    def names_numbered_alike(self, folder: str, name: str) -> Sequence[str]:
-        """The names in a folder whose numbers are the same as in `name`."""
-        if folder not in self._by_numbers:
-            self._by_numbers[folder] = _group_by_numbers(self.listing(folder))
-        return self._by_numbers[folder].get(_numbers(name), ())
-
-    def sibling_with(self, folder: str, below: str) -> str | None:
-        """The name of the one folder beside another that has a file at the path `below`, `/a.vdb`.
+    def siblings_with(self, folder: str, below: str) -> list[str]:
+        """The names of the folders beside another that have a file at the path `below`, `/a.vdb`.
 
         Which folders come into question is looked for once for each `folder`, by the first file.
         """
         parent = os.path.dirname(folder)
         if folder not in self._siblings:
-            self._siblings[folder] = tuple(self._siblings_with(folder, below))
-        found = [
+            is_top = os.path.dirname(parent) == parent
+            self._siblings[folder] = () if is_top else self._all_folders.with_file(parent, below)
+        return [
             name for name in self._siblings[folder] if os.path.isfile(f"{parent}/{name}{below}")
         ]
-        return found[0] if len(found) == 1 else None
-
-    def _siblings_with(self, folder: str, below: str) -> Iterator[str]:
-        parent, own_name = os.path.split(folder)
-        names = () if os.path.dirname(parent) == parent else self.listing(parent)
-        if len(names) <= self._names_left:
-            self._names_left -= len(names)
-            for name in names:
-                if name != own_name and os.path.isfile(f"{parent}/{name}{below}"):
-                    yield name
 
     def in_case(self, path: str, count: int) -> str | None:
         """An absolute path with its last `count` names as the folders on disk spell them.
@@ -110,7 +83,7 @@ class Disk:
         actual_folder = self._in_case[key]
         if actual_folder is None:
             return None
-        names = self.names(actual_folder)
+        names = self.listing(actual_folder).by_case
         actual_name = names.get(name) or names.get(name.lower())
         return f"{actual_folder.rstrip('/')}/{actual_name}" if actual_name else None
 
@@ -169,24 +142,3 @@ def _package_fault(path: str) -> str | None:
     if asset is None:
         return FileFault.UNREADABLE
     return FileFault.EMPTY if asset.GetSize() == 0 else None
-
-
-def _package_names(package: str) -> list[str]:
-    from zipfile import BadZipFile, ZipFile  # costs start-up time, and few stages ask
-
-    try:
-        with ZipFile(package) as archive:
-            return archive.namelist()
-    except BadZipFile:
-        return []
-
-
-def _group_by_numbers(names: Iterable[str]) -> dict[_Numbers, list[str]]:
-    groups: dict[_Numbers, list[str]] = defaultdict(list)
-    for name in names:
-        groups[_numbers(name)].append(name)
-    return groups
-
-
-def _numbers(name: str) -> _Numbers:
-    return tuple(map(int, _NUMBER.findall(name)))

@@ -37,7 +37,7 @@ def recased(paths: AssetSamples, disk: Disk) -> Recased | None:
 
 
 class _Folder(NamedTuple):
-    """The names in a folder, as `Disk.names` gives them; those in a package begin with `prefix`.
+    """What is in a folder, as `Listing.by_case` gives it; names in a package begin with `prefix`.
 
     `differs` is whether the folder's own path has another case on disk.
     """
@@ -83,7 +83,7 @@ class _Folders:
         if Ar.IsPackageRelativePath(path):
             package, inner = Ar.SplitPackageRelativePathOuter(path)
             folder, slash, _ = inner.rpartition("/")
-            return _Folder(self._disk.names(package), folder + slash, differs=False)
+            return _Folder(self._disk.listing(package).by_case, folder + slash, differs=False)
         folder = os.path.dirname(path)
         actual = self._disk.in_case(folder, count_names(folder_path))
-        return _Folder(self._disk.names(actual), "", actual != folder) if actual else None
+        return _Folder(self._disk.listing(actual).by_case, "", actual != folder) if actual else None

@@ -51,7 +51,7 @@ class PathMarks:
             found.add(PathMark.SEVERAL)
         extensions = (end for name, end in FILE_EXTENSIONS.items() if name in authored.schemas)
         extension = next(extensions, "")
-        if any(not sample.path.endswith(extension) for sample in paths.samples):
+        if any(not (each.resolved or each.path).endswith(extension) for each in paths.samples):
             found.add(PathMark.FOREIGN)
         if self._has_range and len(paths.samples) == 1 and _NUMBERED.search(paths.samples[0].path):
             found.add(PathMark.NUMBERED)

@@ -56,8 +56,12 @@ def anchored(attribute: Any, time: float | None, path: str) -> str:
     strongest = strongest_opinion(attribute, time)
     if strongest is None:
         return bare
-    layer = strongest.spec.layer
-    absolute = str(layer.ComputeAbsolutePath(bare))
+    return anchored_to(strongest.spec.layer, bare)
+
+
+def anchored_to(layer: Any, path: str) -> str:
+    """The absolute path of one that is authored in a layer, whether or not anything is there."""
+    absolute = str(layer.ComputeAbsolutePath(path))
     # USD leaves a bare name that it does not find as it is, for the resolver's search path.
-    searched = absolute == bare and not (os.path.isabs(bare) or is_uri(bare))
-    return str(layer.ComputeAbsolutePath(f"./{bare}")) if searched else absolute
+    searched = absolute == path and not (os.path.isabs(path) or is_uri(path))
+    return str(layer.ComputeAbsolutePath(f"./{path}")) if searched else absolute

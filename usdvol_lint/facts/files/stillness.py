@@ -69,7 +69,7 @@ class Families:
         family = (folder, frame.before, frame.after)
         key = family, len(frame.digits)
         if key not in self._on_disk:
-            self._on_disk[key] = frame.among(self._disk.listing(folder))
+            self._on_disk[key] = frame.among(self._disk.listing(folder).names)
         return _Frames(frame, family, self._on_disk[key])
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from usdvol_lint.facts.files.assets import Affected
 from usdvol_lint.facts.grids.contents import Content
@@ -16,8 +15,7 @@ Grids: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 """The names of grids, in their order, each with the value types of the grids of that name."""
 
 
-@dataclass(frozen=True, slots=True)
-class GridChanges:
+class GridChanges(NamedTuple):
     """The samples whose files differ from most, and how the first one does, in words."""
 
     affected: Affected

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
@@ -19,8 +18,7 @@ from usdvol_lint.facts.usd.opinions import strongest_opinion
 _ARCS = ("references", "payload", "inheritPaths", "specializes")
 
 
-@dataclass(frozen=True, slots=True)
-class LeftBehind:
+class LeftBehind(NamedTuple):
     """The clips of a prim in `layer` at `path`, which do not reach `attributes`, at least one.
 
     `prim` is that with the arc, or the instance that carries the clips itself; `spec` is the one to

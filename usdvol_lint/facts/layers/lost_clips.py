@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from typing import Any, NamedTuple
 
 from pxr import Sdf
 
 from usdvol_lint import schema
+from usdvol_lint.facts.files.paths import anchored_to
+from usdvol_lint.facts.files.places import names_listed, place_of
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clip_faults import (
     ClipFault,
@@ -20,7 +20,7 @@ from usdvol_lint.facts.usd.clip_faults import (
     keys_without_set,
     used_sets,
 )
-from usdvol_lint.facts.usd.clips import Clips, open_layer
+from usdvol_lint.facts.usd.clips import Clips, ClipSet, open_layer
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.model import format_time, quoted
 
@@ -29,8 +29,7 @@ _OPENED = 4
 _FILE_PATH = "filePath"
 
 
-@dataclass(frozen=True, slots=True)
-class LostClips:
+class LostClips(NamedTuple):
     """A clip set on `prim` that USD does not use; `name` is "" where clips stand outside of one.
 
     `attributes` are those, at least one, that lack the values of the clips; `spec` is the prim spec
@@ -70,7 +69,7 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
         for bearer in clips.bearers(prim):
             below.setdefault(bearer, []).append(prim)
     for bearer, ours in below.items():
-        for unused in _unused(bearer):
+        for unused in _unused(bearer, clips.on(bearer)):
             attributes = tuple(
                 attribute
                 for prim in ours
@@ -97,18 +96,20 @@ def _without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
             yield attribute
 
 
-def _unused(prim: Any) -> Iterator[_Clips]:
-    """The clip sets on a prim that USD does not use."""
+def _unused(prim: Any, read: Iterable[ClipSet]) -> Iterator[_Clips]:
+    """The clip sets on a prim that USD does not use; `read` are those that say what they need."""
     if _is_undecided(prim):
         return
+    found = {clip_set.name: clip_set.clips for clip_set in read}
     loose = keys_without_set(prim)
     if loose:
         what = f"hold {', '.join(sorted(loose))} outside of the dictionary of a clip set"
         advice = "put them into one, as in clips = { dictionary default = { … } }"
-        yield _read(prim, "", loose, ClipFault("clips", what, advice))
+        yield _read(prim, "", loose, ClipFault("clips", what, advice), ())
     for name, keys in used_sets(prim).items():
         fault = find_fault(keys)
-        unused = _read(prim, name, keys, fault or ClipFault("primPath", "", None))
+        clips = found.get(name, ())
+        unused = _read(prim, name, keys, fault or ClipFault("primPath", "", None), clips)
         if fault:
             yield unused
         elif unused.layers and not any(_has_prim(layer, keys) for layer in unused.layers):
@@ -130,13 +131,11 @@ def _is_undecided(prim: Any) -> bool:
     return False
 
 
-def _read(prim: Any, name: str, keys: Keys, fault: ClipFault) -> _Clips:
+def _read(prim: Any, name: str, keys: Keys, fault: ClipFault, clips: Sequence[Any]) -> _Clips:
+    """A clip set that is not used; `clips` are those that USD names for it, if it does."""
     spec = _author(prim, name, fault.key)
-    assets = keys.get("assetPaths")
-    clips = (
-        assets if isinstance(assets, Sdf.AssetPathArray) else _named_by_template(prim, name, keys)
-    )
-    opened = (open_layer(_resolved(prim, name, clip)) for clip in islice(clips, _OPENED))
+    named = islice(clips or _named(prim, name, keys), _OPENED)
+    opened = (open_layer(_resolved(prim, name, clip)) for clip in named)
     manifest = keys.get("manifestAssetPath")
     return _Clips(
         prim,
@@ -165,16 +164,22 @@ def _resolved(prim: Any, name: str, asset: Any) -> Any:
     return Sdf.AssetPath(asset.path, layer.ComputeAbsolutePath(asset.path))
 
 
-def _named_by_template(prim: Any, name: str, keys: Keys) -> Iterator[Any]:
+def _named(prim: Any, name: str, keys: Keys) -> Iterator[Any]:
+    """The clips of a set that USD refuses."""
+    assets, template = keys.get("assetPaths"), keys.get("templateAssetPath")
+    if isinstance(assets, Sdf.AssetPathArray):
+        yield from assets
+    elif isinstance(template, str):
+        layer = _author(prim, name, "templateAssetPath").layer
+        yield from _named_by_template(layer, template)
+
+
+def _named_by_template(layer: Any, template: str) -> Iterator[Any]:
     """The files that a template stands for, as far as they exist."""
-    template = keys.get("templateAssetPath")
-    if not isinstance(template, str):
-        return
-    path = _author(prim, name, "templateAssetPath").layer.ComputeAbsolutePath(template)
-    folder, _, pattern = path.rpartition("/")
-    matches = re.compile(re.sub(r"(?:\\#)+", "[0-9]+", re.escape(pattern))).fullmatch
-    names = sorted(os.listdir(folder)) if "#" in pattern and os.path.isdir(folder) else []
-    yield from (Sdf.AssetPath(name, f"{folder}/{name}") for name in names if matches(name))
+    place = place_of(anchored_to(layer, template))
+    matches = re.compile(re.sub(r"(?:\\#)+", "[0-9]+", re.escape(place.name))).fullmatch
+    names = names_listed(place.folder) if "#" in place.name else []
+    yield from (Sdf.AssetPath(clip, place.beside(clip)) for clip in names if matches(clip))
 
 
 def _is_lost(unused: _Clips, attribute: Any) -> bool:

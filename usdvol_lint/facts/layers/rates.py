@@ -6,7 +6,7 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from pxr import Tf
 
@@ -41,8 +41,7 @@ class Displaced:
     asset: ClassVar[None] = None
 
 
-@dataclass(frozen=True, slots=True)
-class UnsaidRate:
+class UnsaidRate(NamedTuple):
     """A layer that says neither timeCodesPerSecond nor framesPerSecond.
 
     `rate`: the stage's; `scale`: that by which USD therefore scales times in the layer.
@@ -69,7 +68,7 @@ def unsaid_rates(
             start = offset.offset
             meant = [start + (time - start) / own for time in times]
             displaced = _displaced(attribute, list(zip(times, meant, strict=True)), time_range)
-            if displaced:
+            if displaced and not _is_meant(layer, offset, times, own, time_range):
                 found[layer][attribute.GetPrim()].append(displaced)
     return tuple(
         UnsaidRate(layer, rate, own, tuple(_in_order(by_prim)))
@@ -169,6 +168,28 @@ def _displaced(
     if len(beyond) > 1 and len(beyond) * _FEW >= len(times):
         return Displaced(attribute, beyond, False, len(times))
     return None
+
+
+def _is_meant(
+    layer: Any,
+    offset: Any,
+    times: Sequence[float],
+    own: float,
+    time_range: tuple[float, float] | None,
+) -> bool:
+    """Whether the layer's range, or that of the samples, is the stage's for being scaled by USD."""
+    ends = times[0], times[-1]
+    if layer.HasStartTimeCode() and layer.HasEndTimeCode():
+        ends = offset * layer.startTimeCode, offset * layer.endTimeCode
+    unscaled = [offset.offset + (end - offset.offset) / own for end in ends]
+    return _are_within(own, ends, time_range) and not _are_within(own, unscaled, time_range)
+
+
+def _are_within(most: float, times: Iterable[float], others: tuple[float, float] | None) -> bool:
+    """Whether times differ from others by less than `most`."""
+    return bool(others) and all(
+        abs(one - other) < most for one, other in zip(times, others or (), strict=True)
+    )
 
 
 def _is_frame(time: float) -> bool:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.arcs import Layered
@@ -13,8 +12,7 @@ from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.paths import display
 
 
-@dataclass(frozen=True, slots=True)
-class Retyped:
+class Retyped(NamedTuple):
     """A prim with a type that hides one of ours.
 
     `hidden` is the spec with our type; `stronger` are those with another, strongest first.

@@ -47,7 +47,7 @@ class Corrections:
     def _above(self, prim: Any) -> Iterator[Any]:
         if prim.IsPrototype():
             yield from prim.GetInstances()
-        else:
+        elif not _resets(prim):
             yield prim.GetParent()
         yield from self._instancers.get(prim.GetPath(), ())
 
@@ -61,6 +61,18 @@ class Corrections:
                 for path in UsdGeom.PointInstancer(prim).GetPrototypesRel().GetForwardedTargets():
                     found.setdefault(path, []).append(prim)
         return found
+
+
+def resetting(prim: Any) -> Any | None:
+    """The nearest prim, from this one upwards, that nothing above it moves, if one says so."""
+    while prim and not _resets(prim):
+        prim = prim.GetParent()
+    return prim or None
+
+
+def _resets(prim: Any) -> bool:
+    xformable = _ordered(prim)
+    return bool(xformable and xformable.GetResetXformStack())
 
 
 def _corrects(prim: Any, is_rotation: bool) -> bool:
@@ -77,10 +89,15 @@ def _has_value(attribute: Any) -> bool:
 
 
 def _ops(prim: Any) -> list[Any]:
-    if not _has_value(prim.GetAttribute("xformOpOrder")):
-        return []
-    xformable = UsdGeom.Xformable(prim)
+    """The ops that count: those after a reset, if there is one."""
+    xformable = _ordered(prim)
     return list(xformable.GetOrderedXformOps()) if xformable else []
+
+
+def _ordered(prim: Any) -> Any | None:
+    """A prim that has ops as their schema; None for all others."""
+    xformable = _has_value(prim.GetAttribute("xformOpOrder")) and UsdGeom.Xformable(prim)
+    return xformable or None
 
 
 def _op_corrects(op: Any, is_rotation: bool) -> bool:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from pxr import Sdf
 
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_path, get_prim_stack
-from usdvol_lint.facts.usd.instances import in_prototype, shown
+from usdvol_lint.facts.usd.instances import as_shown, in_prototype, shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.nearest import is_one_slip_from
 
@@ -115,9 +115,9 @@ def _may_define(variant: Any, prefixes: Iterable[Any]) -> bool:
 
 
 def _topmost(prims: Iterable[Any]) -> Iterator[Any]:
-    """Those of the prims that are not below another of them, by path."""
+    """Those of the prims that are not below another of them, by the paths that show them."""
     last = Sdf.Path.emptyPath
-    for prim in sorted(prims, key=get_path):
+    for prim in as_shown(prims):
         if last.isEmpty or not prim.GetPath().HasPrefix(last):
             last = prim.GetPath()
             yield prim

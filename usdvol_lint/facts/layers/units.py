@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import UsdGeom
 
 from usdvol_lint import schema
-from usdvol_lint.facts.layers.turns import Corrections
+from usdvol_lint.facts.layers.turns import Corrections, resetting
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
@@ -25,8 +24,7 @@ _PLACED = frozenset({"extent", "filePath", *schema.attributes_of(schema.API_ATTR
 """The attributes whose values have a place or a size."""
 
 
-@dataclass(frozen=True, slots=True)
-class UnlikeStage:
+class UnlikeStage(NamedTuple):
     """A layer that says another up axis or other units than the stage.
 
     `key`: the name of that metadata, with the value in the `layer` and that of the `stage`.
@@ -46,6 +44,11 @@ class UnlikeStage:
     def prim(self) -> Any:
         """The first of the prims."""
         return self.prims[0]
+
+    @property
+    def resetting(self) -> Any | None:
+        """The prim with `!resetXformStack!` up to which a rotation or scale of it would count."""
+        return resetting(self.prim)
 
 
 def layers_unlike_stage(stage: Any, tables: Tables) -> tuple[UnlikeStage, ...]:

@@ -18,21 +18,25 @@ from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
 def missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[LayerArc, Any]]:
     """The layers that clip sets name and USD can't open, each with the prim of its clip set."""
     for clip_set in clip_sets:
-        for arc, key, asset in _clip_assets(clip_set):
+        for arc, key, asset, authored in _clip_assets(clip_set):
             if not open_layer(asset):
                 spec = clip_set.spec_with(key)
                 path = asset.resolvedPath or spec.layer.ComputeAbsolutePath(asset.path)
-                yield LayerArc(arc, authored_path(asset) or asset.path, path, spec), clip_set.prim
+                yield LayerArc(arc, authored, path, spec), clip_set.prim
 
 
-def _clip_assets(clip_set: ClipSet) -> Iterator[tuple[str, str, Any]]:
-    """The layers that a clip set names: `LayerArc.arc`, the key in the clip set, the asset path."""
-    if clip_set.template and not clip_set.clips:
-        yield "clip template", "templateAssetPath", Sdf.AssetPath(clip_set.template)
-    if not clip_set.template:
-        yield from (("clip", "assetPaths", clip) for clip in clip_set.clips)
-    if clip_set.manifest:
-        yield "clip manifest", "manifestAssetPath", clip_set.manifest
+def _clip_assets(clip_set: ClipSet) -> Iterator[tuple[str, str, Any, str]]:
+    """The layers that a clip set names.
+
+    Each is `LayerArc.arc`, the key in the clip set, the asset path, and `LayerArc.asset`.
+    """
+    template, clips = clip_set.template, clip_set.clips
+    if template and not clips:
+        yield "clip template", "templateAssetPath", Sdf.AssetPath(template), template
+    yield from (("clip", clip_set.key, clip, clip_set.named(clip)) for clip in clips)
+    if manifest := clip_set.manifest:
+        name = authored_path(manifest) or manifest.path
+        yield "clip manifest", "manifestAssetPath", manifest, name
 
 
 def unopened_reason(path: str, reported: Iterable[str]) -> str:

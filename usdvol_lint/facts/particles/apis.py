@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Usd
 
@@ -11,8 +10,7 @@ from usdvol_lint import schema, spelling
 from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
 
-@dataclass(frozen=True, slots=True)
-class ParticleApis:
+class ParticleApis(NamedTuple):
     """The API schemas of one prim.
 
     `applied` are the registered ones and those that they include, in order.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
 from functools import cached_property
 from math import inf
 from typing import Any, NamedTuple
@@ -101,7 +100,7 @@ class ParticleArray:
             measured = measure(rows)
             if measured.counts is not None:  # half a megabyte, too much to keep for each sample
                 counts = counts + measured.counts
-                measured = replace(measured, counts=None)
+                measured = measured._replace(counts=None)
             ranges.append((sample, measured))
         return tuple(ranges), counts
 

@@ -35,8 +35,7 @@ class Misfits(Values):
         return f"{elements} for {owners}{self.count}"
 
 
-@dataclass(frozen=True, slots=True)
-class Degree:
+class Degree(NamedTuple):
     """The degree of the spherical harmonics; `value` is None if the attribute is mistyped."""
 
     attribute: Any
@@ -57,8 +56,7 @@ class LateArray(NamedTuple):
     filled: float
 
 
-@dataclass(frozen=True, slots=True)
-class Pair:
+class Pair(NamedTuple):
     """The float and the half array of one attribute, such as `scales` and `scalesh`.
 
     `arrays` are the authored ones of the schema's type; `is_known` is False if one is mistyped.

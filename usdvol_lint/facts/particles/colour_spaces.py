@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Gf
 
@@ -15,8 +14,7 @@ _NAME = "colorSpace:name"
 _DEFINITIONS = "colorSpaceDefinition"
 
 
-@dataclass(frozen=True, slots=True)
-class ColourSpace:
+class ColourSpace(NamedTuple):
     """An authored colour space name; `similar` is the closest name that USD knows, if any is."""
 
     attribute: Any

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from usdvol_lint.facts.particles.bits import bits
+from usdvol_lint.facts.particles.bits import bits, ordered
 from usdvol_lint.facts.particles.chunks import Row, Rows, fold
 
 Mask: TypeAlias = Callable[[Rows, int], Rows]
@@ -49,6 +49,31 @@ def outside(chunk: Rows, low: float | Row, high: float | Row) -> Rows:
     beyond: Rows = ((chunk < low) | (chunk > high)) & np.isfinite(chunk)
     rows: Rows = np.logical_or.reduce(beyond, axis=1)
     return rows
+
+
+def rows_outside(chunk: Rows, low: Rows, high: Rows) -> Rows:
+    """The indices of rows with a number outside the limits of its column, or nearly so.
+
+    Limits are rounded inwards to the precision of the chunk, and keys of halfs are compared.
+    """
+    kind = chunk.dtype.type
+    lowest = np.nextafter(low.astype(kind), kind(np.inf))
+    highest = np.nextafter(high.astype(kind), kind(-np.inf))
+    keys, lows, highs = map(ordered, (chunk, lowest, highest))
+    beyond: Rows = np.zeros(len(chunk), np.bool_)
+    for column, least, greatest in zip(keys.T, lows, highs, strict=True):  # faster than all at once
+        beyond |= (column < least) | (column > greatest)
+    return np.flatnonzero(beyond)
+
+
+def rows_below(chunk: Rows, limit: float) -> Rows:
+    """The indices of rows whose numbers are all below a limit, or nearly so, as `rows_outside`."""
+    kind = chunk.dtype.type
+    highest = ordered(np.nextafter(np.array([limit], kind), kind(np.inf)))
+    rows = np.flatnonzero(ordered(chunk) < highest) // chunk.shape[1]
+    last = rows[chunk.shape[1] - 1 :]  # of a row that is there with all its numbers
+    selected: Rows = last[last == rows[: len(last)]]
+    return selected
 
 
 def is_finite(chunk: Rows) -> Rows:

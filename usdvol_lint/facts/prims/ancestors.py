@@ -8,7 +8,7 @@ from typing import Any
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_parent, get_property_names
-from usdvol_lint.facts.usd.instances import is_live
+from usdvol_lint.facts.usd.instances import instances_of
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
 _INHERITED = frozenset({"purpose", "visibility", "xformOpOrder"})
@@ -33,8 +33,7 @@ def ancestors_of(batches: Iterable[PrimBatch], kinds: PrimKinds) -> list[Any]:
         if prim.IsPseudoRoot() or prim in seen:
             continue
         seen.add(prim)
-        is_shared = prim.IsPrototype()
-        pending += filter(is_live, prim.GetInstances()) if is_shared else (get_parent(prim),)
+        pending += instances_of(prim) if prim.IsPrototype() else (get_parent(prim),)
     authors = (prim for prim in seen if not _INHERITED.isdisjoint(get_property_names(prim)))
     groups = (prim for prim in authors if schema.OURS.isdisjoint(kinds.names(kinds.key(prim))))
     return sorted(groups, key=lambda prim: prim.GetPath())

@@ -83,8 +83,9 @@ def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
 def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
     """The attributes with values that are not read because their names are misspelt.
 
-    Skipped if the type of the intended attribute can't hold the value, or if it has a value too,
-    unless the misspelt one is of the same type, in a stronger layer, and says something else.
+    Skipped if the type of the intended attribute can't hold the value, if it may be meant to be
+    another attribute, or if the intended one has a value too, unless the misspelt one is of the
+    same type, in a stronger layer, and says something else.
     """
     for name, intended, wanted in authored.misspellings:
         attribute = prim.GetAttribute(name)
@@ -96,8 +97,16 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
                 yield Misspelt(attribute, intended, right)
             continue
         names_another = name.startswith("particleField:")
-        if names_another or spelling.is_alike(str(attribute.GetTypeName()), wanted):
+        is_alike = spelling.is_alike(str(attribute.GetTypeName()), wanted)
+        if names_another or (is_alike and not _may_be_own(attribute, intended, wanted)):
             yield Misspelt(attribute, intended)
+
+
+def _may_be_own(attribute: Any, intended: str, wanted: str) -> bool:
+    """Whether an attribute may be somebody's own: of another type, and no near-certain slip."""
+    is_other = attribute.GetTypeName().type != Sdf.ValueTypeNames.Find(wanted).type
+    is_slip = spelling.is_certainly_misspelt(attribute.GetName(), intended)
+    return bool(attribute.IsCustom() and is_other and not is_slip)
 
 
 def _fails_to_override(misspelt: Any, right: Any, wanted: str) -> bool:

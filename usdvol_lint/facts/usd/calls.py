@@ -31,6 +31,7 @@ get_property_names: Any = Usd.Prim.GetAuthoredPropertyNames
 get_relationship: Any = Usd.Prim.GetRelationship
 get_type: Any = Usd.Prim.GetTypeName
 has_metadata: Any = Usd.Prim.HasAuthoredMetadata
+has_specifier: Any = Usd.Prim.HasDefiningSpecifier
 is_defined: Any = Usd.Prim.IsDefined
 is_in_prototype: Any = Usd.Prim.IsInPrototype
 

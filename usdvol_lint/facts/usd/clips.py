@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import chain
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Sdf, Tf, Usd
 
@@ -19,8 +18,7 @@ _CLIPS_OPENED = 4
 _ALL = Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)
 
 
-@dataclass(frozen=True, slots=True)
-class ClipSet:
+class ClipSet(NamedTuple):
     """One clip set authored on `prim`.
 
     `clips` and `manifest` are `Sdf.AssetPath`s, resolved by USD.
@@ -72,8 +70,14 @@ class ClipSet:
             return re.sub("#+", lambda marks: f"{number:0{len(marks[0])}}", self.template, count=1)
         active = sorted(map(tuple, api.GetClipActive(self.name) or ()))
         before = [index for start, index in active if start <= time]
-        clip = self.clips[int(before[-1])] if before else None
-        return (authored_path(clip) or str(clip.path)) if clip else None
+        return self.named(self.clips[int(before[-1])]) if before else None
+
+    def named(self, clip: Any) -> str:
+        """The path of one of the clips as the set, or its template, names it."""
+        if not self.template:
+            return authored_path(clip) or str(clip.path)
+        folder, slash, _ = self.template.rpartition("/")
+        return folder + slash + re.split(r"[/\[]", clip.path)[-1].rstrip("]")
 
     def spec_with(self, key: str) -> Any:
         """The strongest spec of the prim that authors a key of the clip set, or the strongest."""
@@ -185,7 +189,7 @@ class Clips:
 
     def reaching(self, prim: Any) -> tuple[ClipSet, ...]:
         """The clip sets that apply to a prim: its own, then those of each ancestor upwards."""
-        return tuple(chain.from_iterable(map(self._on, self.bearers(prim))))
+        return tuple(chain.from_iterable(map(self.on, self.bearers(prim))))
 
     def bearers(self, prim: Any) -> Iterator[Any]:
         """The prim and its ancestors, those of them on which clip sets are authored."""
@@ -194,7 +198,8 @@ class Clips:
                 yield prim
             prim = prim.GetParent()
 
-    def _on(self, prim: Any) -> tuple[ClipSet, ...]:
+    def on(self, prim: Any) -> tuple[ClipSet, ...]:
+        """The clip sets authored on a prim itself, as `clip_sets_on` finds them."""
         if prim not in self._own:
             self._own[prim] = clip_sets_on(prim)
         return self._own[prim]

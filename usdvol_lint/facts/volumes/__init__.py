@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers import Layers
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Slot, Table, Tables
+    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
     from usdvol_lint.facts.volumes.enclosure import Enclosure
@@ -38,6 +39,7 @@ class Volumes(Wing):
         tables: Tables,
         stage: Any,
         kinds: PrimKinds,
+        drawn: Drawn,
         prims: Prims,
         files: Files,
         layers: Layers,
@@ -47,6 +49,7 @@ class Volumes(Wing):
         super().__init__(tables)
         self._stage = stage
         self._kinds = kinds
+        self._drawn = drawn
         self._prims = prims
         self._files = files
         self._layers = layers
@@ -142,7 +145,7 @@ class Volumes(Wing):
         unbound = {path for path, slot in slots.items() if slot not in users}
         return [
             each
-            for each in lookalikes(self._stage, unbound)
+            for each in lookalikes(self._stage, self._drawn, unbound)
             if not self._layers.may_lack(each.prim) and not self._layers.hides_ours(each.prim)
         ]
 

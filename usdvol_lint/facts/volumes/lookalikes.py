@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import get_parent, get_property_names, get_type
-from usdvol_lint.facts.usd.instances import in_prototype, live_prototypes
+from usdvol_lint.facts.usd.calls import DRAWN_BELOW, get_parent, get_property_names, get_type
+from usdvol_lint.facts.usd.drawn import Drawn
+from usdvol_lint.facts.usd.instances import in_prototype
 
 _GROUP_TYPES = frozenset({"", "Xform", "Scope"})
 _ARRAYS = (
@@ -31,10 +32,11 @@ class Lookalike(NamedTuple):
     binding: Any | None = None
 
 
-def lookalikes(stage: Any, unbound: Collection[Any]) -> list[Lookalike]:
+def lookalikes(stage: Any, drawn: Drawn, unbound: Collection[Any]) -> list[Lookalike]:
     """By path: what would bind one of the fields at these paths, or has all the splat arrays."""
     found = {}
-    for prim in chain(_above(stage, unbound), _first_groups(stage)):
+    groups = chain(_above(stage, unbound), _first_groups(stage, drawn))
+    for prim in filter(drawn.__contains__, groups):
         names = get_property_names(prim)
         binding = _binding(prim, names, unbound) if unbound and names else None
         if binding and _is_above_volume(prim):
@@ -56,9 +58,10 @@ def _above(stage: Any, paths: Iterable[Any]) -> Iterator[Any]:
             prim = get_parent(prim)
 
 
-def _first_groups(stage: Any) -> Iterator[Any]:
+def _first_groups(stage: Any, drawn: Drawn) -> Iterator[Any]:
     """The first prims of the stage that have a type in question."""
-    ranges = [stage.Traverse(), *map(Usd.PrimRange, live_prototypes(stage))]
+    roots = (*filter(drawn.appears, stage.GetPrototypes()), *drawn.roots)
+    ranges = [stage.Traverse(), *(Usd.PrimRange(root, DRAWN_BELOW) for root in roots)]
     first = islice(chain.from_iterable(ranges), _SEARCHED)
     return (prim for prim in first if get_type(prim) in _GROUP_TYPES)
 
@@ -76,7 +79,7 @@ def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any |
 
 
 def _is_above_volume(prim: Any) -> bool:
-    return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim))
+    return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim, DRAWN_BELOW))
 
 
 def _has_arrays(names: Collection[str]) -> bool:

@@ -1,0 +1,125 @@
+"""What is in folders: kept from stage to stage, and never for longer than it holds."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from zipfile import ZipFile
+
+import pytest
+from stages import said, volume, write
+
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.facts.files import folders as module
+from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.folders import Folders
+
+LONG_AGO = 1_000_000_000
+
+
+@pytest.fixture
+def listed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The folders that were listed."""
+    found: list[str] = []
+    names_listed = module.names_listed
+    monkeypatch.setattr(
+        module, "names_listed", lambda folder: found.append(folder) or names_listed(folder)
+    )
+    return found
+
+
+def settle(path: Path, seconds: int = LONG_AGO) -> str:
+    """Makes believe that a folder was last changed long ago."""
+    os.utime(path, (seconds, seconds))
+    return str(path)
+
+
+def test_a_folder_is_listed_once_for_all_stages(tmp_path: Path, listed: list[str]) -> None:
+    write(tmp_path, "a.vdb")
+    folders, folder = Folders(), settle(tmp_path)
+    for _ in range(3):
+        assert Disk(folders).listing(folder).names == ("a.vdb",)
+    assert listed == [folder]
+
+
+def test_a_folder_that_has_changed_is_listed_again(tmp_path: Path, listed: list[str]) -> None:
+    write(tmp_path, "a.vdb")
+    folders, folder = Folders(), settle(tmp_path)
+    disk = Disk(folders)
+    assert disk.listing(folder).names == ("a.vdb",)
+    write(tmp_path, "b.vdb")
+    settle(tmp_path, LONG_AGO + 1)
+    assert Disk(folders).listing(folder).names == ("a.vdb", "b.vdb")
+    assert disk.listing(folder).names == ("a.vdb",)  # a stage has one answer
+    assert len(listed) == 2
+
+
+def test_a_folder_that_may_change_unseen_is_listed_again(tmp_path: Path) -> None:
+    """Its time of change is that of now, and may be so once more."""
+    folders = Folders()
+    write(tmp_path, "a.vdb")
+    now = os.stat(tmp_path)
+    assert folders.listing(str(tmp_path)).names == ("a.vdb",)
+    write(tmp_path, "b.vdb")
+    os.utime(tmp_path, ns=(now.st_atime_ns, now.st_mtime_ns))
+    assert folders.listing(str(tmp_path)).names == ("a.vdb", "b.vdb")
+
+
+def test_a_folder_that_is_not_there_may_come(tmp_path: Path) -> None:
+    folders = Folders()
+    assert folders.listing(f"{tmp_path}/a").names == ()
+    write(tmp_path, "a/b.vdb")
+    settle(tmp_path / "a")
+    assert folders.listing(f"{tmp_path}/a").names == ("b.vdb",)
+    (tmp_path / "a" / "b.vdb").unlink()
+    (tmp_path / "a").rmdir()
+    assert folders.listing(f"{tmp_path}/a").names == ()
+
+
+def test_a_package_that_is_replaced_is_read_again(tmp_path: Path) -> None:
+    folders, package = Folders(), tmp_path / "shot.usdz"
+    for name in ("a.vdb", "longer.vdb"):
+        with ZipFile(package, "w") as archive:
+            archive.writestr(name, b"")
+        assert folders.listing(settle(package)).names == (name,)
+
+
+def test_what_is_kept_has_an_end(
+    tmp_path: Path, listed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "_NAMES_KEPT", 5)
+    write(tmp_path, *(f"{folder}/{number}" for folder in "abc" for number in (1, 2)))
+    folders = Folders()
+    a, b, c = (settle(tmp_path / folder) for folder in "abc")
+    for folder in (a, b, c, c, b, a, c):
+        assert folders.listing(folder).names == ("1", "2")
+    assert listed == [a, b, c, a]
+
+
+def test_a_search_is_made_once_for_all_stages(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "_NAMES_TRIED", 4)
+    write(tmp_path, "moved/0.vdb", "other/1.vdb")
+    settle(tmp_path)
+    folders = Folders()
+    for _ in range(3):
+        assert Disk(folders).siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
+    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == ["other"]
+    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/2.vdb") == []
+
+
+def test_a_second_lint_sees_what_the_disk_holds_by_then(
+    engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "stage.usda").write_text(volume("asset filePath = @./vdb/clod.vdb@"))
+    write(tmp_path, "vdb/cloud.vdb")
+    similar = "AST002 no file at './vdb/clod.vdb' -> did you mean './vdb/cloud.vdb'?"
+    for second in (0, 1):
+        settle(tmp_path / "vdb", LONG_AGO + second)
+        assert said(engine.lint("stage.usda")) == [similar]
+    (tmp_path / "vdb" / "cloud.vdb").rename(tmp_path / "vdb" / "smoke.vdb")
+    assert said(engine.lint("stage.usda")) == ["AST002 no file at './vdb/clod.vdb'"]
+    write(tmp_path, "vdb/clod.vdb")
+    assert said(engine.lint("stage.usda")) == []

@@ -1,0 +1,111 @@
+"""What is in folders and packages, listed once in a run, and again once it has changed."""
+
+from __future__ import annotations
+
+import os
+import re
+import time
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
+from itertools import chain
+from typing import TypeAlias
+
+from usdvol_lint.facts.files.places import folders_above, names_listed
+
+_NUMBER = re.compile(r"[0-9]+")
+_NAMES_KEPT = 200_000
+"""So many names take some 20 MB."""
+_NAMES_TRIED = 10_000
+"""In so many folders, for all paths of a run, a file is looked for that may have moved."""
+_SETTLED = 2_000_000_000
+"""In so many nanoseconds a folder may change twice, and its time of change once."""
+
+_Numbers: TypeAlias = tuple[int, ...]
+_State: TypeAlias = tuple[int, int, int]
+
+
+class Listing:
+    """The names in a folder, sorted, or the paths in a package."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self.names = tuple(names)
+        self.with_file: dict[str, tuple[str, ...]] = {}
+        """By a path, those of the names that are folders with a file at that path below them."""
+
+    @cached_property
+    def by_case(self) -> dict[str, str]:
+        """The names, by themselves and by their lower case."""
+        return {name.lower(): name for name in self.names} | {name: name for name in self.names}
+
+    @cached_property
+    def folders(self) -> frozenset[str]:
+        """The folders of a package."""
+        return frozenset(chain.from_iterable(map(folders_above, self.names)))
+
+    @cached_property
+    def _by_numbers(self) -> dict[_Numbers, list[str]]:
+        groups: dict[_Numbers, list[str]] = defaultdict(list)
+        for name in self.names:
+            groups[_numbers(name)].append(name)
+        return groups
+
+    def numbered_like(self, name: str) -> Sequence[str]:
+        """The names whose numbers are the same as in `name`."""
+        return self._by_numbers.get(_numbers(name), ())
+
+
+class Folders:
+    """The listings of folders and packages, and a search in them that ends, for a whole run."""
+
+    def __init__(self) -> None:
+        self._listings: dict[str, tuple[_State, Listing]] = {}
+        self._names_kept = 0
+        self._names_left = _NAMES_TRIED
+
+    def listing(self, folder: str) -> Listing:
+        """What is in a folder or package now; nothing if it can't be read."""
+        state = _state(folder)
+        known, listing = self._listings.get(folder, (None, None))
+        if listing is None or state is None or known != state:
+            began = time.time_ns()
+            listing = Listing(names_listed(folder))
+            if state and began - state[0] > _SETTLED:
+                self._keep(folder, state, listing)
+        return listing
+
+    def with_file(self, folder: str, below: str) -> tuple[str, ...]:
+        """The folders in a folder that have a file at the path `below`, such as `/a.vdb`.
+
+        None of them once too many names were tried.
+        """
+        listing = self.listing(folder)
+        if below not in listing.with_file and len(listing.names) <= self._names_left:
+            self._names_left -= len(listing.names)
+            listing.with_file[below] = tuple(_with_file(folder, listing.names, below))
+        return listing.with_file.get(below, ())
+
+    def _keep(self, folder: str, state: _State, listing: Listing) -> None:
+        _, before = self._listings.pop(folder, (None, Listing(())))
+        self._listings[folder] = (state, listing)
+        self._names_kept += len(listing.names) - len(before.names)
+        while self._names_kept > _NAMES_KEPT:
+            _, oldest = self._listings.pop(next(iter(self._listings)))
+            self._names_kept -= len(oldest.names)
+
+
+def _state(folder: str) -> _State | None:
+    """What differs once names were added or removed; None for a folder that is not there."""
+    try:
+        status = os.stat(folder)
+    except OSError:
+        return None
+    return status.st_mtime_ns, status.st_size, status.st_ino
+
+
+def _with_file(folder: str, names: Iterable[str], below: str) -> Iterator[str]:
+    return (name for name in names if os.path.isfile(f"{folder}/{name}{below}"))
+
+
+def _numbers(name: str) -> _Numbers:
+    return tuple(map(int, _NUMBER.findall(name)))
