@@ -1,75 +1,22 @@
-"""What is inside the files that fields name: what the rule pages can not show."""
+"""What is inside the files that fields name: read once, and as far as it is asked for."""
 
 from __future__ import annotations
 
 import os
 import random
-import zipfile
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 import vdbwriter as w
-from process import SAMPLES
+from gridtexts import DENSITY, Lint, density, field, grid, said, stage
 
 from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
-from usdvol_lint.volumefile import VolumeFile, VolumeFileError, cache, read_volume_file, window
-from usdvol_lint.volumefile.cache import Reading, VolumeFiles
-from usdvol_lint.volumefile.package import NotInPlaceError, Package
-
-Lint = Callable[..., StageReport]
-FOG = {"class": w.string("fog volume"), **w.bounds((1, 1, 1), (8, 8, 8))}
-
-
-def grid(name: str = "density", kind: str = "float", **metadata: tuple[str, bytes]) -> w.Grid:
-    entries = {**FOG, **metadata, "name": w.string(name)}
-    small = w.scale(0.1, 0.1, 0.1, "UniformScaleMap")
-    return w.Grid(name, f"Tree_{kind}_5_4_3", metadata=entries, transform=small)
-
-
-def field(name: str, *statements: str, kind: str = "OpenVDBAsset") -> str:
-    lines = "\n".join(f"        {statement}" for statement in statements)
-    return f"""    rel field:{name} = </cloud/{name}>
-    def {kind} "{name}"
-    {{
-{lines}
-    }}
-"""
-
-
-DENSITY = (
-    'token fieldName = "density"',
-    'token fieldDataType = "float"',
-    'token fieldClass = "fogVolume"',
-)
-
-
-def stage(*fields: str) -> str:
-    extent = "    float3[] extent = [(0, 0, 0), (1, 1, 1)]\n"
-    return f'#usda 1.0\ndef Volume "cloud"\n{{\n{extent}{"".join(fields)}}}\n'
-
-
-def density(*paths: str, **more: str) -> str:
-    """A field whose frames are the files at these paths."""
-    samples = "".join(f"\n{frame}: @{path}@," for frame, path in enumerate(paths, start=1))
-    return field("density", f"asset filePath.timeSamples = {{{samples}\n}}", *DENSITY)
-
-
-def said(report: StageReport, *families: str) -> list[tuple[str, str | None, str]]:
-    return [
-        (finding.code, finding.site.frames, finding.message)
-        for finding in report.findings
-        if finding.code.startswith(families or ("GRD", "LNT", "FLD001"))
-    ]
-
-
-def reading(path: Path) -> Reading:
-    return VolumeFiles().read(str(path))
+from usdvol_lint.volumefile import window
+from usdvol_lint.volumefile.cache import VolumeFiles
 
 
 def engine(catalog: Catalog, content: str = "all") -> Engine:
@@ -96,9 +43,6 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
     monkeypatch.setattr(window.os, "open", counting_open)
     monkeypatch.setattr(window.os, "read", counting_read)
     return counts
-
-
-# Each file once.
 
 
 def test_a_file_is_read_once(catalog: Catalog, tmp_path: Path, opened: Counter[str]) -> None:
@@ -154,269 +98,6 @@ def test_without_a_look_nothing_is_known(catalog: Catalog, tmp_path: Path) -> No
         report = engine(catalog, content).lint(str(tmp_path / "a.usda"))
         [finding] = [each for each in report.findings if each.severity.label != "info"]
         assert (finding.code, "the only grid" in str(finding.suggestion)) == ("FLD001", names_grid)
-
-
-# Recalled files.
-
-
-def plainly(path: Path) -> VolumeFile | str:
-    """What the reader itself says, as far as it is kept."""
-    try:
-        file = read_volume_file(str(path))
-    except VolumeFileError as error:
-        return str(error)
-    grids = tuple(each._replace(metadata={}) for each in file.grids)
-    return file._replace(uuid=None, metadata={}, grids=grids)
-
-
-def as_kept(found: Reading) -> VolumeFile | str | None:
-    return str(found.fault) if found.fault else found.file
-
-
-def frame(number: int) -> bytes:
-    low, high = (number, -number, 0), (number + 7, 7, number)
-    stored = {
-        **w.bounds(low, high),
-        "file_delayed_load": ("__delayedload", bytes(number % 50)),
-        "file_voxel_count": w.value("int64", number),
-        "name": w.string("density"),
-    }
-    voxels = bytes(number % 13)
-    return w.vdb(
-        w.Grid("density", metadata=stored, voxels=voxels),
-        w.Grid("heat", "Tree_float_5_4_3_HalfFloat", metadata={"name": w.string("heat")}),
-        uuid=f"{number:036}".encode(),
-        metadata_bytes=w.metadata({"creator": w.string("me"), "frame": w.value("int32", number)}),
-    )
-
-
-def test_frames_are_recalled_as_they_are(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files, path = VolumeFiles(), tmp_path / "a.vdb"
-    parsed = 0
-
-    def counting(stretch: window.Window) -> VolumeFile:
-        nonlocal parsed
-        parsed += 1
-        return genuine(stretch)
-
-    genuine = cache.read_window
-    monkeypatch.setattr(cache, "read_window", counting)
-    layouts = set()
-    for number in range(200):
-        path.write_bytes(frame(number))
-        found = files.read(str(path), 0, len(frame(number)))
-        layouts.add(found.layout)
-        assert as_kept(found) == plainly(path)
-    assert parsed == 1
-    assert len(layouts) == 1
-    path.write_bytes(frame(-8))
-    empty = files.read(str(path))
-    assert as_kept(empty) == plainly(path)
-    assert empty.file
-    assert empty.file.grids[0].is_empty
-    assert empty.layout not in layouts
-    assert parsed == 1
-
-
-def test_instances_have_the_bounds_of_their_own_frame(tmp_path: Path) -> None:
-    """Also with other offsets than OpenVDB writes, by which instances are not recalled."""
-    files, path = VolumeFiles(), tmp_path / "a.vdb"
-    for number in range(1, 4):
-        shown = {"name": w.string("a"), **w.bounds((0, 0, 0), (number,) * 3)}
-        instance = w.Grid("b", parent="a", offsets=lambda start, _, end: (start, end, end))
-        path.write_bytes(w.vdb(w.Grid("a", metadata=shown), instance))
-        os.utime(path, ns=(number, number))
-        assert as_kept(files.read(str(path))) == plainly(path)
-
-
-def test_bounds_may_be_told_twice(tmp_path: Path) -> None:
-    """Those of the whole file are not those of its grid."""
-    files, path = VolumeFiles(), tmp_path / "a.vdb"
-    for number in range(1, 4):
-        own = {"name": w.string("a"), **w.bounds((0, 0, 0), (number,) * 3)}
-        of_the_file = w.metadata(w.bounds((0, 0, 0), (5, 5, 5)))
-        path.write_bytes(w.vdb(w.Grid("a", metadata=own), metadata_bytes=of_the_file))
-        os.utime(path, ns=(number, number))
-        assert as_kept(files.read(str(path))) == plainly(path)
-
-
-def test_a_recalled_frame_may_lie(tmp_path: Path) -> None:
-    """Whatever byte is another one, it is told as the reader tells it."""
-    choose = random.Random(7)
-    files, path = VolumeFiles(), tmp_path / "a.vdb"
-    path.write_bytes(frame(3))
-    files.read(str(path))
-    for number in range(3000):
-        content = bytearray(frame(choose.randrange(60)))
-        for _ in range(choose.choice((1, 1, 2))):
-            content[choose.randrange(len(content))] = choose.choice((0, 1, 0x7F, 0xFF))
-        if choose.random() < 0.2:
-            del content[choose.randrange(len(content)) :]
-        path.write_bytes(content)
-        os.utime(path, ns=(number, number))
-        assert as_kept(files.read(str(path))) == plainly(path)
-
-
-@pytest.mark.parametrize("path", sorted(SAMPLES.glob("*.[vnf]*")), ids=lambda path: path.name)
-def test_samples_are_recalled_as_they_are(path: Path, tmp_path: Path) -> None:
-    files = VolumeFiles()
-    for copy in ("a", "b"):
-        (tmp_path / copy).write_bytes(path.read_bytes())
-        assert as_kept(files.read(str(tmp_path / copy))) == plainly(path)
-
-
-# Packages.
-
-
-def test_files_in_a_package_are_read_in_place(lint_text: Lint, tmp_path: Path) -> None:
-    fields = density("./good.vdb", "./cut.vdb", "./other.vdb", "./text.vdb", "./pointer.vdb")
-    with zipfile.ZipFile(tmp_path / "shot.usdz", "w") as archive:
-        archive.writestr("root.usda", stage(fields))
-        archive.writestr("good.vdb", w.vdb(grid()))
-        archive.writestr("cut.vdb", w.vdb(grid())[:-10])
-        archive.writestr("other.vdb", w.vdb(grid("smoke")))
-        archive.writestr("text.vdb", b"just a note")
-        archive.writestr("pointer.vdb", b"version https://git-lfs.github.com/spec/v1\n")
-    size = len(w.vdb(grid()))
-    report = lint_text("#usda 1.0\n(\n    subLayers = [@shot.usdz@]\n)\n")
-    assert sorted(said(report)) == [
-        (
-            "GRD001",
-            "4",
-            "'./text.vdb' is no volume file: it begins like no OpenVDB, NanoVDB or Field3D file "
-            "(at byte 0) (1 of 5 samples)",
-        ),
-        (
-            "GRD001",
-            "5",
-            "'./pointer.vdb' is no volume file: a Git-LFS pointer, not the file itself "
-            "(1 of 5 samples)",
-        ),
-        (
-            "GRD002",
-            "2",
-            f"'./cut.vdb' is cut off: grid 'density' ends at byte {size}, the file at {size - 10} "
-            "(1 of 5 samples)",
-        ),
-        ("GRD003", "3", "no grid 'density' in './other.vdb', which holds 'smoke' (1 of 5 samples)"),
-    ]
-
-
-def test_what_is_not_stored_as_it_is_can_not_be_read(lint_text: Lint, tmp_path: Path) -> None:
-    with zipfile.ZipFile(tmp_path / "inner.usdz", "w") as archive:
-        archive.writestr("a.vdb", w.vdb(grid()))
-    with zipfile.ZipFile(tmp_path / "shot.usdz", "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("root.usda", "#usda 1.0\n", zipfile.ZIP_STORED)
-        archive.writestr("packed.vdb", w.vdb(grid("smoke")))
-        archive.write(tmp_path / "inner.usdz", "inner.usdz", zipfile.ZIP_STORED)
-    report = lint_text(stage(density("./shot.usdz[packed.vdb]", "./shot.usdz[inner.usdz[a.vdb]]")))
-    assert said(report, "GRD", "LNT", "AST005") == [
-        (
-            "AST005",
-            "1",
-            "'./shot.usdz[packed.vdb]' is compressed or encrypted in its package, where USD can't "
-            "read it (1 of 2 samples)",
-        ),
-        (
-            "LNT005",
-            "2",
-            "'./shot.usdz[inner.usdz[a.vdb]]' was not looked into: it lies in a package inside of "
-            "its package (1 of 2 samples)",
-        ),
-    ]
-
-
-def test_a_package_that_lies(tmp_path: Path) -> None:
-    path = tmp_path / "a.zip"
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("a.vdb", b"content")
-    content = path.read_bytes()
-    assert Package(str(path)).locate("a.vdb") == (30 + len("a.vdb"), len(b"content"))
-    for name, broken in (
-        ("b.vdb", content),
-        ("a.vdb", content.replace(b"PK\3\4", b"PK\3\5")),
-        ("a.vdb", content[:-10]),
-        ("a.vdb", b""),
-    ):
-        path.write_bytes(broken)
-        with pytest.raises(NotInPlaceError):
-            Package(str(path)).locate(name)
-
-
-# Other formats.
-
-
-@pytest.mark.parametrize(
-    ("purpose", "expected"),
-    [
-        (
-            "cloud",
-            [
-                (
-                    "GRD005",
-                    "fieldDataType is 'matrix3d', but grid 'density' in './a.f3d' holds float",
-                ),
-                (
-                    "GRD009",
-                    "'./a.f3d' holds 2 grids named 'density', and the field has no fieldIndex",
-                ),
-            ],
-        ),
-        (
-            "nope",
-            [
-                (
-                    "GRD003",
-                    "no grid 'density' of 'nope' in './a.f3d', which holds 'cloud:density', "
-                    "'cloud:temperature', 'cloud:heat', 'cloud:density', 'smoke:v', 'smoke:vh', "
-                    "'smoke:vd'",
-                )
-            ],
-        ),
-    ],
-)
-def test_field3d(
-    purpose: str, expected: list[tuple[str, str]], lint_text: Lint, tmp_path: Path
-) -> None:
-    """A partition is what fieldPurpose names, a layer what fieldName does."""
-    (tmp_path / "a.f3d").write_bytes((SAMPLES / "f3d_ogawa.f3d").read_bytes())
-    layer = (
-        "asset filePath = @./a.f3d@",
-        'token fieldName = "density"',
-        'token fieldDataType = "matrix3d"',
-        f'token fieldPurpose = "{purpose}"',
-    )
-    report = lint_text(stage(field("density", *layer, kind="Field3DAsset")))
-    assert said(report) == [(code, None, message) for code, message in expected]
-
-
-def test_field3d_without_h5py(
-    lint_text: Lint, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "h5py", None)
-    (tmp_path / "a.f3d").write_bytes((SAMPLES / "f3d_hdf5.f3d").read_bytes())
-    report = lint_text(
-        stage(field("density", "asset filePath = @./a.f3d@", *DENSITY[:2], kind="Field3DAsset"))
-    )
-    [(code, _, message)] = said(report, "GRD", "LNT")
-    assert code == "LNT005"
-    assert message.startswith("'./a.f3d' was not looked into: ")
-
-
-def test_nanovdb_by_its_own_extension(lint_text: Lint, tmp_path: Path) -> None:
-    """It is not what the schema asks for, which the extension says already."""
-    (tmp_path / "a.nvdb").write_bytes((SAMPLES / "type_all_z.nvdb").read_bytes())
-    report = lint_text(stage(field("density", "asset filePath = @./a.nvdb@", *DENSITY)))
-    assert said(report, "GRD") == [
-        (
-            "GRD003",
-            None,
-            "no grid 'density' in './a.nvdb', which holds 'b', 'd', 'f', 'i32', 'i64', 'mask'",
-        )
-    ]
-
-
-# Times.
 
 
 def test_what_the_field_says_may_change_between_files(lint_text: Lint, tmp_path: Path) -> None:

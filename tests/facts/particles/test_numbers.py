@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from particlefields import SH, Array, Field, codes, lint, splats, write
 from pxr import Usd
-from test_arrays import SH, Array, Field, codes, lint, splats, write
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.particles import scales as scales_module

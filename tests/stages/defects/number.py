@@ -100,7 +100,9 @@ def _move(subject: ParticleSubject, origin: float, scale: float) -> None:
 def positions_held(subject: ParticleSubject, rng: Random) -> Prim:
     positions = subject.array("positions")
     first = next(iter(positions.samples.values()))
-    return hide_below(subject, subject.name_of("positions"), Attribute(positions.type, first))
+    return hide_below(
+        subject, subject.path, subject.name_of("positions"), Attribute(positions.type, first)
+    )
 
 
 @on_particles("ARR025", needs=_ALL, is_info=True)
@@ -108,7 +110,9 @@ def opacities_held(subject: ParticleSubject, rng: Random) -> Prim:
     opacities = subject.array("opacities")
     value = subject.lists("opacities")[0]
     opacities.samples = {1: value, 2: [0.25 for _ in value]}
-    return hide_below(subject, subject.name_of("opacities"), Attribute(opacities.type, value))
+    return hide_below(
+        subject, subject.path, subject.name_of("opacities"), Attribute(opacities.type, value)
+    )
 
 
 @on_particles("SCH017", needs=_ALL, is_info=True)
@@ -116,7 +120,7 @@ def extent_held(subject: ParticleSubject, rng: Random) -> Prim:
     extent = subject.prim.attribute("extent")
     corners = extent.value
     extent.samples = {1: corners, 2: [(-2, -2, -2), (2, 2, 2.5)]}
-    return hide_below(subject, "extent", Attribute("float3[]", corners))
+    return hide_below(subject, subject.path, "extent", Attribute("float3[]", corners))
 
 
 @on_particles("ARR021", needs={**_ALL, "type": "ParticleField", "kernel": "flat"}, is_info=True)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from random import Random
 
-from ..model import Attribute, File, Layer, Prim, Relationship
+from ..model import Attribute, Layer, Prim, Relationship, overs
 from ..subjects import ParticleSubject, Subject
 from .declaration import ONE_FILE, VolumeSubject, any_field, on_particles, on_volume
 
@@ -42,13 +41,10 @@ def _over(subject: Subject, path: str) -> Prim:
     """A stronger over of a prim: all prims move into a sublayer of the subject's layer."""
     base = Layer(subject.layer.path.replace(".", "_base."), subject.layer.prims)
     subject.content.layers.append(base)
-    subject.layer.metadata.append(("subLayers = [", File(base.path), "]"))
-    names = path.split("/")[1:]
-    overs = [Prim(name, specifier="over") for name in names]
-    for parent, child in pairwise(overs):
-        parent.children.append(child)
-    subject.layer.prims = overs[:1]
-    return overs[-1]
+    subject.layer.add_sublayer(base.path)
+    topmost, over = overs(path)
+    subject.layer.prims = [topmost]
+    return over
 
 
 @on_volume("SCH004", needs=ONE_FILE)
