@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from process import ROOT
 from pxr import Usd
-from walks import CLOUD, INSTANCE, LIVE, asks, write_stage
+from walks import CLOUD, LIVE, asks, below, instancer, write_stage
 
 from usdvol_lint.engine.assign import assign
 from usdvol_lint.engine.engine import Engine
@@ -117,8 +117,28 @@ def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
     assert [str(prim.GetPath()) for prims in result.kept.values() for prim in prims] == ["/live"]
 
 
+@pytest.mark.parametrize(
+    ("text", "message", "prim"),
+    [
+        (below("def", "set", "b", "a", "c"), "seen (shown by 3 instances)", "/set/a/thick"),
+        (
+            below("over", "library", "b", "c")
+            + below("class", "again", "d")
+            + below("def", "set", "a"),
+            "seen",
+            "/set/a/thick",
+        ),
+        (
+            below("over", "library", "b", "a")
+            + below("class", "again", "d")
+            + instancer("i", "/library/a", "/library/b"),
+            "seen (shown by 2 instances)",
+            "/library/a/thick",
+        ),
+    ],
+)
 def test_an_instanced_finding_says_where_and_how_often(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    text: str, message: str, prim: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from usdvol_lint.packs.activation import ActiveRules
     from usdvol_lint.rule import Problem
@@ -129,9 +149,8 @@ def test_an_instanced_finding_says_where_and_how_often(
         lambda prim, facts: iter([Problem("seen", at=prim)]),
         {},
     )
-    text = "".join(INSTANCE.format(name, "cloud") for name in ("b", "a", "c"))
     write_stage(tmp_path, text, lib=CLOUD)
     engine = Engine({"SEE001": seen}, ActiveRules({"SEE001": Severity.INFO}, {}))
     (finding,) = engine.lint("stage.usda").findings
-    assert finding.message == "seen (shown by 3 instances)"
-    assert (finding.site.prim, finding.site.layer, finding.site.line) == ("/a/thick", "lib.usda", 4)
+    assert finding.message == message
+    assert (finding.site.prim, finding.site.layer, finding.site.line) == (prim, "lib.usda", 4)

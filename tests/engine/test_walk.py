@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from pxr import Usd
-from walks import CLOUD, INSTANCE, LIVE, asks, write_stage
+from walks import CLOUD, INSTANCE, LIVE, asks, instancer, write_stage
 
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -57,11 +57,6 @@ def _below(prim: Usd.Prim) -> str:
 )
 def test_live_prims(text: str, prims: int, kept: list[str], tmp_path: Path) -> None:
     assert walked(tmp_path, text) == (prims, kept)
-
-
-def instancer(name: str, *prototypes: str, below: str = "") -> str:
-    targets = ", ".join(f"<{path}>" for path in prototypes)
-    return f'def PointInstancer "{name}"\n{{\nrel prototypes = [{targets}]\n{below}}}\n'
 
 
 @pytest.mark.parametrize(
@@ -121,6 +116,38 @@ def test_what_an_over_takes_off_the_stage(tmp_path: Path) -> None:
     assert [[prim.GetName() for prim in kept] for kept in result.kept.values()] == [["a"]]
 
 
+@pytest.mark.parametrize(
+    ("text", "untyped"),
+    [
+        ('def "a"\n{\nrel field:x = </x>\n}\n', ["/a"]),
+        ('def Scope "a"\n{\nfloat3[] radiance:sphericalHarmonicsCoefficients\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nhalf3[] radiance:sphericalHarmonicsCoefficientsh\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nfloat3[] primvars:field:x\n}\n', []),
+        ('def Cube "a"\n{\nrel field:x = </x>\n}\n', []),
+        ('over "a"\n{\nrel field:x = </x>\n}\n', []),
+        (
+            'def "a" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n'
+            "{\nrel field:x = </x>\n}\n",
+            ["/a"],
+        ),
+    ],
+)
+def test_prims_of_other_types_that_have_our_data(
+    text: str, untyped: list[str], tmp_path: Path
+) -> None:
+    stage = Usd.Stage.Open(write_stage(tmp_path, LIVE + text))
+    assert [str(prim.GetPath()) for prim in walk(stage, [], PrimKinds()).untyped] == untyped
+
+
+def test_only_so_many_prims_of_other_types_are_looked_into(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("usdvol_lint.engine.walk._GROUPS", 300)
+    groups = "".join(f'def Xform "a{n}"\n{{\nrel field:x = </x>\n}}\n' for n in range(1000))
+    stage = Usd.Stage.Open(write_stage(tmp_path, groups))
+    assert 300 <= len(walk(stage, [], PrimKinds()).untyped) < 600
+
+
 def test_instances_are_walked_once(tmp_path: Path) -> None:
     text = "".join(INSTANCE.format(f"i{n}", "cloud") for n in range(50))
     assert walked(tmp_path, text, lib=CLOUD) == (52, ["prototype/thick"])
@@ -157,6 +184,8 @@ def test_instances_inside_instances_are_walked_once(tmp_path: Path) -> None:
             + instancer("i", "/library/a"),
             [],
         ),
+        (f'class "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n', []),
+        (f'over "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n', []),
         (INSTANCE.format("a", "below_over"), []),
         (INSTANCE.format("a", "below_class"), []),
         (INSTANCE.format("a", "below_over") + INSTANCE.format("b", "cloud"), ["prototype/thick"]),

@@ -22,5 +22,16 @@ def write_stage(folder: Path, text: str, **layers: str) -> str:
 
 LIVE = 'def Volume "live"\n{\n}\n'
 
+
+def instancer(name: str, *prototypes: str, below: str = "") -> str:
+    targets = ", ".join(f"<{path}>" for path in prototypes)
+    return f'def PointInstancer "{name}"\n{{\nrel prototypes = [{targets}]\n{below}}}\n'
+
+
 CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'
 INSTANCE = 'def "{}" (\n    instanceable = true\n    references = @./lib.usda@</{}>\n)\n{{\n}}\n'
+
+
+def below(specifier: str, name: str, *instances: str) -> str:
+    texts = "".join(INSTANCE.format(each, "cloud") for each in instances)
+    return f'{specifier} "{name}"\n{{\n{texts}}}\n'

@@ -68,6 +68,8 @@ class Walked(NamedTuple):
     for, by kind.
     `clipped` are prims on which value clips are authored: all those among the kept prims and their
     ancestors, and maybe others.
+    `untyped` are drawn prims without a type, Xforms and Scopes that have properties which only
+    Volumes and splats need: those among the first 20,000 of such types.
     `undefined` are prims of our types with a `def` that are not drawn, by the `over` that nothing
     defines above them.
     """
@@ -75,6 +77,7 @@ class Walked(NamedTuple):
     prims: int
     kept: Mapping[KindKey, Sequence[Any]]
     clipped: Sequence[Any]
+    untyped: Sequence[Any]
     undefined: Mapping[Any, Sequence[Any]]
     drawn: Drawn
 
@@ -105,7 +108,7 @@ class Facts:
             tables,
             stage,
             kinds,
-            walked.drawn,
+            walked.untyped,
             self.prims,
             self.files,
             self.layers,

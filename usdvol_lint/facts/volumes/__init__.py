@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers import Layers
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Slot, Table, Tables
-    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
     from usdvol_lint.facts.volumes.enclosure import Enclosure
@@ -39,7 +38,7 @@ class Volumes(Wing):
         tables: Tables,
         stage: Any,
         kinds: PrimKinds,
-        drawn: Drawn,
+        untyped: Sequence[Any],
         prims: Prims,
         files: Files,
         layers: Layers,
@@ -49,7 +48,7 @@ class Volumes(Wing):
         super().__init__(tables)
         self._stage = stage
         self._kinds = kinds
-        self._drawn = drawn
+        self._untyped = untyped
         self._prims = prims
         self._files = files
         self._layers = layers
@@ -139,14 +138,17 @@ class Volumes(Wing):
 
         Left out are those whose type is hidden, and those that may lack opinions.
         """
+        users = self._users
+        unbound = {path for path, slot in self.tables.field_slots.items() if slot not in users}
+        if not (unbound or self._untyped):
+            return []
         from usdvol_lint.facts.volumes.lookalikes import lookalikes
 
-        slots, users = self.tables.field_slots, self._users
-        unbound = {path for path, slot in slots.items() if slot not in users}
+        layers, found = self._layers, lookalikes(self._stage, self._untyped, unbound)
         return [
             each
-            for each in lookalikes(self._stage, self._drawn, unbound)
-            if not self._layers.may_lack(each.prim) and not self._layers.hides_ours(each.prim)
+            for each in found
+            if not (layers.may_lack(each.prim) or layers.hides_ours(each.prim))
         ]
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:

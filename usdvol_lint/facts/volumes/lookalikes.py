@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from itertools import chain, islice
+from itertools import chain
 from typing import Any, NamedTuple
 
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import DRAWN_BELOW, get_parent, get_property_names, get_type
-from usdvol_lint.facts.usd.drawn import Drawn
+from usdvol_lint.facts.usd.calls import (
+    DRAWN_BELOW,
+    get_parent,
+    get_property_names,
+    get_type,
+    has_specifier,
+)
 from usdvol_lint.facts.usd.instances import in_prototype
+from usdvol_lint.facts.usd.untyped import GROUP_TYPES
 
-_GROUP_TYPES = frozenset({"", "Xform", "Scope"})
 _ARRAYS = (
     "positions",
     "orientations",
@@ -21,8 +26,6 @@ _ARRAYS = (
     "opacities",
     "radiance:sphericalHarmonicsCoefficients",
 )
-_SEARCHED = 20_000
-"""How many prims are looked at, the first ones: more would take longer than all other rules."""
 
 
 class Lookalike(NamedTuple):
@@ -32,11 +35,13 @@ class Lookalike(NamedTuple):
     binding: Any | None = None
 
 
-def lookalikes(stage: Any, drawn: Drawn, unbound: Collection[Any]) -> list[Lookalike]:
-    """By path: what would bind one of the fields at these paths, or has all the splat arrays."""
+def lookalikes(stage: Any, untyped: Iterable[Any], unbound: Collection[Any]) -> list[Lookalike]:
+    """By path: what would bind one of the fields at these paths, or has all the splat arrays.
+
+    `untyped` are the prims that are in question, besides those above the fields.
+    """
     found = {}
-    groups = chain(_above(stage, unbound), _first_groups(stage, drawn))
-    for prim in filter(drawn.__contains__, groups):
+    for prim in chain(_above(stage, unbound), untyped):
         names = get_property_names(prim)
         binding = _binding(prim, names, unbound) if unbound and names else None
         if binding and _is_above_volume(prim):
@@ -47,23 +52,15 @@ def lookalikes(stage: Any, drawn: Drawn, unbound: Collection[Any]) -> list[Looka
 
 
 def _above(stage: Any, paths: Iterable[Any]) -> Iterator[Any]:
-    """The prims above those at these paths."""
+    """The drawn prims above those at these paths."""
     seen = set()
     for path in paths:
         prim = get_parent(stage.GetPrimAtPath(path))
-        while prim and not prim.IsPseudoRoot() and prim not in seen:
+        while has_specifier(prim) and not prim.IsPseudoRoot() and prim not in seen:
             seen.add(prim)
-            if get_type(prim) in _GROUP_TYPES:
+            if get_type(prim) in GROUP_TYPES:
                 yield prim
             prim = get_parent(prim)
-
-
-def _first_groups(stage: Any, drawn: Drawn) -> Iterator[Any]:
-    """The first prims of the stage that have a type in question."""
-    roots = (*filter(drawn.appears, stage.GetPrototypes()), *drawn.roots)
-    ranges = [stage.Traverse(), *(Usd.PrimRange(root, DRAWN_BELOW) for root in roots)]
-    first = islice(chain.from_iterable(ranges), _SEARCHED)
-    return (prim for prim in first if get_type(prim) in _GROUP_TYPES)
 
 
 def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any | None:
