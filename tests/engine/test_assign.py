@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from process import ROOT
 from pxr import Usd
-from walks import CLOUD, LIVE, asks, below, instancer, write_stage
+from walks import CLOUD, INSTANCE, LIVE, asks, instancer, write_stage
 
 from usdvol_lint.engine.assign import assign
 from usdvol_lint.engine.engine import Engine
@@ -115,6 +115,11 @@ def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
     result = walk(stage, [], PrimKinds())
     assert result.prims == 2
     assert [str(prim.GetPath()) for prims in result.kept.values() for prim in prims] == ["/live"]
+
+
+def below(specifier: str, name: str, *instances: str) -> str:
+    texts = "".join(INSTANCE.format(each, "cloud") for each in instances)
+    return f'{specifier} "{name}"\n{{\n{texts}}}\n'
 
 
 @pytest.mark.parametrize(

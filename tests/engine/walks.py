@@ -30,8 +30,3 @@ def instancer(name: str, *prototypes: str, below: str = "") -> str:
 
 CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'
 INSTANCE = 'def "{}" (\n    instanceable = true\n    references = @./lib.usda@</{}>\n)\n{{\n}}\n'
-
-
-def below(specifier: str, name: str, *instances: str) -> str:
-    texts = "".join(INSTANCE.format(each, "cloud") for each in instances)
-    return f'{specifier} "{name}"\n{{\n{texts}}}\n'
