@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
@@ -52,6 +52,12 @@ class Particles(Wing):
         from usdvol_lint.facts.particles.apis import read_particle_apis
 
         return read_particle_apis(prim, self._kinds)
+
+    def without_api(self, prim: Any) -> Iterator[tuple[str, list[Any]]]:
+        """The APIs that are not applied though attributes of theirs are authored, with these."""
+        from usdvol_lint.facts.particles.apis import attributes_without_api
+
+        return attributes_without_api(prim, self.apis(prim))
 
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from pxr import Usd
@@ -64,6 +65,17 @@ def read_particle_apis(prim: Any, kinds: PrimKinds) -> ParticleApis:
         misspelt={name: api for name, api in intended.items() if api},
         built_in_type=prim.GetTypeName() in schema.CONCRETE_TYPES,
     )
+
+
+def attributes_without_api(prim: Any, apis: ParticleApis) -> Iterator[tuple[str, list[Any]]]:
+    """The attributes that are authored on a prim though no schema of it declares them, by API."""
+    declared = frozenset(prim.GetPrimDefinition().GetPropertyNames())
+    for api, names in schema.API_ATTRIBUTES.items():
+        if not apis.has(api):
+            attributes = [prim.GetAttribute(name) for name in names if name not in declared]
+            authored = [attribute for attribute in attributes if attribute.HasAuthoredValue()]
+            if authored:
+                yield api, authored
 
 
 def material_is_bound(prim: Any) -> bool:
