@@ -157,9 +157,16 @@ class Layers(Wing):
         return find_undefined(self._stage, self._undefined, self._ours, self.may_lack)
 
     @property
-    def undefined_prims(self) -> Iterator[Any]:
-        """The prims of ours that an `over` takes off the stage, also of libraries."""
-        return chain.from_iterable(self._undefined.values())
+    def undrawn(self) -> Iterator[Any]:
+        """The prims of ours that an `over` takes off the stage, also of libraries, and all that
+        PointInstancers target in a `class`.
+        """
+        return chain(*self._undefined.values(), self._drawn.passed_over)
+
+    @property
+    def out_of_reach(self) -> Iterator[Any]:
+        """The prims that PointInstancers target and no traversal reaches, and those below them."""
+        return self._drawn.out_of_reach
 
     def _ours(self) -> Iterator[Any]:
         return chain.from_iterable(map(self.tables.prims, schema.OURS))

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import chain, filterfalse
 from typing import Any
+
+from pxr import Usd
 
 from usdvol_lint.facts.usd.calls import (
     DRAWN_BELOW,
@@ -13,6 +16,10 @@ from usdvol_lint.facts.usd.calls import (
     is_in_prototype,
 )
 from usdvol_lint.facts.usd.instances import in_prototype, prototype_of
+
+_COMPOSED = Usd.TraverseInstanceProxies(
+    Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier
+)
 
 
 class Drawn:
@@ -37,6 +44,16 @@ class Drawn:
     def __contains__(self, prim: Any) -> bool:
         return bool(DRAWN_BELOW(prim)) and (self._is_reached(prim) or self._is_below_root(prim))
 
+    @property
+    def out_of_reach(self) -> Iterator[Any]:
+        """What is at the roots and below them, also in instances."""
+        return chain.from_iterable(map(_composed, self.roots))
+
+    @property
+    def passed_over(self) -> Iterator[Any]:
+        """What of that is not drawn, since it is in a `class`."""
+        return chain.from_iterable(map(_composed, filterfalse(self.__contains__, self.roots)))
+
     def appears(self, prototype: Any) -> bool:
         """Whether an instance of a prototype is drawn."""
         if prototype not in self._appearing:
@@ -54,6 +71,10 @@ class Drawn:
                 return True
             prim = get_parent(prim)
         return False
+
+
+def _composed(root: Any) -> Any:
+    return Usd.PrimRange(root, _COMPOSED)
 
 
 def _prototypes(instancers: Iterable[Any]) -> Iterator[Any]:

@@ -106,8 +106,8 @@ class Volumes(Wing):
         What uses a field under this selection is added to `used`, for the selections to come.
         There are none where part of the stage can't be read, and without Volumes none but the only
         field of the stage: several are a library.  Fields are left out that a faulty Volume
-        accounts for, also one whose type is hidden or missing: those below it, and those that its
-        relationships probably intended.
+        accounts for, also one that is not drawn, or whose type is hidden or missing: those below
+        it, and those that its relationships probably intended.
         """
         from usdvol_lint.facts.volumes import usage
 
@@ -118,8 +118,8 @@ class Volumes(Wing):
             return []
         if not volumes and len(slots) > 1:
             return []
-        hidden = self._layers.undefined_prims
-        if not volumes and usage.any_targets(self._stage, next(iter(slots)), hidden):
+        layers = self._layers
+        if not volumes and usage.any_targets(self._stage, next(iter(slots)), layers.out_of_reach):
             return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
@@ -127,7 +127,8 @@ class Volumes(Wing):
             self._used.add(
                 usage.accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
             )
-        others = [each.prim for each in self._layers.retyped]
+        others = [prim for prim in layers.undrawn if self._prims.is_a(prim, schema.VOLUME)]
+        others += (each.prim for each in layers.retyped)
         for prim in (*others, *(each.prim for each in self.lookalikes)):
             self._used.add(usage.accounted_for_by_other(prim, self._kinds))
         return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
