@@ -168,6 +168,13 @@ class Prims(Wing):
         unauthored = (prim for prim, limits in readable if not limits.are_authored)
         return sorted(filterfalse(has_bounds, unauthored), key=self.shown_path)
 
+    @cached_property
+    def moved_prototypes(self) -> frozenset[Any]:
+        """The paths of the prototypes that PointInstancers show at changing places."""
+        from usdvol_lint.facts.usd.instancers import moved_prototypes
+
+        return moved_prototypes(self.tables.prims(schema.POINT_INSTANCER))
+
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:
         """Whether there is a Gprim among the ancestors or descendants."""

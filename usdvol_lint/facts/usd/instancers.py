@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import chain
 from typing import Any
 
 from pxr import Usd
@@ -11,6 +12,8 @@ from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import DRAWN_BELOW, is_defined
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.usd.kinds import PrimKinds
+
+_PLACES = ("positions", "orientations", "orientationsf", "scales")
 
 
 def undefined_prototypes(instancers: Iterable[Any], kinds: PrimKinds) -> Iterator[list[Any]]:
@@ -31,3 +34,15 @@ def undefined_prototypes(instancers: Iterable[Any], kinds: PrimKinds) -> Iterato
             drawn.update(prims)
             yield prims
             waiting += (prim for prim in prims if kinds.is_a(prim, schema.POINT_INSTANCER))
+
+
+def moved_prototypes(instancers: Iterable[Any]) -> frozenset[Any]:
+    """The paths of the prototypes that PointInstancers show at changing places."""
+    moving = (each for each in instancers if any(_varies(each, name) for name in _PLACES))
+    targets = (each.GetRelationship("prototypes").GetForwardedTargets() for each in moving)
+    return frozenset(chain.from_iterable(targets))
+
+
+def _varies(prim: Any, name: str) -> bool:
+    attribute = prim.GetAttribute(name)
+    return bool(attribute and attribute.ValueMightBeTimeVarying())
