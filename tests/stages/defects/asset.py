@@ -231,7 +231,7 @@ def _numbered(subject: VolumeSubject, count: int) -> list[File]:
     return [_own_file(subject, f"plume.{number:04}.vdb", data) for number in range(1, count + 1)]
 
 
-@on_volume("AST017", needs={**A_RUN, "fields": 1}, without=("package",))
+@on_volume("AST017", needs={**A_RUN, "fields": 1}, without=("package",), perhaps=("AST012",))
 def frame_at_all_times(subject: VolumeSubject, rng: Random) -> Prim:
     [part] = subject.fields
     frames = _numbered(subject, 8)
