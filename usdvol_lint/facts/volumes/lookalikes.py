@@ -13,7 +13,7 @@ from usdvol_lint.facts.usd.calls import DRAWN_BELOW, get_parent, get_property_na
 from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.instances import in_prototype
 
-_GROUP_TYPES = frozenset({"", "Xform", "Scope"})
+GROUP_TYPES = frozenset({"", "Xform", "Scope"})
 _ARRAYS = (
     "positions",
     "orientations",
@@ -53,7 +53,7 @@ def _above(stage: Any, paths: Iterable[Any]) -> Iterator[Any]:
         prim = get_parent(stage.GetPrimAtPath(path))
         while prim and not prim.IsPseudoRoot() and prim not in seen:
             seen.add(prim)
-            if get_type(prim) in _GROUP_TYPES:
+            if get_type(prim) in GROUP_TYPES:
                 yield prim
             prim = get_parent(prim)
 
@@ -63,7 +63,7 @@ def _first_groups(stage: Any, drawn: Drawn) -> Iterator[Any]:
     roots = (*filter(drawn.appears, stage.GetPrototypes()), *drawn.roots)
     ranges = [stage.Traverse(), *(Usd.PrimRange(root, DRAWN_BELOW) for root in roots)]
     first = islice(chain.from_iterable(ranges), _SEARCHED)
-    return (prim for prim in first if get_type(prim) in _GROUP_TYPES)
+    return (prim for prim in first if get_type(prim) in GROUP_TYPES)
 
 
 def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any | None:
