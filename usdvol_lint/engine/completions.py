@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, TypeAlias
 
 from pxr import Sdf
@@ -24,7 +24,7 @@ _POSITIONS = "positions"
 _COEFFICIENTS = "radiance:sphericalHarmonicsCoefficients"
 _EXTENT = "extent"
 _WANTED = {
-    schema.FIELD_ASSET: ("filePath", "fieldName"),
+    schema.FIELD_ASSET: ("filePath", "fieldName", "fieldDataType"),
     schema.VOLUME: (_EXTENT,),
     schema.PARTICLE_FIELD: (_EXTENT, _POSITIONS, _COEFFICIENTS),
 }
@@ -56,7 +56,6 @@ class _Completions:
         self._clips: set[str] = set()
         self._found: dict[tuple[_Layers, str], set[str]] = defaultdict(set)
         self._local = frozenset(stage.GetLayerStack())
-        self._bare = frozenset(facts.prims.without_extent)
 
     def result(self) -> Completion | None:
         if not self._found:
@@ -71,17 +70,17 @@ class _Completions:
         )
 
     def find(self) -> None:
-        for table in self._facts.tables.of(*schema.OURS):
-            with suppress(Exception):  # what can't be read is reported where rules ask for it
-                self._find_values(table)
-                self._find_types(table)
-                self._find_clipped(table)
-        for table in self._facts.tables.of(schema.VOLUME):
+        tables = self._facts.tables
+        for table in tables.of(*schema.OURS):
+            for find in (self._find_values, self._find_types, self._find_clipped):
+                with suppress(Exception):  # what can't be read, a rule that asks for it reports
+                    find(table)
+        for table in tables.of(schema.VOLUME):
             with suppress(Exception):
                 self._find_bindings(table)
-        self._find_definitions()
-        self._find_clips()
-        self._find_prims()
+        for find_any in (self._find_definitions, self._find_clips, self._find_prims):
+            with suppress(Exception):
+                find_any()
 
     def _add(self, spec: Any, *what: str) -> None:
         """Adds what a spec lacks that makes a prim, if it is in a layer below the root."""
@@ -126,6 +125,10 @@ class _Completions:
         if name == _COEFFICIENTS and self._facts.particles.material_is_bound(prim):
             return True
         return any(map(has_value, map(prim.GetAttribute, _either(name))))
+
+    @cached_property
+    def _bare(self) -> frozenset[Any]:
+        return frozenset(self._facts.prims.without_extent)
 
     def _find_types(self, table: Table) -> None:
         """The types of which another spec has a better one."""
@@ -174,14 +177,21 @@ class _Completions:
                     self._find_binding(stack, binding.property, get_prim_stack(target.prim))
 
     def _find_binding(self, volume: Sequence[Any], binding: Any, field: Sequence[Any]) -> None:
-        name, opinions = binding.GetName(), binding.GetPropertyStack()
+        opinions = [spec for spec in binding.GetPropertyStack() if spec.HasInfo("targetPaths")]
+
+        def binds(spec: Any) -> bool:
+            return _has_beside(spec, filter(_is_field, field)) and _has_beside(spec, opinions)
+
+        def is_bound(spec: Any) -> bool:
+            return _has_beside(spec, filter(_is_def, volume)) and _has_beside(spec, opinions)
+
         for spec in filter(self._makes, volume):
-            if not _has_beside(spec, filter(_is_def, field)):
-                self._add(spec, name)
-            if not any(each.startswith(FIELD_NAMESPACE) for each in _property_names(spec)):
+            if not self._has_itself(spec, volume, binds):
+                self._add(spec, binding.GetName())
+            if not self._has_itself(spec, volume, _has_fields):
                 self._add(spec, FIELD_NAMESPACE)
         for spec in filter(self._makes, field):
-            if not (_has_beside(spec, filter(_is_def, volume)) and _has_beside(spec, opinions)):
+            if not self._has_itself(spec, field, is_bound):
                 self._add(spec, FIELD_NAMESPACE)
 
     def _find_definitions(self) -> None:
@@ -231,8 +241,12 @@ def _is_def(spec: Any) -> bool:
     return bool(spec.specifier == Sdf.SpecifierDef)
 
 
-def _property_names(spec: Any) -> list[str]:
-    return list(spec.properties.keys())
+def _is_field(spec: Any) -> bool:
+    return _is_def(spec) and _has_type(spec)
+
+
+def _has_fields(spec: Any) -> bool:
+    return any(name.startswith(FIELD_NAMESPACE) for name in spec.properties.keys())  # noqa: SIM118
 
 
 def _has_type(spec: Any) -> bool:
