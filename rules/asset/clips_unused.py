@@ -40,8 +40,7 @@ def effect(lost: Any) -> str:
     """What the attributes lack."""
     missed: Sequence[Any] = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
-    has = "has" if len(missed) == 1 else "have"
-    return f"{names} {has} {'no value' if lost.without_value else 'only a default, the same at all times'}"
+    return f"{names} {'has' if len(missed) == 1 else 'have'} {'no value' if lost.without_value else 'only a default, the same at all times'}"
 
 
 def absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
