@@ -54,6 +54,7 @@ __all__ = [
     "file_paths",
     "format_time",
     "frame_ranges",
+    "lacking",
     "layered",
     "quoted",
     "rule",
@@ -91,6 +92,11 @@ class Occurrence(Protocol):
     def at_default(self) -> bool: ...
     @property
     def asset(self) -> str | None: ...
+
+
+def lacking(prim: Prim, *names: str) -> tuple[tuple[Prim, str], ...]:
+    """A part of `Problem.absent`: a prim lacks one of these properties, or words of `schema`."""
+    return tuple((prim, name) for name in names)
 
 
 class _Result:
@@ -135,9 +141,11 @@ class Problem(_Result):
     `severity` may lower the rule's own for a milder case, never raise it.
     `holds` is called after all variant selections were checked; if it returns False, the problem is
     not reported.
+    `absent` is what is absent, if nothing is wrong: the problem is not reported where another stage
+    of the run composes this one and has all of it, of each part (see `lacking`) one.
     """
 
-    __slots__ = ("holds", "severity")
+    __slots__ = ("absent", "holds", "severity")
 
     def __init__(
         self,
@@ -145,11 +153,13 @@ class Problem(_Result):
         *,
         severity: Severity | None = None,
         holds: Callable[[], bool] | None = None,
+        absent: Iterable[tuple[tuple[Prim, str], ...]] = (),
         **where: Any,
     ) -> None:
         super().__init__(message, **where)
         self.severity = severity
         self.holds = holds
+        self.absent = tuple(absent)
 
 
 class NotChecked(_Result):

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
-from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, lacking, quoted, rule
+from usdvol_lint.schema import CLIPS
 
 
 @rule("AST016", on=STAGE, severity=ERROR, since="0.1")
@@ -16,6 +17,7 @@ def clips_unused(root: Prim, facts: Facts) -> Problems:
             spec=lost.spec,
             suggestion=lost.advice,
             severity=None if lost.without_value else WARNING,
+            absent=absent(lost),
         )
     for left in facts.layers.clips_left_behind:
         clips = f"the value clips of <{left.path}> in {quoted(left.layer.GetDisplayName())}"
@@ -30,6 +32,7 @@ def clips_unused(root: Prim, facts: Facts) -> Problems:
             spec=left.spec,
             suggestion=advice,
             severity=None if left.without_value else WARNING,
+            absent=absent(left),
         )
 
 
@@ -37,5 +40,10 @@ def effect(lost: Any) -> str:
     """What the attributes lack."""
     missed: Sequence[Any] = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
-    has = "has" if len(missed) == 1 else "have"
-    return f"{names} {has} {'no value' if lost.without_value else 'only a default, the same at all times'}"
+    return f"{names} {'has' if len(missed) == 1 else 'have'} {'no value' if lost.without_value else 'only a default, the same at all times'}"
+
+
+def absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
+    """What each attribute lacks: what the clips need, or a value from elsewhere."""
+    clips = lacking(lost.prim, CLIPS)
+    return [(*clips, *lacking(each.GetPrim(), each.GetName())) for each in lost.attributes]

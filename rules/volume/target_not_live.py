@@ -1,6 +1,6 @@
 """VOL008: the target of a field relationship must be active, defined and concrete."""
 
-from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, bindings, rule
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, TargetState, bindings, lacking, rule
 
 _WHY = {
     TargetState.INACTIVE: ("inactive", "activate <{}>"),
@@ -18,4 +18,5 @@ def target_not_live(volume: Prim, facts: Facts) -> Problems:
             f"'field:{binding.name}' targets <{target.shown}>{below}, which is {what}",
             at=binding.property,
             suggestion=advice.format(target.blamed_path),
+            absent=[lacking(volume, binding.property.GetName())] if target.state is TargetState.OVER else (),
         )

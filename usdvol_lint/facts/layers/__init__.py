@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
-    from usdvol_lint.facts.usd.arcs import Arcs
-    from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.arcs import Arcs, Layered
+    from usdvol_lint.facts.usd.clips import Clips, ClipSet
     from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import PrimKinds
 
@@ -118,6 +118,25 @@ class Layers(Wing):
         lost = [attribute for each in self.lost_clips for attribute in each.attributes]
         left = [attribute for each in self.clips_left_behind for attribute in each.attributes]
         return frozenset(attribute.GetPrim() for attribute in (*lost, *left))
+
+    @property
+    def are_several(self) -> bool:
+        """Whether anything but the root layer says something, value clips included."""
+        return self._clips.are_authored or not self._arcs.is_one_layer
+
+    @property
+    def clip_bearers(self) -> frozenset[Any]:
+        """The prims on which value clips are authored, above prims of ours or on them."""
+        return self._clips.bearing
+
+    def clip_sets_of(self, prim: Any) -> tuple[ClipSet, ...]:
+        """The clip sets that apply to a prim."""
+        return self._clips.reaching(prim)
+
+    @property
+    def layered(self) -> tuple[Layered, ...]:
+        """The drawn prims that several specs make up."""
+        return self._arcs.layered
 
     @property
     def retyped(self) -> tuple[Retyped, ...]:
