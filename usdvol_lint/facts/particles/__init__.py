@@ -16,9 +16,11 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.chunks import Row
     from usdvol_lint.facts.particles.coarseness import CoarsePositions
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
+    from usdvol_lint.facts.particles.copies import Copies
     from usdvol_lint.facts.particles.extent import OutsideExtent
     from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.particles.scales import Scales
+    from usdvol_lint.facts.particles.unseen import Unseen
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -70,6 +72,24 @@ class Particles(Wing):
             self._advance,
         )
 
+    def unseen(self, prim: Any) -> Unseen | None:
+        """The particles that can't be seen at any time, if there are some."""
+        arrays = self.arrays(prim)
+        if not any(arrays.used("opacities", "scales")):
+            return None  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.unseen import unseen_particles
+
+        return unseen_particles(arrays)
+
+    def copies(self, prim: Any, unseen: Unseen | None) -> Copies | None:
+        """The particles that equal the next one in every array at all times, but `unseen` ones."""
+        arrays = self.arrays(prim)
+        if not arrays.most_particles:
+            return None  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.copies import copied_particles
+
+        return copied_particles(prim, arrays, unseen.selected if unseen else None)
+
     def is_misspelt(self, prim: Any, name: str) -> bool:
         """Whether an attribute is probably meant for the float or half array of this float name."""
         return any(slip.intended in (name, f"{name}h") for slip in self._prims.misspelt(prim))
@@ -85,7 +105,7 @@ class Particles(Wing):
         from usdvol_lint.facts.particles.extent import positions_outside_extent
 
         relative_slack = half_slack if positions.is_half else slack
-        return positions_outside_extent(positions, extent, relative_slack, clamp)
+        return positions_outside_extent(self.arrays(prim), extent, relative_slack, clamp)
 
     def kernels_outside_extent(
         self, prim: Any, share: float, clamp: float

@@ -136,11 +136,7 @@ class ParticleArrays:
         """The other float arrays that begin empty, and that fit the particles at all times."""
         for array in self.used():
             late = self.pairs[array.float_name].late
-            if (
-                late
-                and array is not self.positions
-                and not self.too_short(array, self._each(array))
-            ):
+            if late and array is not self.positions and not self.too_short(array, self.each(array)):
                 yield late
 
     def authored(self, noun: str) -> Iterator[ParticleArray]:
@@ -190,10 +186,10 @@ class ParticleArrays:
     def fit(self, array: ParticleArray) -> bool:
         """Whether an array has as many elements as the particles take; of positions, all others."""
         others = [array] if array is not self.positions else self.used()
-        sizes = [(other, self._each(other)) for other in others if other is not self.positions]
+        sizes = [(other, self.each(other)) for other in others if other is not self.positions]
         return not any(self.too_short(*size) or self.too_long(*size) for size in sizes)
 
-    def _each(self, array: ParticleArray) -> int:
+    def each(self, array: ParticleArray) -> int:
         """How many elements of an array a particle takes."""
         return self.degree.coefficients or 1 if array is self.coefficients else 1
 

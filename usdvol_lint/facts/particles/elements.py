@@ -26,7 +26,7 @@ class Elements(Values):
     @property
     def amount(self) -> str:
         """`3 of 1,000,000 opacities (0.0003 %)`."""
-        return f"{self._count:,} of {sum(self.sizes):,} {self.noun} ({_percent(self.share)})"
+        return f"{self._count:,} of {sum(self.sizes):,} {self.noun} ({percent(self.share)})"
 
     @property
     def first(self) -> str:
@@ -47,6 +47,7 @@ def as_text(row: Row) -> str:
     return numbers if len(row) == 1 else f"({numbers})"
 
 
-def _percent(share: float) -> str:
+def percent(share: float) -> str:
+    """`33.3 %`."""
     percent = 100 * share
     return f"{percent:.3g} %" if percent >= 0.001 else "less than 0.001 %"
