@@ -114,15 +114,6 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
             "'opacities' counts, so 'opacitiesh' is never read; they differ in size: ",
             "",
         ),
-        ("ARR007", ("float[] opacities = [1, nan]",), "NaN in 1 of 2 ", "remove these particles"),
-        ("ARR007", ("float[] opacities = [1, inf]",), "infinity in 1 of 2", "remove these"),
-        ("ARR007", ("half[] opacitiesh = [1, nan]",), "NaN in 1 of 2 ", "remove these particles"),
-        (
-            "ARR007",
-            ("half[] opacitiesh = [1, inf]",),
-            "infinity in 1 of 2 opacities (50 %), beyond the 65,504 that half goes up to",
-            "author the float array 'opacities', or smaller values",
-        ),
         (
             "ARR017",
             ("color3f[] primvars:displayColor = [(1, 0, 0)]",),

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.coarseness import CoarsePositions
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
     from usdvol_lint.facts.particles.copies import Copies
+    from usdvol_lint.facts.particles.elements import Elements
     from usdvol_lint.facts.particles.extent import OutsideExtent
     from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.particles.scales import Scales
@@ -152,6 +153,18 @@ class Particles(Wing):
         from usdvol_lint.facts.particles.numbers import are_whole
 
         return are_whole(array)
+
+    def are_logits(self, array: ParticleArray, outside: Elements | None) -> bool:
+        """Whether opacities, of which some are outside of 0 to 1, look like logits."""
+        from usdvol_lint.facts.particles.raw import are_logits
+
+        return are_logits(array, outside)
+
+    def are_logarithms(self, array: ParticleArray, negative: Elements | None) -> bool:
+        """Whether scales, of which some are negative, look like logarithms."""
+        from usdvol_lint.facts.particles.raw import are_logarithms
+
+        return are_logarithms(array, negative)
 
     def longest_side(self, prim: Any) -> float:
         """That of the first authored extent; 0 without one."""
