@@ -124,19 +124,19 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
         (
             "ARR004",
             (f"{COEFFICIENTS} = [(1, 1, 1), (1, 1, 1)]",),
-            ", what USD falls back to, takes 16 for each",
+            "1 for each particle; degree 3, what USD falls back to, takes 16",
             "author radiance:sphericalHarmonicsDegree = 0, which fits",
         ),
         (
             "ARR004",
             (f"{DEGREE} = 0", f"{COEFFICIENTS} = [(1, 1, 1)]"),
-            ", and degree 0 takes 1 for each",
+            "1 coefficient for 2 particles; degree 0 takes 1 for each",
             "author 1 coefficient for each position",
         ),
         (
             "ARR004",
             (f"{DEGREE} = 1", f"{COEFFICIENTS} = [(1, 1, 1)]"),
-            ", and degree 1 takes 4 for each",
+            "; degree 1 takes 4 for each",
             "author 4 coefficients for each position",
         ),
         (

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.extent import OutsideExtent
     from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.particles.scales import Scales
+    from usdvol_lint.facts.particles.surplus import Surplus
     from usdvol_lint.facts.particles.unseen import Unseen
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
@@ -90,6 +91,15 @@ class Particles(Wing):
         from usdvol_lint.facts.particles.copies import copied_particles
 
         return copied_particles(prim, arrays, unseen.selected if unseen else None)
+
+    def surpluses(self, prim: Any) -> tuple[Surplus, ...]:
+        """The arrays that hold the elements of more particles than there are."""
+        arrays = self.arrays(prim)
+        if not arrays.most_particles:
+            return ()  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.surplus import surpluses
+
+        return surpluses(arrays)
 
     def is_misspelt(self, prim: Any, name: str) -> bool:
         """Whether an attribute is probably meant for the float or half array of this float name."""

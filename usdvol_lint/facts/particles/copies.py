@@ -93,7 +93,7 @@ def _by_particle(array: ParticleArray, each: int) -> Iterator[Rows]:
 def _foreign(prim: Any, arrays: ParticleArrays) -> Iterator[Rows]:
     """The same of other attributes with as many elements as there are particles, or a multiple."""
     count = arrays.most_particles
-    ours = {array.name for pair in arrays.pairs.values() for array in pair.arrays}
+    ours = {"extent", *(array.name for pair in arrays.pairs.values() for array in pair.arrays)}
     for attribute in prim.GetAuthoredAttributes():
         if attribute.GetName() in ours or not attribute.GetTypeName().isArray:
             continue
