@@ -57,6 +57,10 @@ class Particles(Wing):
 
         return read_particle_apis(prim, self._kinds)
 
+    def is_told_as_misspelt(self, prim: Any, base: str) -> bool:
+        """Whether PRT006 says why a base API is missing: the name of one that includes it."""
+        return self.apis(prim).is_lost(base) and not self._prims.encoding(prim)
+
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:
         """The arrays of a particle field: none on a prim in an older encoding (SCH011)."""
