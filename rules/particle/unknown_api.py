@@ -13,9 +13,10 @@ def unknown_api(particles: Prim, facts: Facts) -> Problems:
         return
     lost = [base for base in _BASES if apis.is_lost(base)]
     is_bound = lost == [RADIANCE_BASE] and facts.particles.material_is_bound(particles)
-    what = " or ".join(_BASES[base] for base in lost)
+    missing = " or ".join(_BASES[base] for base in lost)
+    consequence = f", so nothing gives these splats {missing}" if lost else ""
     yield Problem(
-        f"USD knows no API {', '.join(map(repr, apis.misspelt))}{f', so nothing gives these splats {what}' if lost else ''}",
+        f"USD knows no API {', '.join(map(repr, apis.misspelt))}{consequence}",
         at=particles,
         severity=None if lost and not apis.third_party and not is_bound else WARNING,
         suggestion="write " + ", ".join(f"{meant!r} for {name!r}" for name, meant in apis.misspelt.items()),

@@ -93,13 +93,13 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
         (
             "ARR016",
             ('uniform token colorSpace:name = "srgb_rec709_scenes"',),
-            "USD knows no colour space 'srgb_rec709_scenes'",
+            "USD does not read the colour space 'srgb_rec709_scenes'",
             "did you mean 'srgb_rec709_scene'?",
         ),
         (
             "ARR016",
             ('uniform token colorSpace:name = "house"',),
-            "USD knows no colour space 'house'",
+            "USD does not read the colour space 'house'",
             "name one of GfColorSpaceNames",
         ),
         (

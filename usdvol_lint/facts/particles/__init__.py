@@ -187,10 +187,11 @@ class Particles(Wing):
         return max(end - begin for begin, end in zip(*box, strict=True)) if box else 0.0
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
-        """The colour space that a prim or its nearest ancestor with one names."""
+        """The colour space of the coefficients: their own, or the nearest name above them."""
         from usdvol_lint.facts.particles.colour_spaces import colour_space
 
-        return colour_space(prim)
+        used = self.arrays(prim).coefficients
+        return colour_space(prim, used.attribute if used else None)
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""
