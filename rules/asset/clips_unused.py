@@ -40,7 +40,8 @@ def effect(lost: Any) -> str:
     """What the attributes lack."""
     missed: Sequence[Any] = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
-    return f"{names} {'has' if len(missed) == 1 else 'have'} {'no value' if lost.without_value else 'only a default, the same at all times'}"
+    value = "no value" if lost.without_value else "only a default, the same at all times"
+    return f"{names} {'has' if len(missed) == 1 else 'have'} {value}"
 
 
 def absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:

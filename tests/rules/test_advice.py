@@ -93,13 +93,13 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
         (
             "ARR016",
             ('uniform token colorSpace:name = "srgb_rec709_scenes"',),
-            "USD knows no colour space 'srgb_rec709_scenes'",
+            "USD does not read the colour space 'srgb_rec709_scenes'",
             "did you mean 'srgb_rec709_scene'?",
         ),
         (
             "ARR016",
             ('uniform token colorSpace:name = "house"',),
-            "USD knows no colour space 'house'",
+            "USD does not read the colour space 'house'",
             "name one of GfColorSpaceNames",
         ),
         (
@@ -114,15 +114,6 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
             "'opacities' counts, so 'opacitiesh' is never read; they differ in size: ",
             "",
         ),
-        ("ARR007", ("float[] opacities = [1, nan]",), "NaN in 1 of 2 ", "remove these particles"),
-        ("ARR007", ("float[] opacities = [1, inf]",), "infinity in 1 of 2", "remove these"),
-        ("ARR007", ("half[] opacitiesh = [1, nan]",), "NaN in 1 of 2 ", "remove these particles"),
-        (
-            "ARR007",
-            ("half[] opacitiesh = [1, inf]",),
-            "infinity in 1 of 2 opacities (50 %), beyond the 65,504 that half goes up to",
-            "author the float array 'opacities', or smaller values",
-        ),
         (
             "ARR017",
             ("color3f[] primvars:displayColor = [(1, 0, 0)]",),
@@ -133,19 +124,19 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
         (
             "ARR004",
             (f"{COEFFICIENTS} = [(1, 1, 1), (1, 1, 1)]",),
-            ", what USD falls back to, takes 16 for each",
+            "1 for each particle; degree 3, what USD falls back to, takes 16",
             "author radiance:sphericalHarmonicsDegree = 0, which fits",
         ),
         (
             "ARR004",
             (f"{DEGREE} = 0", f"{COEFFICIENTS} = [(1, 1, 1)]"),
-            ", and degree 0 takes 1 for each",
+            "1 coefficient for 2 particles; degree 0 takes 1 for each",
             "author 1 coefficient for each position",
         ),
         (
             "ARR004",
             (f"{DEGREE} = 1", f"{COEFFICIENTS} = [(1, 1, 1)]"),
-            ", and degree 1 takes 4 for each",
+            "; degree 1 takes 4 for each",
             "author 4 coefficients for each position",
         ),
         (
