@@ -15,7 +15,7 @@ from usdvol_lint.config import Config
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import activate
-from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.packs.catalog import USD_TOO_OLD, Catalog
 from usdvol_lint.run.parts import without_completed
 
 Files = dict[str, str]
@@ -85,6 +85,7 @@ def told(stages: Sequence[StageReport]) -> list[str]:
         f"{stage.path.removesuffix('.usda')} {each.code} {each.severity.label}"
         for stage in stages
         for each in stage.findings
+        if each.code != USD_TOO_OLD.code
     ]
 
 
