@@ -54,7 +54,7 @@ __all__ = [
     "file_paths",
     "format_time",
     "frame_ranges",
-    "lacking",
+    "lacks",
     "layered",
     "quoted",
     "rule",
@@ -94,7 +94,7 @@ class Occurrence(Protocol):
     def asset(self) -> str | None: ...
 
 
-def lacking(prim: Prim, *names: str) -> tuple[tuple[Prim, str], ...]:
+def lacks(prim: Prim, *names: str) -> tuple[tuple[Prim, str], ...]:
     """A part of `Problem.absent`: a prim lacks one of these properties, or words of `schema`."""
     return tuple((prim, name) for name in names)
 
@@ -142,7 +142,7 @@ class Problem(_Result):
     `holds` is called after all variant selections were checked; if it returns False, the problem is
     not reported.
     `absent` is what is absent, if nothing is wrong: the problem is not reported where another stage
-    of the run composes this one and has all of it, of each part (see `lacking`) one.
+    of the run composes this one and has all of it, of each part (see `lacks`) one.
     """
 
     __slots__ = ("absent", "holds", "severity")

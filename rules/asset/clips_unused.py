@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, lacking, quoted, rule
+from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, quoted, rule
 from usdvol_lint.schema import CLIPS
 
 
@@ -40,11 +40,10 @@ def effect(lost: Any) -> str:
     """What the attributes lack."""
     missed: Sequence[Any] = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
-    value = "no value" if lost.without_value else "only a default, the same at all times"
-    return f"{names} {'has' if len(missed) == 1 else 'have'} {value}"
+    what = "no value" if lost.without_value else "only a default, the same at all times"
+    return f"{names} {'has' if len(missed) == 1 else 'have'} {what}"
 
 
 def absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
     """What each attribute lacks: what the clips need, or a value from elsewhere."""
-    clips = lacking(lost.prim, CLIPS)
-    return [(*clips, *lacking(each.GetPrim(), each.GetName())) for each in lost.attributes]
+    return [(*lacks(lost.prim, CLIPS), *lacks(each.GetPrim(), each.GetName())) for each in lost.attributes]

@@ -1,6 +1,6 @@
 """STG005: a `def` below an `over` that nothing defines is not on the stage."""
 
-from usdvol_lint.rule import INFO, STAGE, WARNING, Facts, Prim, Problem, Problems, lacking, quoted, rule
+from usdvol_lint.rule import INFO, STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, quoted, rule
 from usdvol_lint.schema import SPECIFIER
 
 
@@ -21,5 +21,5 @@ def def_below_over(root: Prim, facts: Facts) -> Problems:
             suggestion=f"did you mean {quoted(similar)}?"
             if similar
             else f"write 'def \"{name}\"' where it should be drawn",
-            absent=[lacking(over, SPECIFIER)],
+            absent=[lacks(over, SPECIFIER)],
         )

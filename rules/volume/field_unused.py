@@ -1,6 +1,6 @@
 """VOL012: a field that no Volume targets is drawn by nobody."""
 
-from usdvol_lint.rule import INFO, STAGE, Facts, Prim, Problem, Problems, lacking, rule
+from usdvol_lint.rule import INFO, STAGE, Facts, Prim, Problem, Problems, lacks, rule
 from usdvol_lint.schema import FIELD_NAMESPACE
 
 
@@ -12,5 +12,5 @@ def field_unused(root: Prim, facts: Facts) -> Problems:
             at=field,
             holds=facts.volumes.stays_unused(field),
             suggestion=f"bind it with 'rel field:{field.GetName()}' on a Volume, or remove it",
-            absent=[lacking(field, FIELD_NAMESPACE)],
+            absent=[lacks(field, FIELD_NAMESPACE)],
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from functools import cached_property, partial
 from typing import Any, TypeAlias
@@ -11,24 +11,28 @@ from typing import Any, TypeAlias
 from pxr import Sdf
 
 from usdvol_lint import schema
+from usdvol_lint.engine.spec_parts import (
+    COEFFICIENTS,
+    EXTENT,
+    either,
+    has_beside,
+    has_fields,
+    has_targets,
+    has_type,
+    holds_value,
+    is_def,
+    is_field,
+    is_in_variant,
+    wanted,
+)
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.prims.tables import Table
 from usdvol_lint.facts.usd.calls import get_prim_stack, has_value
 from usdvol_lint.facts.usd.clips import ClipSet
-from usdvol_lint.facts.usd.untyped import GROUP_TYPES
 from usdvol_lint.facts.volumes.states import TargetState
 from usdvol_lint.model import Completed, Completion
 from usdvol_lint.schema import CLIPS, FIELD_NAMESPACE, PRIMS, SPECIFIER, TYPE_NAME
 
-_POSITIONS = "positions"
-_COEFFICIENTS = "radiance:sphericalHarmonicsCoefficients"
-_EXTENT = "extent"
-_WANTED = {
-    schema.FIELD_ASSET: ("filePath", "fieldName", "fieldDataType"),
-    schema.VOLUME: (_EXTENT,),
-    schema.PARTICLE_FIELD: (_EXTENT, _POSITIONS, _COEFFICIENTS),
-}
-"""What prims of ours need, by schema; particle arrays may be in half precision instead."""
 _ARCS = ("references", "payload", "inheritPaths", "specializes")
 
 _Layers: TypeAlias = tuple[str, ...]
@@ -91,19 +95,22 @@ class _Completions:
     def _find_values(self, table: Table) -> None:
         """The attributes of which another spec has the value."""
         authored = table.authored
-        names = _wanted(authored.schemas)
+        names = wanted(authored.schemas)
         if not authored.is_layered and not authored.is_clipped:
-            names = [name for name in names if authored.declared.keys().isdisjoint(_either(name))]
-        for name in names:
-            for prim, stack in zip(table.prims, table.batch.stacks, strict=True):
-                lacking = [
-                    spec
-                    for spec in filter(self._makes, stack)
-                    if not self._has_itself(spec, stack, partial(_has_value, name))
-                ]
-                if lacking and self._has(prim, name):
-                    for spec in lacking:
+            names = [name for name in names if authored.declared.keys().isdisjoint(either(name))]
+        for prim, stack, makers in self._rows(table) if names else ():
+            for spec in makers:
+                for name in names:
+                    has = partial(holds_value, name)
+                    if not self._has_itself(spec, stack, has) and self._has(prim, name):
                         self._add(spec, name)
+
+    def _rows(self, table: Table) -> Iterator[tuple[Any, Sequence[Any], Sequence[Any]]]:
+        """The prims with their specs, and those specs that make a prim in a layer below."""
+        for prim, stack in zip(table.prims, table.batch.stacks, strict=True):
+            makers = list(filter(self._makes, stack))
+            if makers:
+                yield prim, stack, makers
 
     def _has_itself(self, spec: Any, stack: Sequence[Any], has: Callable[[Any], bool]) -> bool:
         """Whether a spec has something, or a weaker one that its own arcs may bring."""
@@ -120,11 +127,11 @@ class _Completions:
         return spec.layer in self._paths and spec.specifier == Sdf.SpecifierDef
 
     def _has(self, prim: Any, name: str) -> bool:
-        if name == _EXTENT:
+        if name == EXTENT:
             return prim not in self._bare
-        if name == _COEFFICIENTS and self._facts.particles.material_is_bound(prim):
+        if name == COEFFICIENTS and self._facts.particles.material_is_bound(prim):
             return True
-        return any(map(has_value, map(prim.GetAttribute, _either(name))))
+        return any(map(has_value, map(prim.GetAttribute, either(name))))
 
     @cached_property
     def _bare(self) -> frozenset[Any]:
@@ -134,16 +141,16 @@ class _Completions:
         """The types of which another spec has a better one."""
         if not table.authored.is_layered:
             return
-        for stack in table.batch.stacks:
-            for spec in filter(self._makes, stack):
-                if not self._has_itself(spec, stack, _has_type):
+        for _, stack, makers in self._rows(table):
+            for spec in makers:
+                if not self._has_itself(spec, stack, has_type):
                     self._add(spec, TYPE_NAME)
 
     def _find_clipped(self, table: Table) -> None:
         """What the prims have that value clips and their manifests need not have."""
         if not table.authored.is_clipped:
             return
-        names = _wanted(table.authored.schemas)
+        names = wanted(table.authored.schemas)
         for prim in table.prims:
             bindings = prim.GetAuthoredPropertiesInNamespace(FIELD_NAMESPACE)
             has = {name for name in names if self._has(prim, name)} | {TYPE_NAME, FIELD_NAMESPACE}
@@ -169,26 +176,44 @@ class _Completions:
             self._facts.volumes.bound_fields.all(table),
             strict=True,
         )
+        relationships = [Sdf.Path(f".{name}") for name in table.authored.bound]
         for volume, stack, fields in columns:
+            is_below = fields.bindings is None
+            if is_below and not table.authored.is_layered:
+                continue  # nearly always: no other layer has a spec of the Volume
             stacks = [get_prim_stack(chunk.prims[index]) for chunk, index in fields.slots]
-            if stacks and not all(_stand_together(stack, each) for each in stacks):
-                bound = self._facts.volumes.bindings(volume)
-                for binding, target in bound.with_target(TargetState.FIELD):
-                    self._find_binding(stack, binding.property, get_prim_stack(target.prim))
+            if not stacks or (is_below and self._are_whole(stack, relationships, stacks)):
+                continue
+            for binding, target in self._facts.volumes.bindings(volume).with_target(
+                TargetState.FIELD
+            ):
+                self._find_binding(stack, binding.property, get_prim_stack(target.prim))
+
+    def _are_whole(
+        self, volume: Sequence[Any], relationships: Sequence[Any], fields: Sequence[Sequence[Any]]
+    ) -> bool:
+        """Whether each layer that makes a Volume makes its fields too, and the other way round."""
+        makers = list(filter(self._makes, volume))
+        layers = [spec.layer for spec in makers]
+        for field in fields:
+            own = [spec for spec in filter(self._makes, field) if has_type(spec)]
+            if [spec.layer for spec in own] != layers or any(map(is_in_variant, own)):
+                return False
+        return all(has_targets(spec, path) for spec in makers for path in relationships)
 
     def _find_binding(self, volume: Sequence[Any], binding: Any, field: Sequence[Any]) -> None:
         opinions = [spec for spec in binding.GetPropertyStack() if spec.HasInfo("targetPaths")]
 
         def binds(spec: Any) -> bool:
-            return _has_beside(spec, filter(_is_field, field)) and _has_beside(spec, opinions)
+            return has_beside(spec, filter(is_field, field)) and has_beside(spec, opinions)
 
         def is_bound(spec: Any) -> bool:
-            return _has_beside(spec, filter(_is_def, volume)) and _has_beside(spec, opinions)
+            return has_beside(spec, filter(is_def, volume)) and has_beside(spec, opinions)
 
         for spec in filter(self._makes, volume):
             if not self._has_itself(spec, volume, binds):
                 self._add(spec, binding.GetName())
-            if not self._has_itself(spec, volume, _has_fields):
+            if not self._has_itself(spec, volume, has_fields):
                 self._add(spec, FIELD_NAMESPACE)
         for spec in filter(self._makes, field):
             if not self._has_itself(spec, field, is_bound):
@@ -203,7 +228,7 @@ class _Completions:
                     overs[spec.layer].add(spec.path)
         for table in self._facts.tables.of(*schema.OURS) if overs else ():
             for spec in (spec for stack in table.batch.stacks for spec in stack):
-                if spec.layer in overs and _is_def(spec):
+                if spec.layer in overs and is_def(spec):
                     for path in overs[spec.layer].intersection(spec.path.GetPrefixes()):
                         self._found[self._paths[spec.layer], str(path)].add(SPECIFIER)
 
@@ -226,63 +251,3 @@ class _Completions:
             for layer in below.intersection(self._paths):
                 if not layer.rootPrims:
                     self._add(layer.pseudoRoot, PRIMS)
-
-
-def _wanted(schemas: frozenset[str]) -> list[str]:
-    return [name for key, names in _WANTED.items() if key in schemas for name in names]
-
-
-def _either(name: str) -> tuple[str, ...]:
-    """An attribute, and where particles have it in half precision too."""
-    return (name, f"{name}h") if name in (_POSITIONS, _COEFFICIENTS) else (name,)
-
-
-def _is_def(spec: Any) -> bool:
-    return bool(spec.specifier == Sdf.SpecifierDef)
-
-
-def _is_field(spec: Any) -> bool:
-    return _is_def(spec) and _has_type(spec)
-
-
-def _has_fields(spec: Any) -> bool:
-    return any(name.startswith(FIELD_NAMESPACE) for name in spec.properties.keys())  # noqa: SIM118
-
-
-def _has_type(spec: Any) -> bool:
-    return spec.typeName not in GROUP_TYPES
-
-
-def _has_value(name: str, spec: Any) -> bool:
-    """Whether a prim's spec has a value of an attribute that is not empty."""
-    return any(map(_is_valued, map(spec.attributes.get, _either(name))))
-
-
-def _is_valued(attribute: Any | None) -> bool:
-    if attribute is None:
-        return False
-    if attribute.HasInfo("timeSamples") or attribute.HasInfo("spline"):
-        return True
-    value = attribute.default
-    if value is None or isinstance(value, Sdf.ValueBlock):
-        return False
-    return bool(value.path if isinstance(value, Sdf.AssetPath) else len(value))
-
-
-def _stand_together(one: Sequence[Any], other: Sequence[Any]) -> bool:
-    """Whether each of two prims is one spec, in the same layer and no variant of its own."""
-    return len(one) == len(other) == 1 and _is_beside(one[0], other[0])
-
-
-def _has_beside(spec: Any, others: Iterable[Any]) -> bool:
-    return any(_is_beside(spec, other) for other in others)
-
-
-def _is_beside(spec: Any, other: Any) -> bool:
-    """Whether another spec is in the same layer, and in no variant that this one is not in."""
-    if spec.layer != other.layer:
-        return False
-    path = other.path
-    while path.ContainsPrimVariantSelection() and not path.IsPrimVariantSelectionPath():
-        path = path.GetParentPath()
-    return not path.IsPrimVariantSelectionPath() or bool(spec.path.HasPrefix(path))

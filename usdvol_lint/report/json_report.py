@@ -57,7 +57,7 @@ def _stage(stage: StageReport) -> dict[str, object]:
         "status": stage.status.value,
         "stats": stage.stats,
         **({} if figures is None else {"particle_fields": [one._asdict() for one in figures]}),
-        **({} if stage.completes is None else {"completes": _completion(stage.completes)}),
+        "completes": stage.completes and _completion(stage.completes),
         "seconds": round(sum(stage.seconds.values(), 0.0), 6),
         "findings": [_finding(finding) for finding in stage.findings],
     }

@@ -102,6 +102,12 @@ class Files(Wing):
 
         return find_frames(self._disk, found.anchored(), found.first.path)
 
+    def is_only_declared(self, field: Any) -> bool:
+        """Whether the stage's own layer declares `filePath`, and no layer gives it a value."""
+        paths, root = self.paths(field), self._stage.GetRootLayer()
+        specs = paths.attribute.GetPropertyStack()
+        return not paths.samples and any(spec.layer == root for spec in specs)
+
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
         from usdvol_lint.facts.files.letter_case import recased
