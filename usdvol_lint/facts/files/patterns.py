@@ -23,6 +23,10 @@ _OTHER = re.compile(
 )
 
 
+_DIGITS_OF_WIDTH = 3
+"""The name of a file has at most 255 bytes."""
+
+
 class Frame(NamedTuple):
     """A file that a pattern stands for: its frame number and its name."""
 
@@ -43,8 +47,11 @@ def matching_frames(pattern: str, names: Iterable[str]) -> list[Frame]:
     found = _FRAME.search(pattern)
     if found is None:
         return []
-    width = int(next((digits for digits in found.groups() if digits), 0))
-    width = width or (len(found.group()) if found.group()[0] in "#@" else 1)
+    width = next((digits for digits in found.groups() if digits), "").lstrip("0") or "1"
+    if found.group()[0] in "#@":
+        width = str(len(found.group()))
+    if len(width) > _DIGITS_OF_WIDTH:
+        return []
     before, after = map(re.escape, (pattern[: found.start()], pattern[found.end() :]))
     name_of = re.compile(rf"{before}(-?\d{{{width},}}){after}")
     matches = map(name_of.fullmatch, names)
