@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
+    from usdvol_lint.facts.files.alike import Alike, Namesakes
     from usdvol_lint.facts.files.animation import UnlistedClips
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
     from usdvol_lint.facts.files.classify import AssetReader
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.gaps import Missing
     from usdvol_lint.facts.files.holes import Holes
     from usdvol_lint.facts.files.letter_case import Recased
+    from usdvol_lint.facts.files.malformed import Malformed
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
@@ -88,6 +90,13 @@ class Files(Wing):
 
         return find_absence(self._disk, path, authored)
 
+    @fact
+    def missing(self, field: Any) -> Affected | None:
+        """The missing files of `filePath` but those whose paths tell why they are not found."""
+        from usdvol_lint.facts.files.absences import unexplained
+
+        return unexplained(self.paths(field), self._disk, has_packages=self._has_packages)
+
     def sharing_missing_folder(self, field: Any) -> list[Any]:
         """The fields whose missing files all lie below the same missing folder, this one too.
 
@@ -95,6 +104,16 @@ class Files(Wing):
         """
         folder = self._missing_folders.get(field)
         return [] if folder is None else self._below_missing_folder[folder]
+
+    def alike(self, field: Any) -> Alike:
+        """What is known of other fields of the same prim that name the same files."""
+        return self._namesakes.of(field)
+
+    def malformed(self, field: Any) -> Iterator[Malformed]:
+        """The samples of `filePath` that not every platform reads alike."""
+        from usdvol_lint.facts.files.malformed import malformed
+
+        return malformed(self.paths(field))
 
     def frames(self, found: Affected) -> list[tuple[int, str]]:
         """The frame numbers and paths of the files that a path with a placeholder stands for."""
@@ -163,10 +182,15 @@ class Files(Wing):
         """By field, the one folder that is missing above all of its missing files."""
         from usdvol_lint.facts.files.absences import common_missing_folder
 
-        found = (
-            (field, common_missing_folder(paths, self._disk))
+        fields = (
+            (field, self.missing(field))
             for field, paths in self.paths.readable(schema.FIELD_ASSET)
             if AssetState.MISSING in paths.states
+        )
+        found = (
+            (field, common_missing_folder(missing, self._disk))
+            for field, missing in fields
+            if missing
         )
         return {field: folder for field, folder in found if folder}
 
@@ -179,6 +203,12 @@ class Files(Wing):
         for field in as_shown(self._missing_folders):
             fields[self._missing_folders[field]].append(field)
         return fields
+
+    @cached_property
+    def _namesakes(self) -> Namesakes:
+        from usdvol_lint.facts.files.alike import Namesakes
+
+        return Namesakes(self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
     def _reader(self) -> AssetReader:
