@@ -99,7 +99,7 @@ CASES: list[Case] = [
         "is of class 'level set'",
         "author fieldClass 'levelSet', or correct the grid",
     ),
-    ("grids/text.vdb", "density", (FLOAT,), "GRD001", "is no volume file: it begins like", ""),
+    ("grids/text.vdb", "density", (FLOAT,), "GRD001", "is not a volume file: its first", "copy it"),
     ("grids/broken.vdb", "density", (FLOAT,), "GRD001", "is broken: grid", "write it again, or"),
     ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "is a NanoVDB file, and", "convert it"),
     ("odd.vdb", "density", (FLOAT,), "GRD001", "is a Field3D file, and", "use a Field3DAsset"),

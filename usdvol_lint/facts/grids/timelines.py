@@ -60,6 +60,12 @@ class Timeline:
         )
 
     @property
+    def formats(self) -> frozenset[str]:
+        """The formats of the files that were looked into."""
+        readings = (content_class.content.reading.file for content_class, _ in self.classes)
+        return frozenset(file.format for file in readings if file)
+
+    @property
     def single_grid(self) -> bool:
         """Whether files were read, and each holds exactly one grid."""
         files = [content_class.content.file for content_class, _ in self.classes]
