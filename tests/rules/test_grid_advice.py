@@ -100,9 +100,9 @@ CASES: list[Case] = [
         "author fieldClass 'levelSet', or correct the grid",
     ),
     ("grids/text.vdb", "density", (FLOAT,), "GRD001", "is not a volume file: its first", "copy it"),
-    ("grids/broken.vdb", "density", (FLOAT,), "GRD001", "is broken: grid", "write it again, or"),
-    ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "is a NanoVDB file, and", "convert it"),
-    ("odd.vdb", "density", (FLOAT,), "GRD001", "is a Field3D file, and", "use a Field3DAsset"),
+    ("grids/broken.vdb", "density", (FLOAT,), "GRD001", "is broken: grid", "write or copy it"),
+    ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "is a NanoVDB file, but", "convert it"),
+    ("odd.vdb", "density", (FLOAT,), "GRD001", "is a Field3D file, but", "convert it"),
     (
         "x.f3d",
         "density",
