@@ -1,6 +1,6 @@
 """GRD013: the files of a sequence should hold the same grids."""
 
-from usdvol_lint.rule import WARNING, Facts, Grids, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import INFO, WARNING, Facts, Grids, Prim, Problem, Problems, When, rule
 
 
 @rule(
@@ -18,4 +18,5 @@ def grids_change(field: Prim, facts: Facts) -> Problems:
             f"{affected.shown} {difference}, unlike most of the sequence{affected.count}",
             at=affected,
             suggestion="look whether the frames come from one simulation",
+            severity=None if changes.is_asked_for else INFO,
         )

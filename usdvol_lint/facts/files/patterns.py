@@ -19,8 +19,10 @@ _FRAME = re.compile(
     re.VERBOSE | re.IGNORECASE,
 )
 _OTHER = re.compile(
-    r"<(?:UDIM|UVTILE)>|%\(UDIM\)d|\$\{[A-Za-z_]\w*\}|\$[A-Za-z_]\w*|[*]|`[^`]*`", re.IGNORECASE
+    r"<(?:UDIM|UVTILE)>|%\(UDIM\)d|\$\{[A-Za-z_]\w*\}|\$[A-Za-z_]\w*|%[A-Za-z_]\w*%|[*]|`[^`]*`",
+    re.IGNORECASE,
 )
+_VARIABLE = re.compile(r"\$\{([A-Za-z_]\w*)\}|\$([A-Za-z_]\w*)|%([A-Za-z_]\w*)%")
 
 
 _DIGITS_OF_WIDTH = 3
@@ -35,11 +37,26 @@ class Frame(NamedTuple):
 
 
 def find_pattern(path: str) -> str | None:
-    """The first placeholder in a path, as written; None if it has none."""
+    """The placeholders in a path, as written, in words; None if it has none."""
     if not _MARK.search(path):
         return None
-    found = _FRAME.search(path) or _OTHER.search(path)
-    return found.group() if found else None
+    found = [*_OTHER.finditer(path), *_FRAME.finditer(path)]
+    starts = {each.start(): each.group() for each in found}  # of two that begin alike the frame's
+    return " and ".join(repr(starts[at]) for at in sorted(starts)) or None
+
+
+def as_expression(path: str) -> str | None:
+    """A path as an expression with the environment variables in it; None if it has none."""
+    names = {each.start(): each for each in _VARIABLE.finditer(path)}
+    for frame in _FRAME.finditer(path):
+        names.pop(frame.start(), None)
+    if not names:
+        return None
+    parts, end = [], 0
+    for at, each in names.items():
+        parts += [path[end:at], f"${{{next(filter(None, each.groups()))}}}"]
+        end = each.end()
+    return f'`"{"".join(parts)}{path[end:]}"`'
 
 
 def matching_frames(pattern: str, names: Iterable[str]) -> list[Frame]:
