@@ -121,6 +121,18 @@ class Files(Wing):
 
         return find_frames(self._disk, found.anchored(), found.first.path)
 
+    def as_expression(self, found: Affected) -> str | None:
+        """The first path as an expression with the environment variables that it has; or None."""
+        from usdvol_lint.facts.files.patterns import as_expression
+
+        return as_expression(found.first.path)
+
+    def has_frame(self, found: Affected) -> bool:
+        """Whether the first path has a placeholder for a frame."""
+        from usdvol_lint.facts.files.patterns import has_frame
+
+        return has_frame(found.first.path)
+
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
         from usdvol_lint.facts.files.letter_case import recased

@@ -37,26 +37,37 @@ class Frame(NamedTuple):
 
 
 def find_pattern(path: str) -> str | None:
-    """The placeholders in a path, as written, in words; None if it has none."""
+    """The placeholders in a path, as written, with `' and '` between; None if it has none."""
     if not _MARK.search(path):
         return None
-    found = [*_OTHER.finditer(path), *_FRAME.finditer(path)]
-    starts = {each.start(): each.group() for each in found}  # of two that begin alike the frame's
-    return " and ".join(repr(starts[at]) for at in sorted(starts)) or None
+    frames = {each.start(): each for each in _FRAME.finditer(path)}
+    found = {each.start(): each for each in _OTHER.finditer(path)} | frames
+    written, end = [], 0
+    for start in sorted(found):
+        if start >= end:
+            written.append(found[start].group())
+            end = found[start].end()
+    return "' and '".join(dict.fromkeys(written)) or None
+
+
+def has_frame(path: str) -> bool:
+    """Whether a path has a placeholder for a frame."""
+    return bool(_FRAME.search(path))
 
 
 def as_expression(path: str) -> str | None:
-    """A path as an expression with the environment variables in it; None if it has none."""
-    names = {each.start(): each for each in _VARIABLE.finditer(path)}
-    for frame in _FRAME.finditer(path):
-        names.pop(frame.start(), None)
-    if not names:
+    """A path with environment variables as an expression; None if it has none, or can be none."""
+    if '"' in path or "`" in path:
         return None
-    parts, end = [], 0
-    for at, each in names.items():
-        parts += [path[end:at], f"${{{next(filter(None, each.groups()))}}}"]
-        end = each.end()
-    return f'`"{"".join(parts)}{path[end:]}"`'
+    frames = {each.start() for each in _FRAME.finditer(path)}
+
+    def variable(found: re.Match[str]) -> str:
+        name = next(filter(None, found.groups()))
+        return found.group() if found.start() in frames else f"${{{name}}}"
+
+    expression = _VARIABLE.sub(variable, path)
+    variables = (each for each in _VARIABLE.finditer(path) if each.start() not in frames)
+    return f'`"{expression}"`' if any(variables) else None
 
 
 def matching_frames(pattern: str, names: Iterable[str]) -> list[Frame]:
