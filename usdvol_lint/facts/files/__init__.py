@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.disk import Disk
     from usdvol_lint.facts.files.gaps import Missing
     from usdvol_lint.facts.files.holes import Holes
+    from usdvol_lint.facts.files.in_variants import VariantPath
     from usdvol_lint.facts.files.letter_case import Recased
     from usdvol_lint.facts.files.malformed import Malformed
     from usdvol_lint.facts.files.marks import PathMarks
@@ -150,6 +151,12 @@ class Files(Wing):
         from usdvol_lint.facts.files.origins import below_layer
 
         return below_layer(found)
+
+    def unselected_path(self, field: Any) -> VariantPath | None:
+        """A variant that is not selected, and that names a file for the field."""
+        from usdvol_lint.facts.files.in_variants import unselected_path
+
+        return unselected_path(field)
 
     def unlisted_clips(self, field: Any) -> UnlistedClips | None:
         """The clips that hold samples of `filePath` that their manifest does not declare."""
