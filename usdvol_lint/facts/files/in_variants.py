@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf
 
+from usdvol_lint.model import quoted
+
 
 class VariantPath(NamedTuple):
     """A variant that names a file for a field; `selected` is that of its set, or ""."""
@@ -14,6 +16,22 @@ class VariantPath(NamedTuple):
     set_name: str
     name: str
     selected: str
+
+    @property
+    def words(self) -> str:
+        """What a message about the path that the field lacks ends with."""
+        where = f"the variant set {quoted(self.set_name)}"
+        has = f", but the variant {quoted(self.name)} of {where} has one"
+        return f"{has}, and {'another' if self.selected else 'none'} is selected"
+
+    @property
+    def advice(self) -> str:
+        """What to do, so that the other variants stay what they are."""
+        where = f"the variant set {quoted(self.set_name)}"
+        what = f"select a variant of {where}"
+        if self.selected:
+            what = f"author it in the variant {quoted(self.selected)} of {where}"
+        return f"{what}: a path outside of it would hold for all variants"
 
 
 def unselected_path(field: Any) -> VariantPath | None:
