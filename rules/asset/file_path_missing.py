@@ -9,10 +9,12 @@ def file_path_missing(field: Prim, facts: Facts) -> Problems:
     if paths.names_a_path or facts.files.unlisted_clips(field) or facts.layers.may_lack_values(field):
         return
     what = "is empty" if paths.of(AssetState.EMPTY) else "is blocked" if paths.samples else "has no value"
+    variant = None if paths.samples else facts.files.unselected_path(field)
+    is_open = variant is not None and not variant.selected
     yield Problem(
-        f"filePath {what}" if paths.attribute.IsAuthored() else "no filePath",
+        (f"filePath {what}" if paths.attribute.IsAuthored() else "no filePath") + (variant.words if variant else ""),
         at=paths.attribute,
-        severity=INFO if facts.files.is_only_declared(field) else None,
-        suggestion="author the path of the file that holds the field",
+        severity=INFO if is_open or facts.files.is_only_declared(field) else None,
+        suggestion=variant.advice if variant else "author the path of the file that holds the field",
         absent=[lacks(field, "filePath")],
     )

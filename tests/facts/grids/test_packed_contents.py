@@ -28,13 +28,13 @@ def test_files_in_a_package_are_read_in_place(lint_text: Lint, tmp_path: Path) -
         (
             "GRD001",
             "4",
-            "'./text.vdb' is no volume file: it begins like no OpenVDB, NanoVDB or Field3D file "
-            "(at byte 0) (1 of 5 samples)",
+            "'./text.vdb' is not a volume file: its first bytes are not those of OpenVDB, NanoVDB "
+            "or Field3D (1 of 5 samples)",
         ),
         (
             "GRD001",
             "5",
-            "'./pointer.vdb' is no volume file: a Git-LFS pointer, not the file itself "
+            "'./pointer.vdb' is not a volume file: a Git-LFS pointer, not the file itself "
             "(1 of 5 samples)",
         ),
         (
