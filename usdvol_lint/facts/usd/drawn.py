@@ -69,7 +69,7 @@ class Drawn:
         return not is_in_prototype(prim) or self.appears(prototype_of(prim))
 
     def _is_below_root(self, prim: Any) -> bool:
-        while self.roots and has_specifier(prim):
+        while prim and has_specifier(prim):
             if prim in self.roots:
                 return True
             prim = get_parent(prim)
