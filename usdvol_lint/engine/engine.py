@@ -78,7 +78,7 @@ class Engine:
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)
-        found = list(self._sent(check.usd_version(facts)))
+        found = list(self._sent(chain(check.usd_version(facts), check.never_run(facts))))
         found += self._sent(check.selection(walked, facts))
         completes = completion(facts)
         stats = _stats(walked, facts, context.disk.checked)

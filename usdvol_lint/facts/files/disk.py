@@ -50,11 +50,16 @@ class Disk:
         return self._listings[folder]
 
     def missing_in_package(self, package: str, inner: str) -> str | None:
-        """The topmost folder that a package lacks above a path in it, if it lacks one."""
-        there = self.listing(package).folders
+        """The topmost folder that a package lacks above a path in it, if it lacks one.
+
+        A package of which nothing can be read may have any.
+        """
+        listing = self.listing(package)
+        if inner.startswith("../") or not listing.names:
+            return None
         outermost = inner.partition("[")[0]
-        missing = (each for each in folders_above(outermost) if each not in there)
-        return None if inner.startswith("../") else next(missing, None)
+        missing = (each for each in folders_above(outermost) if each not in listing.folders)
+        return next(missing, None)
 
     def siblings_with(self, folder: str, below: str) -> list[str]:
         """The names of the folders beside another that have a file at the path `below`, `/a.vdb`.
@@ -125,9 +130,13 @@ def file_fault(path: str) -> str | None:
         return FileFault.EMPTY
     if not status.st_mode & stat.S_IROTH and not os.access(path, os.R_OK):
         return FileFault.UNREADABLE
-    if len(LFS_POINTER) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
+    if _may_be_lfs(status.st_size) and _starts_like_lfs(path):
         return FileFault.LFS_POINTER
     return None
+
+
+def _may_be_lfs(size: int) -> bool:
+    return len(LFS_POINTER) < size <= _LFS_POINTER_LIMIT
 
 
 def _starts_like_lfs(path: str) -> bool:
@@ -145,4 +154,8 @@ def _package_fault(path: str) -> str | None:
         return FileFault.PACKED
     if asset is None:
         return FileFault.UNREADABLE
-    return FileFault.EMPTY if asset.GetSize() == 0 else None
+    size = asset.GetSize()
+    if size == 0:
+        return FileFault.EMPTY
+    is_pointer = _may_be_lfs(size) and bytes(asset.GetBuffer()).startswith(LFS_POINTER)
+    return FileFault.LFS_POINTER if is_pointer else None
