@@ -34,10 +34,14 @@ _COUNTED = frozenset({"scales", "opacities"})
 
 
 class ArraySample(NamedTuple):
-    """One value of an array: its time, None for the default, and its size, 0 where it is None."""
+    """One value of an array: its time, None for the default, and its size, 0 where it is None.
+
+    `is_blocked`: whether it is None, so that nothing is authored at that time.
+    """
 
     time: Time
     size: int
+    is_blocked: bool = False
 
 
 class ParticleArray:
@@ -67,7 +71,8 @@ class ParticleArray:
         self.most = max((sample.size for sample in samples), default=0)
         self.is_populated = self.most > 0
         self.total = total
-        self.sizes = StepSamples(samples)
+        sizes = ((each.time, None if each.is_blocked else each.size) for each in samples)
+        self.sizes = StepSamples(sizes)
         self._with_counts = with_counts
         self._advance = advance
 
