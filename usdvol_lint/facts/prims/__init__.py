@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.prims.transforms import TransformFaults
     from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.hidden import HiddenAnimation
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
@@ -27,8 +28,9 @@ if TYPE_CHECKING:
 class Prims(Wing):
     """The prims that rules ask for: schemas, attributes, extents, and Gprims above and below."""
 
-    def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips) -> None:
+    def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips, drawn: Drawn) -> None:
         super().__init__(tables)
+        self._drawn = drawn
         self._kinds = kinds
         self._clips = clips
 
@@ -126,7 +128,13 @@ class Prims(Wing):
         from usdvol_lint.facts.prims.ancestors import ancestors_of
 
         tables = self.tables.of(schema.VOLUME, schema.PARTICLE_FIELD)
-        return ancestors_of((table.batch for table in tables), self._kinds)
+        return ancestors_of((table.batch for table in tables), self._kinds, self._drawn)
+
+    def is_handed_down(self, above: Any, name: str) -> bool:
+        """Whether a Volume or particle field takes what a prim above it says of a property."""
+        from usdvol_lint.facts.prims.handed_down import is_handed_down
+
+        return is_handed_down(above, name, self._kinds)
 
     @fact
     def encoding(self, prim: Any) -> Encoding | None:

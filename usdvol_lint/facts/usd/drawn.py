@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import chain, filterfalse
 from typing import Any
 
@@ -35,14 +37,26 @@ class Drawn:
         """`instancers`: the PointInstancers of the stage, also those that are not drawn."""
         self.roots: set[Any] = set()
         self._appearing: dict[Any, bool] = {}
+        self._instancers: set[Any] = set()
         waiting = set(instancers)
         while ready := set(filter(self.__contains__, waiting)):
             waiting -= ready
-            self.roots.update(root for root in _prototypes(ready) if root not in self)
+            self._instancers |= ready
+            targets = chain.from_iterable(map(prototypes_of, ready))
+            self.roots.update(root for root in targets if root not in self)
             self._appearing.clear()
 
     def __contains__(self, prim: Any) -> bool:
         return bool(DRAWN_BELOW(prim)) and (self._is_reached(prim) or self._is_below_root(prim))
+
+    @cached_property
+    def instancers(self) -> Mapping[Any, Sequence[Any]]:
+        """The drawn PointInstancers, by each prim that they target."""
+        by_target: dict[Any, list[Any]] = defaultdict(list)
+        for instancer in self._instancers:
+            for target in prototypes_of(instancer):
+                by_target[target].append(instancer)
+        return by_target
 
     @property
     def out_of_reach(self) -> Iterator[Any]:
@@ -77,10 +91,9 @@ def _composed(root: Any) -> Any:
     return Usd.PrimRange(root, _COMPOSED)
 
 
-def _prototypes(instancers: Iterable[Any]) -> Iterator[Any]:
-    """The targets of PointInstancers, as the walk meets them."""
-    for instancer in instancers:
-        for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
-            target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
-            if target:
-                yield in_prototype(target)
+def prototypes_of(instancer: Any) -> Iterator[Any]:
+    """The targets of a PointInstancer, as the walk meets them."""
+    for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
+        target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
+        if target:
+            yield in_prototype(target)
