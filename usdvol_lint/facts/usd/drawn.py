@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import chain, filterfalse
 from typing import Any
 
@@ -35,17 +37,27 @@ class Drawn:
     def __init__(self, instancers: Iterable[Any] = ()) -> None:
         """`instancers`: the PointInstancers of the stage, also those that are not drawn."""
         self.roots: set[Any] = set()
-        self.instancers: list[Any] = []
+        self.instancers: set[Any] = set()
         self._appearing: dict[Any, bool] = {}
         waiting = set(instancers)
         while ready := set(filter(self.__contains__, waiting)):
             waiting -= ready
-            self.instancers += ready
-            self.roots.update(root for root in _prototypes(ready) if root not in self)
+            self.instancers |= ready
+            targets = chain.from_iterable(map(prototypes_of, ready))
+            self.roots.update(root for root in targets if root not in self)
             self._appearing.clear()
 
     def __contains__(self, prim: Any) -> bool:
         return bool(DRAWN_BELOW(prim)) and (self._is_reached(prim) or self._is_below_root(prim))
+
+    @cached_property
+    def instancers(self) -> Mapping[Any, Sequence[Any]]:
+        """The drawn PointInstancers, by each prim that they target."""
+        by_target: dict[Any, list[Any]] = defaultdict(list)
+        for instancer in self.instancers:
+            for target in prototypes_of(instancer):
+                by_target[target].append(instancer)
+        return by_target
 
     @property
     def out_of_reach(self) -> Iterator[Any]:
@@ -80,10 +92,9 @@ def _composed(root: Any) -> Any:
     return Usd.PrimRange(root, _COMPOSED)
 
 
-def _prototypes(instancers: Iterable[Any]) -> Iterator[Any]:
-    """The targets of PointInstancers, as the walk meets them."""
-    for instancer in instancers:
-        for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
-            target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
-            if target:
-                yield in_prototype(target)
+def prototypes_of(instancer: Any) -> Iterator[Any]:
+    """The targets of a PointInstancer, as the walk meets them."""
+    for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
+        target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
+        if target:
+            yield in_prototype(target)
