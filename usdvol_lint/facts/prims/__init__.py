@@ -182,7 +182,7 @@ class Prims(Wing):
         """The paths of the prototypes that PointInstancers show at changing places."""
         from usdvol_lint.facts.usd.instancers import moved_prototypes
 
-        return moved_prototypes(self._drawn.instancers)
+        return moved_prototypes(self._drawn.live_instancers)
 
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:

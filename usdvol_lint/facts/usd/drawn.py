@@ -30,19 +30,19 @@ class Drawn:
     A prim is drawn if it is defined up to the root, or up to a target of a PointInstancer's
     `prototypes`, which may lie below an `over`; what is in a prototype is if one of its instances
     is.  Imaging passes over a `class` there too.
-    `instancers` are the PointInstancers that are drawn, in no certain order.
+    `live_instancers` are the PointInstancers that are drawn, in no certain order.
     `roots` are such targets that no traversal reaches, those in a `class` among them.
     """
 
     def __init__(self, instancers: Iterable[Any] = ()) -> None:
         """`instancers`: the PointInstancers of the stage, also those that are not drawn."""
         self.roots: set[Any] = set()
-        self.instancers: set[Any] = set()
+        self.live_instancers: set[Any] = set()
         self._appearing: dict[Any, bool] = {}
         waiting = set(instancers)
         while ready := set(filter(self.__contains__, waiting)):
             waiting -= ready
-            self.instancers |= ready
+            self.live_instancers |= ready
             targets = chain.from_iterable(map(prototypes_of, ready))
             self.roots.update(root for root in targets if root not in self)
             self._appearing.clear()
@@ -54,7 +54,7 @@ class Drawn:
     def instancers(self) -> Mapping[Any, Sequence[Any]]:
         """The drawn PointInstancers, by each prim that they target."""
         by_target: dict[Any, list[Any]] = defaultdict(list)
-        for instancer in self.instancers:
+        for instancer in self.live_instancers:
             for target in prototypes_of(instancer):
                 by_target[target].append(instancer)
         return by_target
