@@ -20,7 +20,7 @@ def clips_unused(root: Prim, facts: Facts) -> Problems:
     for left in facts.layers.clips_left_behind:
         clips = f"the value clips of <{left.path}> in {quoted(left.layer.GetDisplayName())}"
         what = f"{clips} do not reach what is below the instance that carries them"
-        advice = "author them on a prim above it, or remove instanceable"
+        advice = "remove instanceable, or carry the clips on a prim inside what is instanced"
         if not left.by_instance:
             what = f"an arc to a prim below leaves behind {clips}"
             advice = f"bring in <{left.path}>, or author its clips here too"
