@@ -150,6 +150,15 @@ def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
         return ()
 
 
+def is_from_clips(attribute: Any) -> bool:
+    """Whether the first time sample of an attribute is one of value clips."""
+    times = attribute.GetTimeSamples()
+    if not times:
+        return False
+    source = attribute.GetResolveInfo(times[0]).GetSource()
+    return bool(source == Usd.ResolveInfoSourceValueClips)
+
+
 def concerns_only_clips(error: Any, stage: Any) -> bool:
     """Whether an error that USD raised is about value clips that do not open, and nothing else.
 
