@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
-from pxr import Sdf, Usd
+from pxr import Sdf, Tf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.layers.lost_clips import without_samples
@@ -85,6 +85,8 @@ def _stopped(stage: Any, path: Any, still: dict[Any, list[Any]]) -> Iterator[Sto
     """What the clips at and above a path bring where it is, like those above, no instance."""
     found: dict[Any, list[Any]] = defaultdict(list)
     freed = _freed(stage, path)
+    if freed is None:
+        return
     for prim, attributes in still.items():
         other = freed.GetPrimAtPath(Sdf.Path(f"{path}{path_in_prototype(prim)}"))
         for attribute in attributes if other else ():
@@ -96,8 +98,8 @@ def _stopped(stage: Any, path: Any, still: dict[Any, list[Any]]) -> Iterator[Sto
         yield StoppedClips(instance, _first_with(instance, "instanceable"), carrier, tuple(lost))
 
 
-def _freed(stage: Any, path: Any) -> Any:
-    """The stage around a path, without the instances there and above."""
+def _freed(stage: Any, path: Any) -> Any | None:
+    """The stage around a path, without the instances there and above; None if clips do not open."""
     session = Sdf.Layer.CreateAnonymous(".usda")
     if stage.GetSessionLayer():
         session.subLayerPaths.append(stage.GetSessionLayer().identifier)
@@ -107,7 +109,10 @@ def _freed(stage: Any, path: Any) -> Any:
             session.GetPrimAtPath(prefix).SetInfo("instanceable", False)
     mask = Usd.StagePopulationMask([path])
     context = stage.GetPathResolverContext()
-    return Usd.Stage.OpenMasked(stage.GetRootLayer(), session, context, mask)
+    try:
+        return Usd.Stage.OpenMasked(stage.GetRootLayer(), session, context, mask)
+    except Tf.ErrorException:
+        return None  # USD makes a manifest where there is none, and so opens the clips
 
 
 def _carrier(attribute: Any) -> Any:
