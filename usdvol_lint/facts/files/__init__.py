@@ -13,7 +13,7 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.files.animation import UnlistedClips
+    from usdvol_lint.facts.files.animation import EmptyClip, UnlistedClips
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
     from usdvol_lint.facts.files.classify import AssetReader
     from usdvol_lint.facts.files.corrections import Absence
@@ -125,6 +125,12 @@ class Files(Wing):
         from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
+
+    def empty_clip(self, field: Any) -> EmptyClip | None:
+        """A clip that has the prim that it is asked for, but no samples of `filePath`."""
+        from usdvol_lint.facts.files.animation import empty_clip
+
+        return empty_clip(self.paths(field).attribute, self._clips.reaching(field))
 
     def still(self, field: Any, time_range: tuple[float, float] | None) -> Still | None:
         """The file of a sequence on disk that `filePath` names at all times.

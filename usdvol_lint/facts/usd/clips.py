@@ -53,10 +53,11 @@ class ClipSet(NamedTuple):
 
     def _with_samples(self, attribute: Any) -> Iterator[Any]:
         path = self.path_in_layers(attribute)
-        for clip in self.clips[:_CLIPS_OPENED]:
-            layer = open_layer(clip)
-            if layer and layer.GetNumTimeSamplesForPath(path):
-                yield layer
+        return (layer for layer in self.opened() if layer.GetNumTimeSamplesForPath(path))
+
+    def opened(self) -> Iterator[Any]:
+        """The layers of the first clips, as far as they open."""
+        return filter(None, map(open_layer, self.clips[:_CLIPS_OPENED]))
 
     def clip_at(self, time: float) -> str | None:
         """The authored path of the clip that is active at a time of the stage."""
