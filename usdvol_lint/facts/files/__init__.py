@@ -82,11 +82,15 @@ class Files(Wing):
         sequence = self.sequence(field)
         return find_holes(sequence, self._clips.reaching(field)) if sequence else None
 
-    def absence(self, path: str, authored: str) -> Absence:
-        """Why nothing is at an absolute path; `authored` is the text that it comes from."""
+    def absence(self, path: str, authored: str, by: Any | None = None) -> Absence:
+        """Why nothing is at an absolute path; `authored` is the text that it comes from.
+
+        `by` is the layer that names it as a layer, which is neither itself nor the stage's.
+        """
         from usdvol_lint.facts.files.corrections import find_absence
 
-        return find_absence(self._disk, path, authored)
+        not_meant = (by.realPath, self._stage.GetRootLayer().realPath) if by else ()
+        return find_absence(self._disk, path, authored, not_meant)
 
     def sharing_missing_folder(self, field: Any) -> list[Any]:
         """The fields whose missing files all lie below the same missing folder, this one too.
