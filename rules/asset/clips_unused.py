@@ -20,20 +20,27 @@ def clips_unused(root: Prim, facts: Facts) -> Problems:
             absent=absent(lost),
         )
     for left in facts.layers.clips_left_behind:
-        clips = f"the value clips of <{left.path}> in {quoted(left.layer.GetDisplayName())}"
-        what = f"{clips} do not reach what is below the instance that carries them"
-        advice = "author them on a prim above it, or remove instanceable"
-        if not left.by_instance:
-            what = f"an arc to a prim below leaves behind {clips}"
-            advice = f"bring in <{left.path}>, or author its clips here too"
         yield Problem(
-            f"{what}: {effect(left)}",
+            f"an arc to a prim below leaves behind {clips(left)}: {effect(left)}",
             at=left.prim,
             spec=left.spec,
-            suggestion=advice,
+            suggestion=f"bring in <{left.path}>, or author its clips here too",
             severity=None if left.without_value else WARNING,
             absent=absent(left),
         )
+    for stopped in facts.layers.stopped_clips:
+        yield Problem(
+            f"{clips(stopped.carrier)} do not reach into this instance: {effect(stopped)}",
+            at=stopped.instance,
+            spec=stopped.spec,
+            suggestion="remove instanceable, or carry the clips on a prim inside what is instanced",
+            severity=None if stopped.without_value else WARNING,
+        )
+
+
+def clips(carrier: Any) -> str:
+    """The clips of a prim in a layer."""
+    return f"the value clips of <{carrier.path}> in {quoted(carrier.layer.GetDisplayName())}"
 
 
 def effect(lost: Any) -> str:

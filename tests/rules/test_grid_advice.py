@@ -119,14 +119,6 @@ CASES: list[Case] = [
         "holds grids named 'v' in 'cloud', 'smoke'",
         "author the fieldPurpose that is meant",
     ),
-    (
-        "grids/unnamed.vdb",
-        "",
-        (FLOAT,),
-        "GRD009",
-        "a grid without a name",
-        "name it in the file",
-    ),
     ("grids/version_226.vdb", "density", (FLOAT,), "GRD010", "226 is newer than 225", "write it"),
     ("grids/version_221.vdb", "density", (FLOAT,), "GRD010", "221 is older than 222", "write it"),
     (

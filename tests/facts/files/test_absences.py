@@ -135,3 +135,13 @@ def test_no_end_of_folders_is_searched(tmp_path: Path, monkeypatch: pytest.Monke
     assert disk.siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
     assert disk.siblings_with(f"{tmp_path}/b", "/1.vdb") == []
     assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == []  # of the next stage
+
+
+def test_a_file_that_is_not_meant(tmp_path: Path) -> None:
+    """A layer is not meant by what it names itself, also where only the case differs."""
+    own = tmp_path / "shot.usda"
+    own.touch()
+    for name in ("Shot.usda", "shop.usda"):
+        path = f"{tmp_path}/{name}"
+        assert find_absence(Disk(), path, f"./{name}").similar == "./shot.usda"
+        assert find_absence(Disk(), path, f"./{name}", [str(own)]) == Absence("", None)

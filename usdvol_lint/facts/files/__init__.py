@@ -14,7 +14,7 @@ from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.alike import Alike, Namesakes
-    from usdvol_lint.facts.files.animation import UnlistedClips
+    from usdvol_lint.facts.files.animation import EmptyClip, UnlistedClips
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
     from usdvol_lint.facts.files.classify import AssetReader
     from usdvol_lint.facts.files.corrections import Absence
@@ -85,11 +85,15 @@ class Files(Wing):
         sequence = self.sequence(field)
         return find_holes(sequence, self._clips.reaching(field)) if sequence else None
 
-    def absence(self, path: str, authored: str) -> Absence:
-        """Why nothing is at an absolute path; `authored` is the text that it comes from."""
+    def absence(self, path: str, authored: str, by: Any | None = None) -> Absence:
+        """Why nothing is at an absolute path; `authored` is the text that it comes from.
+
+        `by` is the layer that names it as a layer, which is neither itself nor the stage's.
+        """
         from usdvol_lint.facts.files.corrections import find_absence
 
-        return find_absence(self._disk, path, authored)
+        not_meant = (by.realPath, self._stage.GetRootLayer().realPath) if by else ()
+        return find_absence(self._disk, path, authored, not_meant)
 
     @fact
     def missing(self, field: Any) -> Affected | None:
@@ -169,6 +173,12 @@ class Files(Wing):
         from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
+
+    def empty_clip(self, field: Any) -> EmptyClip | None:
+        """A clip that has the prim that it is asked for, but no samples of `filePath`."""
+        from usdvol_lint.facts.files.animation import empty_clip
+
+        return empty_clip(self.paths(field).attribute, self._clips.reaching(field))
 
     def still(self, field: Any, time_range: tuple[float, float] | None) -> Still | None:
         """The file of a sequence on disk that `filePath` names at all times.

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.lost_clips import LostClips
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.retyping import Retyped
+    from usdvol_lint.facts.layers.stopped_clips import StoppedClips
     from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
@@ -114,10 +115,25 @@ class Layers(Wing):
         return tuple(each for each in left if not self._composition.may_lack_values(each.prim))
 
     @cached_property
+    def stopped_clips(self) -> tuple[StoppedClips, ...]:
+        """The value clips on instances and above them, which do not reach into them."""
+        if not self._stage.GetPrototypes():
+            return ()
+        from usdvol_lint.facts.layers.stopped_clips import find_stopped
+
+        stopped = find_stopped(self._stage, self.tables)
+        return tuple(
+            each for each in stopped if not self._composition.may_lack_values(each.instance)
+        )
+
+    @cached_property
     def _losing(self) -> frozenset[Any]:
-        lost = [attribute for each in self.lost_clips for attribute in each.attributes]
-        left = [attribute for each in self.clips_left_behind for attribute in each.attributes]
-        return frozenset(attribute.GetPrim() for attribute in (*lost, *left))
+        return frozenset(
+            attribute.GetPrim()
+            for losses in (self.lost_clips, self.clips_left_behind, self.stopped_clips)
+            for each in losses
+            for attribute in each.attributes
+        )
 
     @property
     def are_several(self) -> bool:

@@ -73,7 +73,7 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
             attributes = tuple(
                 attribute
                 for prim in ours
-                for attribute in _without_samples(tables, prim)
+                for attribute in without_samples(tables, prim)
                 if _is_lost(unused, attribute)
             )
             if attributes:
@@ -87,7 +87,7 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
                 )
 
 
-def _without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
+def without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
     """The attributes of ours that may be animated, and are not."""
     table, _ = tables.find(prim)
     for name in schema.attributes_of(table.authored.schemas):

@@ -53,10 +53,11 @@ class ClipSet(NamedTuple):
 
     def _with_samples(self, attribute: Any) -> Iterator[Any]:
         path = self.path_in_layers(attribute)
-        for clip in self.clips[:_CLIPS_OPENED]:
-            layer = open_layer(clip)
-            if layer and layer.GetNumTimeSamplesForPath(path):
-                yield layer
+        return (layer for layer in self.opened() if layer.GetNumTimeSamplesForPath(path))
+
+    def opened(self) -> Iterator[Any]:
+        """The layers of the first clips, as far as they open."""
+        return filter(None, map(open_layer, self.clips[:_CLIPS_OPENED]))
 
     def clip_at(self, time: float) -> str | None:
         """The authored path of the clip that is active at a time of the stage."""
@@ -148,6 +149,15 @@ def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
     except Tf.ErrorException:
         # USD raises where a template matches no file, and for a set that it can't use.
         return ()
+
+
+def is_from_clips(attribute: Any) -> bool:
+    """Whether the first time sample of an attribute is one of value clips."""
+    times = attribute.GetTimeSamples()
+    if not times:
+        return False
+    source = attribute.GetResolveInfo(times[0]).GetSource()
+    return bool(source == Usd.ResolveInfoSourceValueClips)
 
 
 def concerns_only_clips(error: Any, stage: Any) -> bool:
