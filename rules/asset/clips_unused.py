@@ -11,39 +11,29 @@ from usdvol_lint.schema import CLIPS
 def clips_unused(root: Prim, facts: Facts) -> Problems:
     for lost in facts.layers.lost_clips:
         bearer, them = (f"the clip set {quoted(lost.name)}", "it") if lost.name else ("clips", "them")
-        yield Problem(
-            f"{bearer} {lost.fault.what}: USD does not use {them}, and {effect(lost)}",
-            at=lost.prim,
-            spec=lost.spec,
-            suggestion=lost.advice,
-            severity=None if lost.without_value else WARNING,
-            absent=absent(lost),
-        )
+        what = f"{bearer} {lost.fault.what}: USD does not use {them}, and "
+        yield _problem(lost, what, lost.prim, lost.advice, absent=_absent(lost))
     for left in facts.layers.clips_left_behind:
-        yield Problem(
-            f"an arc to a prim below leaves behind {clips(left)}: {effect(left)}",
-            at=left.prim,
-            spec=left.spec,
-            suggestion=f"bring in <{left.path}>, or author its clips here too",
-            severity=None if left.without_value else WARNING,
-            absent=absent(left),
-        )
+        what = f"an arc to a prim below leaves behind {_clips(left)}: "
+        advice = f"bring in <{left.path}>, or author its clips here too"
+        yield _problem(left, what, left.prim, advice, absent=_absent(left))
     for stopped in facts.layers.stopped_clips:
-        yield Problem(
-            f"{clips(stopped.carrier)} do not reach into this instance: {effect(stopped)}",
-            at=stopped.instance,
-            spec=stopped.spec,
-            suggestion="remove instanceable, or carry the clips on a prim inside what is instanced",
-            severity=None if stopped.without_value else WARNING,
-        )
+        what = f"{_clips(stopped.carrier)} do not reach into this instance: "
+        advice = "remove instanceable, or carry the clips on a prim inside what is instanced"
+        yield _problem(stopped, what, stopped.instance, advice)
 
 
-def clips(carrier: Any) -> str:
+def _problem(lost: Any, what: str, prim: Prim, advice: str | None, **more: Any) -> Problem:
+    level = None if lost.without_value else WARNING
+    return Problem(what + _effect(lost), at=prim, spec=lost.spec, suggestion=advice, severity=level, **more)
+
+
+def _clips(carrier: Any) -> str:
     """The clips of a prim in a layer."""
     return f"the value clips of <{carrier.path}> in {quoted(carrier.layer.GetDisplayName())}"
 
 
-def effect(lost: Any) -> str:
+def _effect(lost: Any) -> str:
     """What the attributes lack."""
     missed: Sequence[Any] = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
@@ -51,6 +41,6 @@ def effect(lost: Any) -> str:
     return f"{names} {'has' if len(missed) == 1 else 'have'} {what}"
 
 
-def absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
+def _absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
     """What each attribute lacks: what the clips need, or a value from elsewhere."""
     return [(*lacks(lost.prim, CLIPS), *lacks(each.GetPrim(), each.GetName())) for each in lost.attributes]
