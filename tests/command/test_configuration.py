@@ -59,6 +59,7 @@ ignore = ["STU002"]
 packs = ["pack"]
 fail-on = "warning"
 output-format = "json"
+show = ["info"]
 load = "none"
 variants = "all"
 variant-limit = 7
@@ -79,6 +80,7 @@ strict = true
         "options": {"volume-name": {"allowed": ["fog"], "share": 2}, "STU001": {"strict": True}},
         "packs": [str(tmp_path / "pack")],
         "fail_on": "warning",
+        "show": ["info"],
         "load": "none",
         "variants": "all",
         "variant_limit": 7,
@@ -102,6 +104,8 @@ strict = true
         ("variants = true", "variants must be one of selected, all, not True"),
         ("variant-limit = 0", "variant-limit must be a whole number from 1, not 0"),
         ("select = 'AST'", "select must be a list of strings, not 'AST'"),
+        ("show = 'info'", "show must be a list of strings, not 'info'"),
+        ("show = ['infos']", "show must be one of info, not 'infos'; did you mean 'info'?"),
         ("ignore = ['AST', 3]", "ignore must be a list of strings, not ['AST', 3]"),
         ("packs = true", "packs must be a list of strings, not True"),
         ("severity = 'error'", "severity must be a table, not 'error'"),

@@ -93,8 +93,43 @@ def test_exit_code(arguments: str, code: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("file", "arguments", "is_shown"),
+    [
+        ("", "", False),
+        ("", "--fail-on never", False),
+        ("", "--fail-on warning", False),
+        ("", "--fail-on info", True),
+        ("", "--show info", True),
+        ("", "--show info --show info --quiet", True),
+        ("", "--quiet", False),
+        ("", "--verbose", True),
+        ('show = ["info"]', "", True),
+        ('fail-on = "info"', "", True),
+        ('fail-on = "info"', "--fail-on error", False),
+    ],
+)
+def test_infos_are_shown_to_those_who_ask(
+    file: str, arguments: str, is_shown: bool, tmp_path: Path
+) -> None:
+    """On standard output as in files; else a line counts them, which --quiet leaves out too."""
+    write(tmp_path, fog=volume("fog"))
+    (tmp_path / "usdvol-lint.toml").write_text(file, encoding="utf-8")
+    studio = ("--pack", STUDIO, "--select", "STU001", "--severity", "STU=info")
+    report = ("--output-format", "concise", "--output", "report.txt", "--output-format", "full")
+    ran = run(*studio, *arguments.split(), *report, "fog.usda", cwd=tmp_path)
+    assert ("STU001" in ran.out) == is_shown
+    assert ("STU001" in (tmp_path / "report.txt").read_text(encoding="utf-8")) == is_shown
+    assert ("1 info, shown with --show info" in ran.out) == (
+        not is_shown and "--quiet" not in arguments
+    )
+    assert is_shown or "--quiet" not in arguments or ran.out == ""
+
+
+@pytest.mark.parametrize(
     ("arguments", "said"),
     [
+        ("--show infos .", "--show must be one of info, not 'infos'; did you mean 'info'?"),
+        ("--show info --show xyzzy .", "--show must be one of info, not 'xyzzy'"),
         ("--select STU01x .", "no rule code starts with 'STU01x'; did you mean 'STU001'?"),
         (
             "--ignore volume-name .",

@@ -37,9 +37,10 @@ GOLDENS = (
     ("full.txt", EVERYTHING, "full", Options()),
     ("full-quiet.txt", EVERYTHING, "full", Options(quiet=True)),
     ("full-verbose.txt", EVERYTHING, "full", Options(verbose=True)),
-    ("full-color.txt", EVERYTHING, "full", Options(color=True, width=80)),
-    ("full-color-wide.txt", INFOS, "full", Options(color=True, width=200)),
-    ("full-infos.txt", INFOS, "full", Options()),
+    ("full-color.txt", EVERYTHING, "full", Options(color=True, width=80, least=Severity.INFO)),
+    ("full-color-wide.txt", INFOS, "full", Options(color=True, width=200, least=Severity.INFO)),
+    ("full-infos.txt", INFOS, "full", Options(least=Severity.INFO)),
+    ("full-infos-counted.txt", INFOS, "full", Options()),
     ("full-clean.txt", NOTHING, "full", Options()),
     ("full-clean-color.txt", NOTHING, "full", Options(color=True)),
     ("concise.txt", EVERYTHING, "concise", Options()),
@@ -91,7 +92,7 @@ def test_json_does_not_depend_on_presentation() -> None:
         ((CLEAN,), "no findings in 1 stage; 1 volume, 1 file checked in 1.2 s"),
         (
             (SMOKE,),
-            "3 errors, 1 warning, 1 info in 1 stage; "
+            "3 errors, 1 warning in 1 stage; 1 info, shown with --show info; "
             "11 volumes, 1 particle field, 31,204 files checked in 1.2 s",
         ),
         (
@@ -103,22 +104,39 @@ def test_json_does_not_depend_on_presentation() -> None:
             "no findings in 3 stages; 1 volume, 1 file checked in 1.2 s; "
             "2 stages could not be checked",
         ),
+        (
+            (INFOS.stages[0], CLEAN, INFOS.stages[0]),
+            "no errors or warnings in 3 stages; 2 infos, shown with --show info; "
+            "23 volumes, 2 particle fields, 62,409 files checked in 1.2 s",
+        ),
     ],
-    ids=["none", "clean", "one", "no-volumes", "unchecked"],
+    ids=["none", "clean", "one", "no-volumes", "unchecked", "infos"],
 )
 def test_verdict(stages: tuple[StageReport, ...], expected: str) -> None:
-    assert verdict(report(*stages)) == expected
+    assert verdict(report(*stages), Options()) == expected
 
 
 def test_verdict_of_a_short_run() -> None:
-    assert verdict(NOTHING._replace(seconds=0.049)).endswith(" in 0.05 s")
+    assert verdict(NOTHING._replace(seconds=0.049), Options()).endswith(" in 0.05 s")
+
+
+def test_infos_are_shown_where_they_are_asked_for() -> None:
+    """Else people have their number, and with --quiet not even that."""
+    assert render(INFOS, "full", Options(quiet=True)) == ""
+    assert render(INFOS, "concise", Options()) == ""
+    for asked in (Options(least=Severity.INFO), Options(verbose=True)):
+        for format in ("full", "concise"):
+            said = render(INFOS, format, asked)
+            assert "FLD003" in said
+            assert "--show" not in said
 
 
 def test_wrapping_keeps_every_word_and_quoted_path() -> None:
     """A terminal of any width shows the same words, and paths in one piece."""
     for width in range(1, 120):
-        text = render(EVERYTHING, "full", Options(color=True, width=width))
-        wide = render(EVERYTHING, "full", Options(color=True, width=10_000))
+        options = Options(color=True, width=width, least=Severity.INFO)
+        text = render(EVERYTHING, "full", options)
+        wide = render(EVERYTHING, "full", options._replace(width=10_000))
         assert text.split() == wide.split()
         assert "'../vdb cache/smoke.0102.vdb'" in text
         assert LONG_PRIM in text

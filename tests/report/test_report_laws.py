@@ -101,6 +101,7 @@ OPTIONS = st.builds(
     width=st.integers(1, 200),
     quiet=st.booleans(),
     verbose=st.booleans(),
+    least=st.sampled_from([Severity.INFO, Severity.WARNING]),
 )
 
 LAW = settings(deadline=None)
@@ -133,9 +134,15 @@ def joined(text: str) -> str:
 
 @LAW
 @given(REPORTS, OPTIONS)
-def test_concise_has_one_line_a_finding(subject: Report, options: Options) -> None:
+def test_concise_has_one_line_a_finding_that_is_shown(subject: Report, options: Options) -> None:
     text = render(subject, "concise", options)
-    assert len(text.splitlines()) == sum(len(stage.findings) for stage in subject.stages)
+    shown = [
+        finding
+        for stage in subject.stages
+        for finding in stage.findings
+        if options.verbose or finding.severity >= options.least
+    ]
+    assert len(text.splitlines()) == len(shown)
     assert options.color or text.replace("\n", "").isprintable()
     text.encode("utf-8")
 

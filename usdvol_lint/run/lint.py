@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 _SHAPING = (
-    *("options", "packs", "fail_on"),
+    *("options", "packs", "fail_on", "show"),
     *("load", "content", "variants", "variant_limit", "times", "timeout"),
 )
 
