@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from answers import bounds, stage, with_particles
-from pxr import Gf
+import numpy as np
+import pytest
+from answers import Said, bounds, stage, with_particles
+from pxr import Gf, Usd
 
 SPLATS = 'def ParticleField3DGaussianSplat "splats"\n{\n    %s\n}\n'
 DEGREE = "radiance:sphericalHarmonicsDegree"
@@ -34,3 +36,48 @@ def test_ARR025_a_stronger_default_holds_at_all_times() -> None:
     found = stage(strong, weak=weak).GetPrimAtPath("/splats").GetAttribute("positions")
     assert found.GetTimeSamples() == []
     assert list(found.Get(1)) == [Gf.Vec3f(0)]
+
+
+def colour_space(metadata: str, own: str = "") -> tuple[str, list[str]]:
+    """The colour space of a prim's coefficients, and what USD warns of."""
+    lines = f'uniform token colorSpace:name = "%s"\n    float3[] c = [(0, 0, 0)] ({own})'
+    name, *apis = metadata.split()
+    head = f'prepend apiSchemas = ["{apis[0]}"]' if apis else ""
+    asked = stage(f'def Xform "it" ({head})\n{{\n    {lines % name}\n}}\n')
+    attribute = asked.GetPrimAtPath("/it").GetAttribute("c")
+    with Said() as said:
+        return str(Usd.ColorSpaceAPI.ComputeColorSpaceName(attribute, None)), said
+
+
+@with_particles
+@pytest.mark.parametrize(
+    ("authored", "found", "warnings"),
+    [
+        ("srgb_rec709_display ColorSpaceAPI", "", 1),
+        ("srgb_rec709_scene ColorSpaceAPI", "srgb_rec709_scene", 0),
+        ("srgb_rec709_scene", "", 0),
+    ],
+)
+def test_ARR016_a_name_has_to_be_known_and_the_api_applied(
+    authored: str, found: str, warnings: int
+) -> None:
+    name, said = colour_space(authored)
+    assert (name, len(said)) == (found, warnings)
+
+
+@with_particles
+def test_ARR016_an_own_colour_space_comes_first() -> None:
+    authored = "srgb_rec709_scene ColorSpaceAPI"
+    assert colour_space(authored, 'colorSpace = "lin_rec709_scene"') == ("lin_rec709_scene", [])
+
+
+def test_ARR020_steps_grow_with_the_number() -> None:
+    halfs = [np.spacing(np.float16(number)) for number in (100, 1500)]
+    assert halfs == [0.0625, 1]
+    assert np.spacing(np.float32(5_000_000)) == 0.5
+
+
+def test_ARR007_a_half_ends_at_65504() -> None:
+    text = 'def "it"\n{\n    half[] a = [65504, 70000]\n}\n'
+    found = stage(text).GetPrimAtPath("/it").GetAttribute("a").Get()
+    assert list(found) == [65504, float("inf")]

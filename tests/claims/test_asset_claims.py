@@ -183,3 +183,16 @@ def test_AST016_a_reference_below_leaves_the_clips_behind() -> None:
     arc = 'def "it" (references = @asset@<%s>)\n{\n}\n'
     assert path_of(stage(arc % "/v", asset=body), "/it/d").Get(1).path == "a.vdb"
     assert path_of(stage(arc % "/v/d", asset=body), "/it").Get(1) is None
+
+
+def test_AST016_a_stride_of_0_is_a_warning(tmp_path: Path) -> None:
+    template = 'string templateAssetPath = "./c.#.usda"\ndouble templateStartTime = 1\n'
+    keys = f"{WHOLE[0]}\n{template}double templateEndTime = 1\ndouble templateStride = %s"
+    (tmp_path / "c.1.usda").write_text(f"#usda 1.0\n{CLIP}")
+    for stride, path, warnings in ((1, "a.vdb", 0), (0, None, 1)):
+        shot = tmp_path / f"{stride}.usda"
+        shot.write_text("#usda 1.0\n" + CLIPPED % (keys % stride, ""))
+        with Said() as said:
+            opened = Usd.Stage.Open(str(shot))
+            found = path_of(opened, "/v/d").Get(1)
+        assert (found and found.path, len(said)) == (path, warnings)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from answers import Said, stage, with_particles
-from pxr import Usd, UsdVol
+from pxr import Usd, UsdShade, UsdVol
 
 pytestmark = with_particles
 
@@ -78,3 +78,11 @@ def test_PRT008_the_splat_type_has_six_apis_and_hints() -> None:
     assert not by_parts.IsA(UsdVol.ParticleField3DGaussianSplat)
     assert asked.HasAttribute("sortingModeHint")
     assert not by_parts.HasAttribute("sortingModeHint")
+
+
+def test_PRT003_a_binding_counts_without_its_api() -> None:
+    text = 'def ParticleField "splats"\n{\n    rel material:binding = </look>\n}\n'
+    splats = stage(text + 'def Material "look"\n{\n}\n').GetPrimAtPath("/splats")
+    assert not splats.HasAPI(UsdShade.MaterialBindingAPI)
+    bound, _ = UsdShade.MaterialBindingAPI(splats).ComputeBoundMaterial()
+    assert bound.GetPath() == "/look"
