@@ -161,6 +161,14 @@ class Volumes(Wing):
         """A predicate for later: whether no variant selection until then uses the field."""
         return self._used.never_get(field.GetPath())
 
+    def is_hidden(self, field: Any, times: Sequence[float]) -> bool:
+        """Whether a field, or each of the Volumes that bind it, is invisible at all these times."""
+        from usdvol_lint.facts.volumes.visibility import is_hidden
+
+        slot = self.tables.field_slots.get(field.GetPath())
+        bound = self.bound_fields.readable(schema.VOLUME)
+        return is_hidden(field, [volume for volume, fields in bound if slot in fields.slots], times)
+
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How transforms move a field relative to a Volume that binds it, if they do."""
         from usdvol_lint.facts.volumes.placement import displacement
