@@ -9,8 +9,9 @@ def array_too_long(particles: Prim, facts: Facts) -> Problems:
     for array in arrays.used("orientations", "scales", "opacities"):
         long = arrays.too_long(array)
         if long:
+            default = facts.particles.misfitting_default(particles, array)
             yield Problem(
                 long.words,
                 at=long,
-                suggestion="author one element for each position",
+                suggestion=f"{default}: remove it" if default else "author one element for each position",
             )

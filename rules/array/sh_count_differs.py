@@ -16,11 +16,13 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             (arrays.too_long(array, each), WARNING),
         ):
             if misfits:
+                default = facts.particles.misfitting_default(particles, array, each)
+                advice = f"author {each:,} coefficient{'s' * (each > 1)} for each position"
+                if fitting is not None:
+                    advice = f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
                 yield Problem(
                     f"{misfits.words}, and degree {degree.value}{authored} takes {each:,} for each",
                     at=misfits,
                     severity=severity,
-                    suggestion=f"author {each:,} coefficient{'s' * (each > 1)} for each position"
-                    if fitting is None
-                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits",
+                    suggestion=f"{default}: remove it" if default else advice,
                 )

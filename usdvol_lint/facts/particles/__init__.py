@@ -76,6 +76,15 @@ class Particles(Wing):
             self._advance,
         )
 
+    def misfitting_default(
+        self, prim: Any, array: ParticleArray, per_particle: int = 1
+    ) -> str | None:
+        """The default that hides what would fit, in words, where an array does not fit."""
+        from usdvol_lint.facts.particles.hiding import misfitting_default
+
+        hidden = self._prims.hidden_animation
+        return misfitting_default(array, self.arrays(prim), per_particle, hidden)
+
     def is_misspelt(self, prim: Any, name: str) -> bool:
         """Whether an attribute is probably meant for the float or half array of this float name."""
         return any(slip.intended in (name, f"{name}h") for slip in self._prims.misspelt(prim))
