@@ -14,6 +14,8 @@ def _swapped(content: Content) -> str | None:
 
 @rule("AST006", on=tuple(_TYPES.values()), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
+    if facts.layers.hides_ours(field):
+        return
     wanted = ".vdb" if facts.prims.is_a(field, "OpenVDBAsset") else ".f3d"
     paths = facts.files.paths(field)
     swapped = facts.grids.contents(field).grouped(_swapped)
