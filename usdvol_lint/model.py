@@ -6,7 +6,7 @@ import builtins
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from enum import IntEnum, StrEnum
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 
 class UsageError(Exception):
@@ -92,6 +92,25 @@ class Site(NamedTuple):
         return f"default, {ranges}" if self.at_default else ranges
 
 
+Lack: TypeAlias = tuple[str, str, str]
+"""The path of a layer, that of a spec there, and what this lacks: a property or a field of it."""
+
+
+class Completed(NamedTuple):
+    """What specs at `path` in some layers lack, and the stage has."""
+
+    layers: tuple[str, ...]
+    path: str
+    lacking: tuple[str, ...]
+
+
+class Completion(NamedTuple):
+    """What a stage brings to layers that lack it; `layers` are all those below its root."""
+
+    layers: tuple[str, ...]
+    specs: tuple[Completed, ...]
+
+
 class Finding(NamedTuple):
     """One problem, ready to be reported."""
 
@@ -107,6 +126,8 @@ class Finding(NamedTuple):
     fingerprint: str = ""
     faulty_rule: str | None = None
     """The code of a rule, where this is about that rule and no stage: reported once in a run."""
+    absent: tuple[frozenset[Lack], ...] = ()
+    """What is absent, if nothing else is wrong: of each set one has to be completed elsewhere."""
 
 
 class ParticleFieldStats(NamedTuple):
@@ -136,6 +157,7 @@ class StageReport(NamedTuple):
     `path` is the stage as the user named it or as it was found in a folder.
     `stats` are counts by name, such as `volumes`; `seconds` is wall-clock time by phase.
     `particle_fields` is None unless statistics were asked for.
+    `completes` is None where no layer lacks what the stage has.
     """
 
     path: str
@@ -146,6 +168,7 @@ class StageReport(NamedTuple):
     findings: tuple[Finding, ...] = ()
     seconds: Mapping[str, float] = {}
     particle_fields: tuple[ParticleFieldStats, ...] | None = None
+    completes: Completion | None = None
 
 
 class Summary(NamedTuple):

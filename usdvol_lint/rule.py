@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from enum import Enum
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 from usdvol_lint import schema
@@ -16,7 +17,16 @@ from usdvol_lint.facts.prims import Prims
 from usdvol_lint.facts.volumes import Volumes
 from usdvol_lint.facts.volumes.states import BindingMark, Emptiness, TargetState
 from usdvol_lint.model import Severity, format_time, frame_ranges, quoted
-from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
+from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.schema import (
+    ABSTRACT_TYPE,
+    ATTRIBUTES,
+    FIELD_ASSET,
+    STAGE,
+    TYPE_BASES,
+    UNKNOWN_TYPE,
+    VOLUME,
+)
 
 __all__ = [
     "ABSTRACT_TYPE",
@@ -54,6 +64,7 @@ __all__ = [
     "file_paths",
     "format_time",
     "frame_ranges",
+    "lacks",
     "layered",
     "quoted",
     "rule",
@@ -67,6 +78,7 @@ else:
     # Rules can be loaded where pxr is not imported.
     AssetSample = Content = ContentClass = ParticleArray = Any
 
+_ATTRIBUTES = frozenset(chain.from_iterable(ATTRIBUTES.values()))
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 
 OURS = tuple(sorted(schema.OURS))
@@ -91,6 +103,11 @@ class Occurrence(Protocol):
     def at_default(self) -> bool: ...
     @property
     def asset(self) -> str | None: ...
+
+
+def lacks(prim: Prim, *names: str) -> tuple[tuple[Prim, str], ...]:
+    """A part of `Problem.absent`: a prim lacks one of these properties, or words of `schema`."""
+    return tuple((prim, name) for name in names)
 
 
 class _Result:
@@ -135,9 +152,11 @@ class Problem(_Result):
     `severity` may lower the rule's own for a milder case, never raise it.
     `holds` is called after all variant selections were checked; if it returns False, the problem is
     not reported.
+    `absent` is what is absent, if nothing is wrong: the problem is not reported where another stage
+    of the run composes this one and has all of it, of each part (see `lacks`) one.
     """
 
-    __slots__ = ("holds", "severity")
+    __slots__ = ("absent", "holds", "severity")
 
     def __init__(
         self,
@@ -145,11 +164,13 @@ class Problem(_Result):
         *,
         severity: Severity | None = None,
         holds: Callable[[], bool] | None = None,
+        absent: Iterable[tuple[tuple[Prim, str], ...]] = (),
         **where: Any,
     ) -> None:
         super().__init__(message, **where)
         self.severity = severity
         self.holds = holds
+        self.absent = tuple(absent)
 
 
 class NotChecked(_Result):
@@ -170,10 +191,12 @@ class When(NamedTuple):
     parameters for.
     It may accept too many keys, which costs time, but never too few, which loses findings: a rule
     has to be right without it.
+    `about` is the type without which a prim has no such keys; "" if any prim has them.
     """
 
     keys: column[Any, Any] | summary[Any, Any]
     holds: Callable[..., bool]
+    about: str = ""
 
     @property
     def options(self) -> tuple[str, ...]:
@@ -183,7 +206,15 @@ class When(NamedTuple):
 
 
 def authored(*names: str) -> When:
-    """When one of these attributes is authored, or has values in clips."""
+    """When one of these attributes is authored, or has values in clips.
+
+    Raises ValueError for one that no schema of UsdVol, nor a base of one, declares.
+    """
+    unknown = [name for name in names if name not in _ATTRIBUTES]
+    if unknown or not names:
+        said = f"no attribute {unknown[0]!r}" if unknown else "no attribute"
+        hint = did_you_mean(unknown[0], _ATTRIBUTES) if unknown else ""
+        raise ValueError(f"authored: {said} of UsdVol{hint}")
     return When(Prims.authored, lambda authored: not authored.declared.keys().isdisjoint(names))
 
 
@@ -192,19 +223,30 @@ def layered() -> When:
     return When(Prims.authored, lambda authored: authored.is_layered or authored.is_clipped)
 
 
-def file_paths(*marks: Enum) -> When:
+def file_paths(*marks: AssetState | PathMark) -> When:
     """When the values of `filePath` have one of these states or marks."""
-    return When(Files.path_marks, lambda states: not states.isdisjoint(marks))
+    _require("file_paths", marks, AssetState, PathMark)
+    return When(Files.path_marks, lambda states: not states.isdisjoint(marks), FIELD_ASSET)
 
 
-def bindings(*marks: Enum) -> When:
+def bindings(*marks: BindingMark | TargetState | Emptiness) -> When:
     """When the `field:` namespace of a Volume has one of these states or marks."""
-    return When(Volumes.binding_marks, lambda states: not states.isdisjoint(marks))
+    _require("bindings", marks, BindingMark, TargetState, Emptiness)
+    return When(Volumes.binding_marks, lambda states: not states.isdisjoint(marks), VOLUME)
 
 
 def contents(*keys: Callable[[Content], Hashable | None]) -> When:
     """When one of these keys is not None for the content of one of a field's files."""
-    return When(Grids.content_classes, AnyKey(keys))
+    if not keys or not all(map(callable, keys)):
+        raise ValueError(f"contents: takes functions, not {keys!r}")
+    return When(Grids.content_classes, AnyKey(keys), FIELD_ASSET)
+
+
+def _require(precondition: str, marks: tuple[object, ...], *kinds: type[Enum]) -> None:
+    """Raises ValueError for marks that no prim ever has, which would keep a rule from running."""
+    if not marks or not all(isinstance(mark, kinds) for mark in marks):
+        names = " or ".join(kind.__name__ for kind in kinds)
+        raise ValueError(f"{precondition}: takes members of {names}, not {marks!r}")
 
 
 class AnyKey:
@@ -251,13 +293,18 @@ def rule(
 ) -> Callable[[Check], Rule]:
     """Makes a rule of the generator below it, which it is named after: `file-missing`.
 
-    Raises ValueError for a `when` whose keys no wing declares, or whose options the rule lacks.
+    Raises ValueError for a `when` whose keys no wing declares, whose options the rule lacks, or
+    that no prim of these types ever meets.
     """
-
+    types = (on,) if isinstance(on, str) else on
     if when is not None and not isinstance(when, When):
         raise ValueError(f"{code}: `when` takes a When, not {when!r}")
     if when and not isinstance(when.keys, column | summary):
         raise ValueError(f"{code}: `when` names no column or summary of a wing, but {when.keys!r}")
+    if not types:
+        raise ValueError(f"{code}: `on` names no type")
+    if when and when.about and all(_is_other(name, when.about) for name in types):
+        raise ValueError(f"{code}: `when` is about a {when.about}, and `on` names none: {on!r}")
 
     def decorate(check: Check) -> Rule:
         options = dict(check.__kwdefaults__ or {})
@@ -267,7 +314,7 @@ def rule(
         return Rule(
             code=code,
             name=check.__name__.replace("_", "-"),
-            on=(on,) if isinstance(on, str) else on,
+            on=types,
             severity=severity,
             since=since,
             check=check,
@@ -277,3 +324,9 @@ def rule(
         )
 
     return decorate
+
+
+def _is_other(name: str, about: str) -> bool:
+    """Whether no prim of one of our types is one of the other."""
+    related = (name, *TYPE_BASES.get(name, ())), (about, *TYPE_BASES[about])
+    return name in TYPE_BASES and about not in related[0] and name not in related[1]

@@ -9,9 +9,9 @@ def array_too_short(particles: Prim, facts: Facts) -> Problems:
     for array in arrays.used("orientations", "scales", "opacities"):
         short = arrays.too_short(array)
         if short:
-            default = facts.particles.misfitting_default(particles, array)
+            remedy = facts.particles.misfitting_default(particles, array)
             yield Problem(
                 short.words,
                 at=short,
-                suggestion=f"{default}: remove it" if default else "author one element for each position",
+                suggestion=remedy or "author one element for each position",
             )

@@ -1,6 +1,6 @@
 """ARR001: a particle field without positions has no particles, and without first ones draws none."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, format_time, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, format_time, lacks, rule
 
 
 @rule("ARR001", on="ParticleField", severity=WARNING, since="0.1")
@@ -25,4 +25,5 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
         "no particles at any time",
         at=arrays.positions.attribute if arrays.positions else particles,
         suggestion="author positions, or in half precision positionsh",
+        absent=[lacks(particles, "positions")],
     )

@@ -23,6 +23,10 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
     still = facts.files.still(field, time_range)
     if still is None or facts.layers.may_lack_values(field):
         return
+    staging = facts.volumes.staging(field, time_range) if time_range and not still.is_sampled else None
+    if staging and not staging.is_shown:
+        return
+    is_staged = staging and still.by_range and not staging.is_still
     affected = still.affected
     there = f"the files {frame_ranges(still.numbers)} lie beside it" if still.numbers else ""
     if still.is_lost:
@@ -37,5 +41,5 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
         message,
         at=affected,
         suggestion=still.advice,
-        severity=None if still.is_certain else INFO,
+        severity=None if still.is_certain and not is_staged else INFO,
     )

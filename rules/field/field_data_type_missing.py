@@ -1,6 +1,6 @@
 """FLD002: a field should say what type of data it holds."""
 
-from usdvol_lint.rule import INFO, Facts, Grids, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import INFO, Facts, Grids, Prim, Problem, Problems, When, lacks, rule
 
 
 @rule(
@@ -24,4 +24,5 @@ def field_data_type_missing(field: Prim, facts: Facts) -> Problems:
             "fieldDataType is empty" if "" in values else "no fieldDataType",
             at=data_type if data_type.IsAuthored() else field,
             suggestion="author the type of the grid, such as 'float' or 'float3'",
+            absent=[lacks(field, "fieldDataType")],
         )

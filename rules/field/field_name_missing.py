@@ -1,6 +1,6 @@
 """FLD001: a field must say which of the fields in its file it is."""
 
-from usdvol_lint.rule import WARNING, Content, Facts, Grids, Prim, Problem, Problems, When, quoted, rule
+from usdvol_lint.rule import WARNING, Content, Facts, Grids, Prim, Problem, Problems, When, lacks, quoted, rule
 
 
 def _only_name(content: Content) -> str | None:
@@ -39,4 +39,5 @@ def field_name_missing(field: Prim, facts: Facts) -> Problems:
         what,
         at=name if name.IsAuthored() else field,
         suggestion=advice,
+        absent=[lacks(field, "fieldName", "filePath")],
     )

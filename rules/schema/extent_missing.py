@@ -1,6 +1,6 @@
 """SCH007: without an extent, USD takes a Volume or particle field for empty."""
 
-from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 
 _NAMED = 20
 
@@ -17,6 +17,7 @@ def extent_missing(stage: Prim, facts: Facts) -> Problems:
         f"no extent, so USD takes the bounds for empty: {', '.join(names)}{more}",
         at=prims[0],
         suggestion="author extent, at every time at which the shape changes",
+        absent=[lacks(prim, "extent") for prim in prims],
     )
 
 

@@ -180,6 +180,11 @@ def test_instances_inside_instances_are_walked_once(tmp_path: Path) -> None:
             ["prototype/thick"],
         ),
         (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}{LIVE}}}\n'
+            + instancer("i", "/library/live"),
+            ["/library/live"],
+        ),
+        (
             f'class "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
             + instancer("i", "/library/a"),
             [],

@@ -26,12 +26,5 @@ def instancer(name: str, *prototypes: str, below: str = "") -> str:
 
 
 LIVE = 'def Volume "live"\n{\n}\n'
-
-
-def instancer(name: str, *prototypes: str, below: str = "") -> str:
-    targets = ", ".join(f"<{path}>" for path in prototypes)
-    return f'def PointInstancer "{name}"\n{{\nrel prototypes = [{targets}]\n{below}}}\n'
-
-
 CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'
 INSTANCE = 'def "{}" (\n    instanceable = true\n    references = @./lib.usda@</{}>\n)\n{{\n}}\n'

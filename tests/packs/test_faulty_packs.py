@@ -86,3 +86,73 @@ def test_a_precondition_that_is_none(tmp_path: Path) -> None:
     (tmp_path / "faulty.py").write_text(rule, encoding="utf-8")
     with pytest.raises(PackError, match="FLT001: `when` takes a When, not 'authored'"):
         load([str(tmp_path)])
+
+
+def on(folder: Path, *types: str) -> Path:
+    """A pack with a rule for these types, or for one."""
+    pack = folder / "pack"
+    pack.mkdir()
+    text = RULE.format(problem="'seen', at=volume").replace('"Volume"', repr(types))
+    (pack / "faulty.py").write_text(text, encoding="utf-8")
+    return pack
+
+
+@pytest.mark.parametrize(
+    ("types", "meant"),
+    [
+        (("Volumee",), "Volume"),
+        (("volume",), "Volume"),
+        (("Volume", "OpenVDBAset"), "OpenVDBAsset"),
+        (("UsdVolVolume",), "Volume"),
+        (("UsdGeomXform",), "Xform"),
+        (("MaterialBindngAPI",), "MaterialBindingAPI"),
+    ],
+)
+def test_a_type_by_a_misspelt_name(types: tuple[str, ...], meant: str, tmp_path: Path) -> None:
+    """It is an error, also with `--test`, which the USD that is installed finds."""
+    stages = write(tmp_path / "stages", one=volume("a"))
+    ran = run("--isolated", "--pack", on(tmp_path, *types), stages, cwd=tmp_path)
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err == (
+        f"usdvol-lint: error: rule FLT001 (faulty) is on {types[-1]!r}, which no schema is called; "
+        f"did you mean {meant!r}?\n"
+    )
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize(
+    ("types", "message", "advice"),
+    [
+        (("StudioFlame",), "is called 'StudioFlame'", ""),
+        (("MyVolume", "FX2"), "is called 'MyVolume' or 'FX2'", "; did you mean 'Volume'?"),
+        (("Volume2",), "is called 'Volume2'", "; did you mean 'Volume'?"),
+    ],
+)
+def test_types_that_only_a_plugin_has(
+    types: tuple[str, ...], message: str, advice: str, jobs: int, tmp_path: Path
+) -> None:
+    """Where it is not installed that is said once in a run, for the rule finds nothing."""
+    stages = write(tmp_path / "stages", one=volume("a"), two=volume("b"))
+    pack = on(tmp_path, *types)
+    ran = run(
+        *("--isolated", "--pack", pack, "--select", "FLT,LNT", "--output-format", "json"),
+        *(f"-j{jobs}", stages),
+        cwd=tmp_path,
+    )
+    [[found], []] = [stage["findings"] for stage in ran.json["stages"]]
+    assert (ran.code, found["code"], found["severity"]) == (0, "LNT005", "info")
+    assert found["message"] == (
+        f"rule FLT001 (faulty) looked at nothing: no schema that is installed here {message}"
+    )
+    assert found["suggestion"] == f"install the plugin that has it, or correct the rule{advice}"
+
+
+@pytest.mark.parametrize("types", [("Volume", "StudioFlame"), ("Xform",), ("ParticleField",)])
+def test_a_rule_that_has_something_to_look_at_says_nothing_of_it(
+    types: tuple[str, ...], tmp_path: Path
+) -> None:
+    stages = write(tmp_path / "stages", one=volume("a"))
+    chosen = ("--select", "FLT,LNT")
+    ran = run("--isolated", "--pack", on(tmp_path, *types), *chosen, stages, cwd=tmp_path)
+    assert ran.code == 0
+    assert "looked at nothing" not in ran.out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +21,12 @@ from usdvol_lint.model import PackError, Severity
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import Catalog, load
 from usdvol_lint.packs.examples import STAGE, cases, pages
-from usdvol_lint.rule import Problem, Problems, Rule, When
+from usdvol_lint.rule import AssetState, Problem, Problems, Rule, When, file_paths, rule
 from usdvol_lint.run.testing import write_example
 
 WORDS = (
     "from usdvol_lint.rule import ERROR, INFO, BindingMark, Grids, Prims, Problem, When, rule\n"
-    "from usdvol_lint.rule import bindings, contents\n"
+    "from usdvol_lint.rule import AssetState, authored, bindings, contents, file_paths\n"
 )
 FIELD = '#usda 1.0\ndef OpenVDBAsset "density"\n{\n    asset filePath = @./cloud.vdb@\n}\n'
 EXTENT = "float3[] extent = [(0, 0, 0), (1, 1, 1)]"
@@ -183,13 +184,44 @@ def test_a_precondition_is_given_the_options_that_it_names(tmp_path: Path) -> No
             r"WHN001: `when` asks for 'longset', no option of the rule",
         ),
         ("When('authored', bool)", r"WHN001: `when` names no column or summary of a wing, but 'au"),
+        ("bindings('NESTED')", r"bindings: takes members of BindingMark or .*, not \('NESTED',\)"),
+        ("bindings()", r"bindings: takes members of BindingMark or .*, not \(\)"),
+        ("file_paths(BindingMark.NESTED)", r"file_paths: takes members of AssetState or PathMark"),
+        (
+            "file_paths(AssetState.MISSING)",
+            r"`when` is about a FieldAsset, and `on` names none: 'V",
+        ),
+        ("contents('key')", r"contents: takes functions, not \('key',\)"),
+        ("contents()", r"contents: takes functions, not \(\)"),
+        ("authored('extnt')", r"authored: no attribute 'extnt' of UsdVol; did you mean 'extent'"),
+        ("authored()", r"authored: no attribute of UsdVol"),
     ],
-    ids=["no-option", "a-string"],
 )
 def test_a_precondition_that_can_not_work_is_refused(when: str, said: str, tmp_path: Path) -> None:
     folder = pack(tmp_path / "pack", when, options=", *, longest: int = 3")
     with pytest.raises(PackError, match=rf"seen\.py: .*{said}"):
         load([str(folder)])
+
+
+@pytest.mark.parametrize(
+    ("on", "said"),
+    [
+        ("FieldAsset", None),
+        ("OpenVDBAsset", None),
+        ("VolumeFieldBase", None),
+        ("StudioAsset", None),
+        ("Imageable", None),
+        (("Volume", "FieldAsset"), None),
+        (("Volume", "ParticleField"), "`on` names none"),
+        ((), "`on` names no type"),
+    ],
+)
+def test_the_types_that_a_precondition_is_about(
+    on: str | tuple[str, ...], said: str | None
+) -> None:
+    when = file_paths(AssetState.FILE)
+    with pytest.raises(ValueError, match=said) if said else nullcontext():
+        rule("WHN001", on=on, when=when, severity=Severity.INFO, since="1")
 
 
 CASES = [case for page in pages(ROOT / "rules") for case in cases(page)]

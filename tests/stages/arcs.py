@@ -119,6 +119,9 @@ def point_instancer(scene: Scene, placed: Placed, name: str, rng: Random) -> Pla
 def prototype_below_over(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     """As USD's documentation advises it; of what else is below the `over` nothing is drawn."""
     spare = Prim("spare", rng.choice(("Volume", "OpenVDBAsset")))
+    if rng.random() < 0.5:
+        spare = referring(placed, "spare")
+        spare.metadata.append(("instanceable = true",))
     library = Prim("Prototypes", specifier="over")
     library.children = [referring(placed, "prototype"), spare]
     prim = instancer(name, library, "Prototypes/prototype")

@@ -17,6 +17,10 @@ class File(NamedTuple):
     path: str
 
 
+SCENE = "<scene>"
+"""The absolute path of the folder of a scene, in the text of its layers."""
+
+
 class Expression(NamedTuple):
     """A file that a variable expression names."""
 

@@ -8,6 +8,7 @@ from typing import Any
 from pxr import Tf
 
 from usdvol_lint import schema
+from usdvol_lint.engine.asked_types import never_run
 from usdvol_lint.engine.assign import Options, assign
 from usdvol_lint.engine.failures import Failures
 from usdvol_lint.engine.identity import Identity
@@ -50,6 +51,13 @@ class StageCheck:
                 suggestion=f"install usd-core {since} or later",
             )
             yield from self._stamp.stamp(USD_TOO_OLD, too_old)
+
+    def never_run(self, facts: Facts) -> Iterator[Stamped]:
+        """Reports the rules that ask for types which nobody knows; of a run, only the first do."""
+        for rule, idle in never_run(self._rules, facts.stage.GetPseudoRoot()):
+            for stamped in self._stamp.stamp(rule, idle):
+                finding = stamped.finding._replace(faulty_rule=rule.code)
+                yield stamped._replace(finding=finding)
 
     def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:
         """What the rules find under the selection composed now, and where they failed."""

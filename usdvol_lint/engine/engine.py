@@ -11,6 +11,7 @@ from pxr import Sdf
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
 from usdvol_lint.engine.check import StageCheck
+from usdvol_lint.engine.completions import completion
 from usdvol_lint.engine.failures import still_holding
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
@@ -77,8 +78,9 @@ class Engine:
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)
-        found = list(self._sent(check.usd_version(facts)))
+        found = list(self._sent(chain(check.usd_version(facts), check.never_run(facts))))
         found += self._sent(check.selection(walked, facts))
+        completes = completion(facts)
         stats = _stats(walked, facts, context.disk.checked)
         particle_fields = facts.particles.statistics() if depth.statistics else None
         if depth.selections:
@@ -90,7 +92,13 @@ class Engine:
         findings = with_fingerprints(chain.from_iterable(map(still_holding, found)))
         clock.lap("check")
         return StageReport(
-            display(path), Status.CHECKED, stats, findings, clock.seconds, particle_fields
+            display(path),
+            Status.CHECKED,
+            stats,
+            findings,
+            clock.seconds,
+            particle_fields,
+            completes,
         )
 
     def _sent(self, found: Iterable[Stamped]) -> Iterator[Stamped]:

@@ -121,10 +121,7 @@ def _read(layer: Any) -> bytes:
 
 def _root_layer_of_package(path: str) -> str:
     """The path of the first file in a package, which is what USD opens."""
-    from zipfile import BadZipFile, ZipFile  # costs start-up time, and few layers are packages
+    from usdvol_lint.volumefile.package import Package  # costs start-up time; few are packages
 
-    try:
-        with ZipFile(path) as archive:
-            return str(Ar.JoinPackageRelativePath(path, archive.namelist()[0]))
-    except (OSError, BadZipFile, IndexError):
-        return path
+    names = Package(path).names
+    return str(Ar.JoinPackageRelativePath(path, names[0])) if names else path

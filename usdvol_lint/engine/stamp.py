@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.model import Finding, Severity
+from usdvol_lint.model import Finding, Lack, Severity
 from usdvol_lint.packs.catalog import NOT_CHECKED, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
 
@@ -51,9 +51,22 @@ class Stamp:
             site=site,
             suggestion=problem.suggestion,
             help=help_for(reported_as),
+            absent=_absent(problem) if isinstance(problem, Problem) else (),
         )
         same = identity(rule, problem, spec) if self._several_selections else ()
         yield Stamped(finding, same, problem.holds if isinstance(problem, Problem) else None)
+
+
+def _absent(problem: Problem) -> tuple[frozenset[Lack], ...]:
+    """What is absent, in terms of the specs of the prims that lack it."""
+    return tuple(
+        frozenset(
+            (spec.layer.realPath, str(spec.path), name)
+            for prim, name in part
+            for spec in prim.GetPrimStack()
+        )
+        for part in problem.absent
+    )
 
 
 def _lowered(severity: Severity, rule: Rule, problem: Problem | NotChecked) -> Severity:

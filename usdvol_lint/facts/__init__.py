@@ -100,7 +100,7 @@ class Facts:
         self.stage = stage
         self.kinds = kinds
         self.tables = tables
-        self.prims = Prims(tables, kinds, clips)
+        self.prims = Prims(tables, kinds, clips, walked.drawn)
         self.files = Files(tables, stage, clips, disk, advance)
         self.layers = Layers(tables, stage, clips, kinds, walked.undefined, walked.drawn)
         self.grids = Grids(tables, self.files, depth.content, volume_files, advance)

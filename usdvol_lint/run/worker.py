@@ -22,6 +22,7 @@ def main() -> None:
         from pxr import Usd  # noqa: F401
     except ImportError as error:
         return _send(replies, Refusal(f"USD can't be imported ({error}); install usd-core"))
+    from usdvol_lint.engine.asked_types import check_types
     from usdvol_lint.engine.engine import Engine
     from usdvol_lint.engine.usd_version import usd_version
 
@@ -30,6 +31,7 @@ def main() -> None:
         return
     try:
         rules = load(setup.packs).rules
+        check_types(rules.values())
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
     engine = Engine(

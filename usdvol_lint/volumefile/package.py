@@ -19,12 +19,13 @@ class Package:
 
     def __init__(self, path: str) -> None:
         self._path = path
-        self._members: dict[str, ZipInfo] = {}
-        try:
-            with ZipFile(path) as archive:
-                self._members = {member.filename: member for member in archive.infolist()}
-        except (BadZipFile, NotImplementedError, OSError, ValueError):
-            pass  # its members are missing then, which is reported for each
+        members = _directory(path, "utf-8") or _directory(path, None)
+        self._members = {member.filename: member for member in members}
+
+    @property
+    def names(self) -> list[str]:
+        """The paths of its members."""
+        return list(self._members)
 
     def locate(self, inner: str) -> tuple[int, int]:
         """Offset and size of a member in bytes; raises NotInPlaceError if it can't be read so."""
@@ -43,3 +44,15 @@ class Package:
         # The extra field, which aligns the data, has another size here than in the directory.
         _, name, extra = _LOCAL_HEADER.unpack(header)
         return member.header_offset + _LOCAL_HEADER.size + name + extra, member.file_size
+
+
+def _directory(path: str, encoding: str | None) -> list[ZipInfo]:
+    """The members of a zip archive; none if it is not readable, which is reported for each.
+
+    USD writes names in UTF-8 without saying so, for which `encoding` stands.
+    """
+    try:
+        with ZipFile(path, metadata_encoding=encoding) as archive:
+            return archive.infolist()
+    except (BadZipFile, NotImplementedError, OSError, ValueError):
+        return []

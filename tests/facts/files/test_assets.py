@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from pxr import UsdUtils
 from stages import CONTENT, only, package, said, volume, write
 
 from usdvol_lint.engine.engine import Engine
@@ -77,6 +79,41 @@ def test_files_inside_a_package(
     )
     assert said(engine.lint("shot.usdz")) == expected
     assert said(engine.lint("scene.usda")) == expected
+
+
+def test_names_that_usd_writes_into_a_package(
+    engine: Engine, assets: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are UTF-8, and the archive does not say so."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copyfile(assets / "cloud.vdb", "wölkchen.vdb")
+    Path("root.usda").write_text(volume("asset filePath = @./wölkchen.vdb@"), encoding="utf-8")
+    assert UsdUtils.CreateNewUsdzPackage("root.usda", "shot.usdz")
+    assert engine.lint("shot.usdz").findings == ()
+    stage = volume("asset filePath = @./shot.usdz[wolkchen.vdb]@")
+    Path("stage.usda").write_text(stage, encoding="utf-8")
+    assert said(engine.lint("stage.usda")) == [
+        "AST002 no file at './shot.usdz[wolkchen.vdb]' in 'shot.usdz' -> did you mean "
+        "'./shot.usdz[wölkchen.vdb]'?"
+    ]
+
+
+@pytest.mark.parametrize("flag", [0, 0x800])
+def test_names_in_a_package_that_are_no_text(
+    flag: int, engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether or not the archive calls them UTF-8; if it does, no more than advice is lost."""
+    monkeypatch.chdir(tmp_path)
+    package(
+        tmp_path / "shot.usdz",
+        volume("asset filePath = @./vdb/gone.vdb@"),
+        {"vdb/x": b"", "~~": b""},
+    )
+    content = (tmp_path / "shot.usdz").read_bytes().replace(b"~~", b"\xff\xfe")
+    entry = content.rindex(b"PK\1\2")
+    content = content[: entry + 8] + flag.to_bytes(2, "little") + content[entry + 10 :]
+    (tmp_path / "shot.usdz").write_bytes(content)
+    assert said(engine.lint("shot.usdz")) == ["AST002 no file at './vdb/gone.vdb' in 'shot.usdz'"]
 
 
 @pytest.mark.parametrize(

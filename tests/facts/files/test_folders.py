@@ -123,3 +123,18 @@ def test_a_second_lint_sees_what_the_disk_holds_by_then(
     assert said(engine.lint("stage.usda")) == ["AST002 no file at './vdb/clod.vdb'"]
     write(tmp_path, "vdb/clod.vdb")
     assert said(engine.lint("stage.usda")) == []
+
+
+@pytest.mark.parametrize(("flag", "names"), [(0, ("a.vdb", "\u0192.vdb")), (0x800, ())])
+def test_a_package_with_a_name_that_is_no_text(
+    flag: int, names: tuple[str, ...], tmp_path: Path
+) -> None:
+    """It is read as that of an old archive, unless that calls it UTF-8: then there are none."""
+    with ZipFile(tmp_path / "shot.usdz", "w") as archive:
+        archive.writestr("a.vdb", b"")
+        archive.writestr("~.vdb", b"")
+    content = (tmp_path / "shot.usdz").read_bytes().replace(b"~.vdb", b"\x9f.vdb")
+    entry = content.rindex(b"PK\1\2")
+    content = content[: entry + 8] + flag.to_bytes(2, "little") + content[entry + 10 :]
+    (tmp_path / "shot.usdz").write_bytes(content)
+    assert Folders().listing(str(tmp_path / "shot.usdz")).names == names

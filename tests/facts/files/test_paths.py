@@ -91,17 +91,19 @@ def test_names_that_linux_alone_can_have(lint_text: Lint, tmp_path: Path) -> Non
             " x\\a.vdb",
             "has backslashes, which separate names on Windows alone, and begins or ends with a "
             "blank",
-            "write it as 'x/a.vdb'",
+            "write it as 'x/a.vdb', where no file is either",
         ),
     ],
 )
 def test_what_is_malformed(path: str, message: str, suggestion: str, lint_text: Lint) -> None:
     found = said(lint_text(field(f"asset filePath = @{path}@")), "AST008")
-    assert [(f[2], f[3]) for f in found] == [(f"'{path}' {message}", suggestion)]
+    assert [(f[2], f[3]) for f in found] == [
+        (f"'{path}' {message}, so no file is found", suggestion)
+    ]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="finds the file in any case")
-def test_missing_and_case_suggest_the_same(lint_text: Lint, tmp_path: Path) -> None:
+def test_a_file_that_is_missing_by_its_case_alone(lint_text: Lint, tmp_path: Path) -> None:
     write(tmp_path, "Cache/v1/Smoke.0001.vdb", "Cache/v1/smoke.0002.vdb")
     for path, meant in {
         "./cache/V1/smoke.0001.VDB": "./Cache/v1/Smoke.0001.vdb",
@@ -110,10 +112,7 @@ def test_missing_and_case_suggest_the_same(lint_text: Lint, tmp_path: Path) -> N
         "./Cache/v1/SMOKE.0002.vdb:SDF_FORMAT_ARGS:a=b": "./Cache/v1/smoke.0002.vdb",
     }.items():
         report = lint_text(field(f"asset filePath = @{path}@"))
-        assert [f[3] for f in said(report, "AST002", "AST009")] == [
-            f"did you mean {meant!r}?",
-            f"write it as {meant!r}",
-        ]
+        assert [f[3] for f in said(report, "AST002", "AST009")] == [f"write it as {meant!r}"]
 
 
 def test_case_where_the_file_system_ignores_it(
@@ -159,9 +158,9 @@ def test_packages(lint_text: Lint, tmp_path: Path) -> None:
         "./vdb/in.vdb": [],
         "vdb/in.vdb": [],
         "beside.vdb": ["AST015"],
-        "../beside.vdb": ["AST002", "AST015"],
-        "/nope/absolute.vdb": ["AST002", "AST015"],
-        "./VDB/in.vdb": ["AST002", "AST009"],
+        "../beside.vdb": ["AST015"],
+        "/nope/absolute.vdb": ["AST015"],
+        "./VDB/in.vdb": ["AST009"],
         "https://host/a.vdb": [],
         f"{tmp_path.as_posix()}/shot.usdz[vdb/in.vdb]": ["AST007"],
     }.items():

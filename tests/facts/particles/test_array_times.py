@@ -62,9 +62,10 @@ def test_only_chosen_times_are_looked_at(
     engine = Engine(catalog.rules, activate(Config(), catalog), Depth(times=policy))
     (finding,) = lint(engine, particles, tmp_path / "stage.usdc")
     assert finding.site.frames == frames
+    first = "the one at [3]: 7" if counted == 1 else "first 7 at [3]"
     assert finding.message == (
         f"{counted} of {counted * 10} opacities (10 %) outside of 0 to 1, "
-        f"from {least(particles):.6g} to 7, first 7 at [3] ({counted} of 3 samples)"
+        f"from {least(particles):.6g} to 7, {first} ({counted} of 3 samples)"
     )
 
 

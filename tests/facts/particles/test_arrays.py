@@ -56,7 +56,7 @@ DEFECTS: dict[str, tuple[str, tuple[str, ...], Callable[[int], Callable[[Array],
     "long": ("ARR003 warning", SMALL, lambda row: lambda a: np.concatenate([a, a[:1]])),
     "few coefficients": ("ARR004 error", (SH,), lambda row: lambda array: array[:-1]),
     "many coefficients": (
-        "ARR004 warning",
+        "ARR004 error",
         (SH,),
         lambda row: lambda array: np.concatenate([array, array[:1]]),
     ),

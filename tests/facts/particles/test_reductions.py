@@ -67,8 +67,10 @@ def test_reductions_agree_with_the_obvious(
             assert measured.high == pytest.approx((norms.max(),), rel=1e-5)
     bits = rows.view(f"i{rows.itemsize}")
     twice = (bits[1:] == bits[:-1]).all(axis=1)
-    repeated = matches.repetitions(rows) if count > 1 else None
-    assert (repeated.count if repeated else 0) == int(twice.sum())
+    for keep in (matches.keep_repeated, matches.keep_alike) if count > 1 else ():
+        left = np.ones(count - 1, np.bool_)
+        keep(left, rows)
+        assert left.tolist() == (twice & finite[1:]).tolist()
 
 
 def assert_same_matches(one: matches.Matches | None, other: matches.Matches | None) -> None:

@@ -89,8 +89,7 @@ def test_sizes_beyond_any_integer(engine: Engine, tmp_path: Path) -> None:
     particles = Field((splats(3),), 2**31 - 1)
     (finding,) = lint(engine, particles, tmp_path / "stage.usdc")
     assert finding.message == (
-        "3 coefficients for 3 particles, and degree 2147483647 takes "
-        "4,611,686,018,427,387,904 for each"
+        "3 coefficients, 1 for each particle; degree 2147483647 takes 4,611,686,018,427,387,904"
     )
     assert finding.suggestion == f"author {DEGREE} = 0, which fits"
 

@@ -127,7 +127,7 @@ def _why_unresolved(
         return AssetState.EMPTY, ""
     if is_uri(path):
         scheme = path.partition(":")[0]
-        live = scheme in _LIVE_SCHEMES
+        live = scheme.lower() in _LIVE_SCHEMES
         return AssetState.LIVE_SESSION if live else AssetState.UNVERIFIABLE, scheme
     if pattern := find_pattern(path):
         return AssetState.PATTERN, pattern

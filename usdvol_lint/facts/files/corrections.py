@@ -56,7 +56,7 @@ def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str
         if not os.path.isfile(package):
             return _absence_of_package(disk, package, authored)
         similar = None if corrected else _closest_name(disk, package, inner)
-        corrected = _with_end(authored, inner, similar) if similar else corrected
+        corrected = _with_inner(authored, inner, similar) if similar else corrected
         folder = disk.missing_in_package(package, inner)
         what = f": no folder {quoted(folder)}" if folder else ""
         return Absence(f"{what} in {quoted(os.path.basename(package))}", corrected)
@@ -98,7 +98,7 @@ def correct_case(disk: Disk, path: str, authored: str) -> str | None:
     if Ar.IsPackageRelativePath(path):
         package, inner = Ar.SplitPackageRelativePathOuter(path)
         actual = disk.listing(package).by_case.get(inner.lower(), inner)
-        return _with_end(authored, inner, actual) if actual != inner else None
+        return _with_inner(authored, inner, actual) if actual != inner else None
     count = count_names(authored)
     found = disk.in_case(path, count)
     if found is None or found == path:
@@ -174,6 +174,12 @@ def _broken_link(path: str) -> str:
 def _with_end(path: str, end: str, replacement: str) -> str:
     """The path with its end replaced; the replacement alone if the path does not end so."""
     return path.removesuffix(end) + replacement if path.endswith(end) else replacement
+
+
+def _with_inner(path: str, inner: str, replacement: str) -> str:
+    """A path in a package with its end replaced, which may be in brackets behind the package."""
+    bracket = "]" if path.endswith(f"{inner}]") else ""
+    return _with_end(path, inner + bracket, replacement + bracket)
 
 
 def _last_names(path: str, count: int) -> str:

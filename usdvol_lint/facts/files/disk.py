@@ -50,11 +50,16 @@ class Disk:
         return self._listings[folder]
 
     def missing_in_package(self, package: str, inner: str) -> str | None:
-        """The topmost folder that a package lacks above a path in it, if it lacks one."""
-        there = self.listing(package).folders
+        """The topmost folder that a package lacks above a path in it, if it lacks one.
+
+        A package of which nothing can be read may have any.
+        """
+        listing = self.listing(package)
+        if inner.startswith("../") or not listing.names:
+            return None
         outermost = inner.partition("[")[0]
-        missing = (each for each in folders_above(outermost) if each not in there)
-        return None if inner.startswith("../") else next(missing, None)
+        missing = (each for each in folders_above(outermost) if each not in listing.folders)
+        return next(missing, None)
 
     def siblings_with(self, folder: str, below: str) -> list[str]:
         """The names of the folders beside another that have a file at the path `below`, `/a.vdb`.
@@ -74,18 +79,22 @@ class Disk:
 
         None where nothing of that name is there in any case.
         """
-        folder, name = os.path.split(path)
-        if count == 0 or not name:
-            return path
-        key = (folder, count - 1)
-        if key not in self._in_case:
-            self._in_case[key] = self.in_case(*key)
-        actual_folder = self._in_case[key]
-        if actual_folder is None:
+        unknown = []
+        while count and (path, count) not in self._in_case and os.path.basename(path):
+            unknown.append((path, count))
+            path, count = os.path.dirname(path), count - 1
+        actual = self._in_case.get((path, count), path)
+        for key in reversed(unknown):
+            actual = self._in_case[key] = self._with_name_in_case(actual, key[0])
+        return actual
+
+    def _with_name_in_case(self, folder: str | None, path: str) -> str | None:
+        """The name of a path as a folder spells it, behind that of the folder."""
+        if folder is None:
             return None
-        names = self.listing(actual_folder).by_case
-        actual_name = names.get(name) or names.get(name.lower())
-        return f"{actual_folder.rstrip('/')}/{actual_name}" if actual_name else None
+        names, name = self.listing(folder).by_case, os.path.basename(path)
+        actual = names.get(name) or names.get(name.lower())
+        return f"{folder.rstrip('/')}/{actual}" if actual else None
 
     def ignores_case(self, path: str) -> bool:
         """Whether the file system finds an existing file under another case of its name."""
@@ -121,9 +130,13 @@ def file_fault(path: str) -> str | None:
         return FileFault.EMPTY
     if not status.st_mode & stat.S_IROTH and not os.access(path, os.R_OK):
         return FileFault.UNREADABLE
-    if len(LFS_POINTER) < status.st_size <= _LFS_POINTER_LIMIT and _starts_like_lfs(path):
+    if _may_be_lfs(status.st_size) and _starts_like_lfs(path):
         return FileFault.LFS_POINTER
     return None
+
+
+def _may_be_lfs(size: int) -> bool:
+    return len(LFS_POINTER) < size <= _LFS_POINTER_LIMIT
 
 
 def _starts_like_lfs(path: str) -> bool:
@@ -141,4 +154,8 @@ def _package_fault(path: str) -> str | None:
         return FileFault.PACKED
     if asset is None:
         return FileFault.UNREADABLE
-    return FileFault.EMPTY if asset.GetSize() == 0 else None
+    size = asset.GetSize()
+    if size == 0:
+        return FileFault.EMPTY
+    is_pointer = _may_be_lfs(size) and bytes(asset.GetBuffer()).startswith(LFS_POINTER)
+    return FileFault.LFS_POINTER if is_pointer else None

@@ -40,17 +40,11 @@ def folders_above(name: str) -> Iterator[str]:
 
 def names_listed(folder: str) -> list[str]:
     """The names in a folder or package, sorted; none if it can't be read."""
+    if os.path.isfile(folder):
+        from usdvol_lint.volumefile.package import Package  # costs start-up time; few stages ask
+
+        return sorted(Package(folder).names)
     try:
-        return sorted(_package_names(folder) if os.path.isfile(folder) else os.listdir(folder))
+        return sorted(os.listdir(folder))
     except OSError:
-        return []
-
-
-def _package_names(package: str) -> list[str]:
-    from zipfile import BadZipFile, ZipFile  # costs start-up time, and few stages ask
-
-    try:
-        with ZipFile(package) as archive:
-            return archive.namelist()
-    except BadZipFile:
         return []

@@ -33,7 +33,8 @@ class Still(NamedTuple):
     """A file that a field shows at all times, though it is one of a sequence.
 
     `is_sampled`: whether several time samples name it; `is_lost`: whether its name lacks the frame
-    number; `is_certain`: whether the sequence leaves no doubt.
+    number; `is_certain`: whether the sequence leaves no doubt, if need be `by_range`, that it runs
+    over the range of the stage.
     `numbers`: those of the files on disk; `advice`: the samples to author instead.
     """
 
@@ -42,6 +43,7 @@ class Still(NamedTuple):
     is_sampled: bool
     is_lost: bool
     is_certain: bool
+    by_range: bool
     advice: str
 
 
@@ -120,11 +122,18 @@ def find_still(
         return None
     if packs().are_shown(frames, paths.attribute.GetPrim()):
         return None
+    is_animated = _is_animated_below(paths, frames, clips)
     is_forgotten = _fills(frames, time_range) and not _may_be_held(paths, frames, packs())
-    is_certain = is_forgotten or _is_animated_below(paths, frames, clips)
     low, high = time_range
     numbers = [number for number in sorted(frames.on_disk) if low <= number <= high]
-    return _still(paths, sample, frames, numbers, is_certain=is_certain)
+    return _still(
+        paths,
+        sample,
+        frames,
+        numbers,
+        is_certain=is_animated or is_forgotten,
+        by_range=not is_animated,
+    )
 
 
 def _animated_in_name_only(
@@ -151,6 +160,7 @@ def _still(
     numbers: Sequence[int],
     *,
     is_certain: bool,
+    by_range: bool = False,
 ) -> Still | None:
     timed = _timed(paths)
     affected = paths.affected(timed or (sample,))
@@ -162,6 +172,7 @@ def _still(
         len(timed) > 1,
         not frames.name.digits,
         is_certain,
+        by_range,
         _advice(paths, sample, frames, numbers),
     )
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
-    from usdvol_lint.facts.usd.arcs import Arcs
-    from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.arcs import Arcs, Layered
+    from usdvol_lint.facts.usd.clips import Clips, ClipSet
     from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import PrimKinds
 
@@ -122,9 +122,7 @@ class Layers(Wing):
         from usdvol_lint.facts.layers.stopped_clips import find_stopped
 
         stopped = find_stopped(self._stage, self.tables)
-        return tuple(
-            each for each in stopped if not self._composition.may_lack_values(each.instance)
-        )
+        return tuple(each for each in stopped if not self._composition.may_lack_values(each.prim))
 
     @cached_property
     def _losing(self) -> frozenset[Any]:
@@ -134,6 +132,25 @@ class Layers(Wing):
             for each in losses
             for attribute in each.attributes
         )
+
+    @property
+    def are_several(self) -> bool:
+        """Whether anything but the root layer says something, value clips included."""
+        return self._clips.are_authored or not self._arcs.is_one_layer
+
+    @property
+    def clip_bearers(self) -> frozenset[Any]:
+        """The prims on which value clips are authored, above prims of ours or on them."""
+        return self._clips.bearing
+
+    def clip_sets_of(self, prim: Any) -> tuple[ClipSet, ...]:
+        """The clip sets that apply to a prim."""
+        return self._clips.reaching(prim)
+
+    @property
+    def layered(self) -> tuple[Layered, ...]:
+        """The drawn prims that several specs make up."""
+        return self._arcs.layered
 
     @property
     def retyped(self) -> tuple[Retyped, ...]:

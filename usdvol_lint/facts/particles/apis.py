@@ -36,6 +36,12 @@ class ParticleApis(NamedTuple):
         included = {api for provider in providers for api in _includes(provider) if api != provider}
         return tuple(api for api in providers if api not in included)
 
+    def is_lost(self, base: str) -> bool:
+        """Whether a base API is missing because the name of one that includes it is misspelt."""
+        return base not in self.applied and base in schema.expand_apis(
+            tuple(self.misspelt.values())
+        )
+
     def remedy(self, base: str, otherwise: str) -> str:
         """The advice for a missing base API: to correct a misspelt name, or else `otherwise`."""
         for name, intended in self.misspelt.items():

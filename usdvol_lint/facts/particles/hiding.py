@@ -14,21 +14,21 @@ from usdvol_lint.model import quoted
 def misfitting_default(
     array: ParticleArray,
     arrays: ParticleArrays,
-    per_particle: int,
     hidden_animation: Callable[[Any], HiddenAnimation | None],
 ) -> str | None:
     """The default, of an array that does not fit or of the positions, that hides what would fit.
 
-    In words, with what it hides.  That of the positions is to blame if it fits no array at all.
+    In words, with what it hides and what to do.  That of the positions is to blame if it fits no
+    array at all.
     """
     positions = arrays.positions
     if not positions:
         return None
-    wanted: dict[ParticleArray, float] = {array: positions.most * per_particle}
+    wanted: dict[ParticleArray, float] = {array: positions.most * arrays.each(array)}
     if not any(arrays.fit(other) for other in arrays.used() if other is not positions):
-        wanted[positions] = array.most / per_particle
+        wanted[positions] = array.most / arrays.each(array)
     for default, number in wanted.items():
         hidden = None if default.total else hidden_animation(default.attribute)
         if hidden and {len(value) for value in hidden.values()} == {number}:
-            return f"the default of {quoted(default.name)} hides {hidden.words}"
+            return f"the default of {quoted(default.name)} hides {hidden.words}: remove it"
     return None

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.prims.transforms import TransformFaults
     from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.hidden import HiddenAnimation
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
@@ -27,10 +28,11 @@ if TYPE_CHECKING:
 class Prims(Wing):
     """The prims that rules ask for: schemas, attributes, extents, and Gprims above and below."""
 
-    def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips) -> None:
+    def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips, drawn: Drawn) -> None:
         super().__init__(tables)
         self._kinds = kinds
         self._clips = clips
+        self._drawn = drawn
 
     def of(self, schema_name: str) -> list[Any]:
         """The live prims that answer to the schema of that name: its type, a subtype, an API."""
@@ -167,6 +169,13 @@ class Prims(Wing):
         readable = self.limits.readable(schema.VOLUME, schema.PARTICLE_FIELD)
         unauthored = (prim for prim, limits in readable if not limits.are_authored)
         return sorted(filterfalse(has_bounds, unauthored), key=self.shown_path)
+
+    @cached_property
+    def moved_prototypes(self) -> frozenset[Any]:
+        """The paths of the prototypes that PointInstancers show at changing places."""
+        from usdvol_lint.facts.usd.instancers import moved_prototypes
+
+        return moved_prototypes(self._drawn.instancers)
 
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:

@@ -11,6 +11,7 @@ parent_path: Any = Sdf.Path.GetParentPath
 prim_path: Any = Sdf.Path.GetPrimPath
 
 own_attribute: Any = Sdf.PrimSpec.GetAttributeAtPath
+own_relationship: Any = Sdf.PrimSpec.GetRelationshipAtPath
 type_of_spec: Any = Sdf.AttributeSpec.typeName.fget
 
 count_samples: Any = Usd.Attribute.GetNumTimeSamples

@@ -187,6 +187,11 @@ class Clips:
         self._own: dict[Any, tuple[ClipSet, ...]] = {}
 
     @property
+    def bearing(self) -> frozenset[Any]:
+        """All prims on which clip sets are authored, as far as prims of ours are concerned."""
+        return self._prims
+
+    @property
     def are_authored(self) -> bool:
         """Whether any of the prims has clip sets."""
         return bool(self._prims)

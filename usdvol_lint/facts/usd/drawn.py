@@ -28,16 +28,19 @@ class Drawn:
     A prim is drawn if it is defined up to the root, or up to a target of a PointInstancer's
     `prototypes`, which may lie below an `over`; what is in a prototype is if one of its instances
     is.  Imaging passes over a `class` there too.
+    `instancers` are the PointInstancers that are drawn, in no certain order.
     `roots` are such targets that no traversal reaches, those in a `class` among them.
     """
 
     def __init__(self, instancers: Iterable[Any] = ()) -> None:
         """`instancers`: the PointInstancers of the stage, also those that are not drawn."""
         self.roots: set[Any] = set()
+        self.instancers: list[Any] = []
         self._appearing: dict[Any, bool] = {}
         waiting = set(instancers)
         while ready := set(filter(self.__contains__, waiting)):
             waiting -= ready
+            self.instancers += ready
             self.roots.update(root for root in _prototypes(ready) if root not in self)
             self._appearing.clear()
 
@@ -66,7 +69,7 @@ class Drawn:
         return not is_in_prototype(prim) or self.appears(prototype_of(prim))
 
     def _is_below_root(self, prim: Any) -> bool:
-        while self.roots and has_specifier(prim):
+        while prim and has_specifier(prim):
             if prim in self.roots:
                 return True
             prim = get_parent(prim)

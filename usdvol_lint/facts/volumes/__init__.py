@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Sequence
 from enum import Enum
 from functools import cached_property
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.grids import Grids
     from usdvol_lint.facts.layers import Layers
     from usdvol_lint.facts.prims import Prims
-    from usdvol_lint.facts.prims.tables import Slot, Table, Tables
+    from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
     from usdvol_lint.facts.volumes.enclosure import Enclosure
@@ -26,8 +25,9 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.volumes.placement import Displacement
     from usdvol_lint.facts.volumes.reading import BindingReader
     from usdvol_lint.facts.volumes.shortfall import Shortfall
+    from usdvol_lint.facts.volumes.staging import Staging
     from usdvol_lint.facts.volumes.unmeasured import UnmeasuredGrids
-    from usdvol_lint.facts.volumes.usage import UsedFields
+    from usdvol_lint.facts.volumes.usage import UsedFields, Users
 
 
 class Volumes(Wing):
@@ -99,6 +99,13 @@ class Volumes(Wing):
 
         return is_shared(volume, field, self.tables.field_slots, self._users)
 
+    def staging(self, field: Any, time_range: tuple[float, float]) -> Staging:
+        """How the Volumes that use a field are shown over a range of time, or else the field."""
+        from usdvol_lint.facts.volumes.staging import staging_of
+
+        users = self._users.of(self.tables.field_slots[field.GetPath()])
+        return staging_of(field, users, self._prims.moved_prototypes, time_range)
+
     @cached_property
     def unused_fields(self) -> list[Any]:
         """The fields that no Volume targets, under this variant selection or one before it.
@@ -114,9 +121,8 @@ class Volumes(Wing):
         slots, used = self.tables.field_slots, self._users
         self._used.add(path for path, slot in slots.items() if slot in used)
         volumes = self._prims.of(schema.VOLUME)
-        if not self._used.missing_of(slots) or not self._layers.are_whole:
-            return []
-        if not volumes and len(slots) > 1:
+        is_library = not volumes and len(slots) > 1
+        if is_library or not self._used.missing_of(slots) or not self._layers.are_whole:
             return []
         layers = self._layers
         if not volumes and usage.any_targets(self._stage, next(iter(slots)), layers.out_of_reach):
@@ -139,8 +145,7 @@ class Volumes(Wing):
 
         Left out are those whose type is hidden, and those that may lack opinions.
         """
-        users = self._users
-        unbound = {path for path, slot in self.tables.field_slots.items() if slot not in users}
+        unbound = self._users.missing_of(self.tables.field_slots)
         if not (unbound or self._untyped):
             return []
         from usdvol_lint.facts.volumes.lookalikes import lookalikes
@@ -177,16 +182,9 @@ class Volumes(Wing):
 
     def mixed_files(self, volume: Any) -> MixedFiles | None:
         """The different files that the fields of a Volume name at the same time, if they do."""
-        if len(self.bindings(volume).bindings) < 2:
-            return None
-        from usdvol_lint.facts.usd.instances import in_prototype
         from usdvol_lint.facts.volumes.mixture import find_mixed_files
 
-        named = [
-            (binding.name, self._files.paths(in_prototype(target.prim)))
-            for binding, target in self.bindings(volume).with_files()
-        ]
-        return find_mixed_files(named) if len(named) > 1 else None
+        return find_mixed_files(self.bindings(volume), self._files.paths)
 
     def is_targeted(self, prim: Any) -> bool:
         """Whether a live Volume targets a prim, also one that is no live field."""
@@ -213,10 +211,10 @@ class Volumes(Wing):
         )
 
     @cached_property
-    def _users(self) -> Counter[Slot]:
-        """How many Volumes target each live field, by its slot."""
-        volumes = self.bound_fields.readable(schema.VOLUME)
-        return Counter(slot for _, fields in volumes for slot in fields.slots)
+    def _users(self) -> Users:
+        from usdvol_lint.facts.volumes.usage import Users
+
+        return Users(self.bound_fields.readable(schema.VOLUME))
 
     @cached_property
     def _field_index(self) -> FieldIndex:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.states import AssetState
+from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.usd.steps import StepSamples, Time
+from usdvol_lint.facts.volumes.bindings import FieldBindings
 from usdvol_lint.model import quoted
 
 _KNOWN = frozenset({AssetState.FILE, AssetState.UNVERIFIABLE})
@@ -33,11 +35,22 @@ class MixedFiles(NamedTuple):
         return f"{', '.join(named[:-1])} and {named[-1]}"
 
 
-def find_mixed_files(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles | None:
-    """Compares the files of fields, given by name, at every time; None if they never differ.
+def find_mixed_files(
+    bindings: FieldBindings, paths: Callable[[Any], AssetSamples]
+) -> MixedFiles | None:
+    """Compares the files of the fields of a Volume at every time; None if they never differ.
 
     Paths to no file are ignored: they are findings of other rules.
     """
+    named = [
+        (binding.name, paths(in_prototype(target.prim)))
+        for binding, target in bindings.with_files()
+    ]
+    return _compare(named) if len(named) > 1 else None
+
+
+def _compare(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles | None:
+    """Compares the files of fields, given by name."""
     timelines = [[(sample.time, _file(sample)) for sample in paths.samples] for _, paths in fields]
     if all(timeline == timelines[0] for timeline in timelines):
         return None

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cached_property
 from typing import Any
 
 from pxr import Usd
@@ -12,7 +14,7 @@ from usdvol_lint.facts.prims.tables import Slot
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
-from usdvol_lint.facts.volumes.bindings import FieldBindings
+from usdvol_lint.facts.volumes.bindings import BoundFields, FieldBindings
 from usdvol_lint.facts.volumes.intended import FieldIndex
 
 
@@ -33,6 +35,37 @@ class UsedFields:
         """A predicate for later: whether no selection until then accounts for the path."""
         paths = self._paths
         return lambda: path not in paths
+
+
+class Users:
+    """The Volumes that target each live field, by its slot."""
+
+    def __init__(self, volumes: Iterable[tuple[Any, BoundFields]]) -> None:
+        self._volumes = list(volumes)
+        self._counts = Counter(slot for _, fields in self._volumes for slot in fields.slots)
+
+    def __contains__(self, slot: object) -> bool:
+        return slot in self._counts
+
+    def count(self, slot: Slot) -> int:
+        """How many Volumes target a field."""
+        return self._counts[slot]
+
+    def missing_of(self, slots: Mapping[Any, Slot]) -> set[Any]:
+        """The paths of the fields that no Volume targets."""
+        return {path for path, slot in slots.items() if slot not in self._counts}
+
+    def of(self, slot: Slot) -> list[Any]:
+        """The Volumes that target a field."""
+        return self._by_slot[slot]
+
+    @cached_property
+    def _by_slot(self) -> dict[Slot, list[Any]]:
+        found: dict[Slot, list[Any]] = defaultdict(list)
+        for volume, fields in self._volumes:
+            for slot in fields.slots:
+                found[slot].append(volume)
+        return found
 
 
 def accounted_for(
@@ -71,19 +104,17 @@ def _as_walked(stage: Any, targets: Iterable[Any]) -> Iterator[Any]:
 
 
 def unbound_fields(
-    volume: Any, kinds: PrimKinds, slots: Mapping[Any, Slot], users: Mapping[Slot, int]
+    volume: Any, kinds: PrimKinds, slots: Mapping[Any, Slot], users: Users
 ) -> list[Any]:
-    """The field prims below a Volume that no Volume targets; `users` counts Volumes by slot."""
+    """The field prims below a Volume that no Volume targets."""
     below = _fields_below(volume, kinds)
     return [field for field in below if slots.get(in_prototype(field).GetPath()) not in users]
 
 
-def is_shared(
-    volume: Any, field: Any, slots: Mapping[Any, Slot], users: Mapping[Slot, int]
-) -> bool:
+def is_shared(volume: Any, field: Any, slots: Mapping[Any, Slot], users: Users) -> bool:
     """Whether other Volumes, or other instances of this one, target the same field."""
     slot = slots.get(in_prototype(field).GetPath())
-    if slot and users[slot] > 1:
+    if slot and users.count(slot) > 1:
         return True
     instanced = volume.IsInPrototype() and not field.IsInPrototype()
     return bool(instanced and shown(volume).instances > 1)

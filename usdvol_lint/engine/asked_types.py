@@ -1,0 +1,69 @@
+"""The types that rules ask for, held against the schemas that are installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from pxr import Tf, Usd
+
+from usdvol_lint import schema
+from usdvol_lint.facts.usd.kinds import is_registered
+from usdvol_lint.model import PackError
+from usdvol_lint.nearest import did_you_mean, is_one_slip_from
+from usdvol_lint.rule import NotChecked, Rule
+
+_OURS = frozenset({*schema.TYPE_BASES, *schema.API_INCLUDES})
+_NO_SCHEMAS = frozenset({schema.STAGE, schema.UNKNOWN_TYPE, schema.ABSTRACT_TYPE})
+
+
+def check_types(rules: Iterable[Rule]) -> None:
+    """Raises PackError for a rule that asks for a type by a misspelt name, or by that of a class.
+
+    Other names that nobody knows may be those of a plugin, which is not installed everywhere.
+    """
+    for rule in rules:
+        for name in filter(_is_unknown, rule.on):
+            meant = _schema_of_class(name) or _misspelt(name)
+            if meant:
+                raise PackError(
+                    f"rule {rule.code} ({rule.name}) is on {name!r}, which no schema is called; "
+                    f"did you mean {meant!r}?"
+                )
+
+
+def never_run(rules: Iterable[Rule], root: Any) -> Iterator[tuple[Rule, NotChecked]]:
+    """The rules none of whose types is known here, each with what to say of it on a stage."""
+    for rule in rules:
+        if rule.on and all(map(_is_unknown, rule.on)):
+            types = " or ".join(map(repr, rule.on))
+            yield (
+                rule,
+                NotChecked(
+                    f"rule {rule.code} ({rule.name}) looked at nothing: no schema that is "
+                    f"installed here is called {types}",
+                    at=root,
+                    suggestion="install the plugin that has it, or correct the rule"
+                    + did_you_mean(rule.on[0], _names()),
+                ),
+            )
+
+
+def _is_unknown(name: str) -> bool:
+    return name not in _OURS and name not in _NO_SCHEMAS and not is_registered(name)
+
+
+def _schema_of_class(name: str) -> str:
+    """The name that a schema has in layers, if this is the name of its class: `UsdVolVolume`."""
+    found = Tf.Type.FindByName(name)
+    return "" if found.isUnknown else str(Usd.SchemaRegistry.GetSchemaTypeName(found))
+
+
+def _misspelt(name: str) -> str | None:
+    return next((other for other in _names() if is_one_slip_from(name, other)), None)
+
+
+def _names() -> list[str]:
+    """The names of all schemas that are installed, and of ours."""
+    types = Tf.Type.FindByName("UsdSchemaBase").GetAllDerivedTypes()
+    return sorted(_OURS.union(map(Usd.SchemaRegistry.GetSchemaTypeName, types)) - {""})
