@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.model import quoted
 
 _ARCS = ("references", "payload", "inheritPaths", "specializes", "variantSetNames")
 
@@ -55,6 +56,11 @@ class EmptyClip(NamedTuple):
     clip: str
     prim_path: str
     spec: Any
+
+    @property
+    def words(self) -> str:
+        """`the clip 'clip.usda' has </cloud>, and no value for this field`."""
+        return f"the clip {quoted(self.clip)} has <{self.prim_path}>, and no value for this field"
 
 
 def empty_clip(attribute: Any, clips: tuple[ClipSet, ...]) -> EmptyClip | None:

@@ -35,10 +35,14 @@ _COUNTED = frozenset({"scales", "opacities"})
 
 
 class ArraySample(NamedTuple):
-    """One value of an array: its time, None for the default, and its size, 0 where it is None."""
+    """One value of an array: its time, None for the default, and its size, 0 where it is None.
+
+    `is_blocked`: whether it is None, so that nothing is authored at that time.
+    """
 
     time: Time
     size: int
+    is_blocked: bool = False
 
 
 class ParticleArray:
@@ -69,7 +73,8 @@ class ParticleArray:
         self.is_populated = self.most > 0
         self.total = total
         self.is_read_whole = total == sum(sample.time is not None for sample in samples)
-        self.sizes = StepSamples(samples)
+        sizes = ((each.time, None if each.is_blocked else each.size) for each in samples)
+        self.sizes = StepSamples(sizes)
         self._with_counts = with_counts
         self._advance = advance
 

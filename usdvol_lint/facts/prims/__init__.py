@@ -30,6 +30,7 @@ class Prims(Wing):
 
     def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips, drawn: Drawn) -> None:
         super().__init__(tables)
+        self._drawn = drawn
         self._kinds = kinds
         self._clips = clips
         self._drawn = drawn
@@ -128,7 +129,13 @@ class Prims(Wing):
         from usdvol_lint.facts.prims.ancestors import ancestors_of
 
         tables = self.tables.of(schema.VOLUME, schema.PARTICLE_FIELD)
-        return ancestors_of((table.batch for table in tables), self._kinds)
+        return ancestors_of((table.batch for table in tables), self._kinds, self._drawn)
+
+    def is_handed_down(self, above: Any, name: str) -> bool:
+        """Whether a Volume or particle field takes what a prim above it says of a property."""
+        from usdvol_lint.facts.prims.handed_down import is_handed_down
+
+        return is_handed_down(above, name, self._kinds)
 
     @fact
     def encoding(self, prim: Any) -> Encoding | None:
@@ -175,7 +182,7 @@ class Prims(Wing):
         """The paths of the prototypes that PointInstancers show at changing places."""
         from usdvol_lint.facts.usd.instancers import moved_prototypes
 
-        return moved_prototypes(self._drawn.instancers)
+        return moved_prototypes(self._drawn.live_instancers)
 
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:

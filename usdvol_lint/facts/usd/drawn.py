@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import chain, filterfalse
 from typing import Any
 
@@ -28,24 +30,34 @@ class Drawn:
     A prim is drawn if it is defined up to the root, or up to a target of a PointInstancer's
     `prototypes`, which may lie below an `over`; what is in a prototype is if one of its instances
     is.  Imaging passes over a `class` there too.
-    `instancers` are the PointInstancers that are drawn, in no certain order.
+    `live_instancers` are the PointInstancers that are drawn, in no certain order.
     `roots` are such targets that no traversal reaches, those in a `class` among them.
     """
 
     def __init__(self, instancers: Iterable[Any] = ()) -> None:
         """`instancers`: the PointInstancers of the stage, also those that are not drawn."""
         self.roots: set[Any] = set()
-        self.instancers: list[Any] = []
+        self.live_instancers: set[Any] = set()
         self._appearing: dict[Any, bool] = {}
         waiting = set(instancers)
         while ready := set(filter(self.__contains__, waiting)):
             waiting -= ready
-            self.instancers += ready
-            self.roots.update(root for root in _prototypes(ready) if root not in self)
+            self.live_instancers |= ready
+            targets = chain.from_iterable(map(prototypes_of, ready))
+            self.roots.update(root for root in targets if root not in self)
             self._appearing.clear()
 
     def __contains__(self, prim: Any) -> bool:
         return bool(DRAWN_BELOW(prim)) and (self._is_reached(prim) or self._is_below_root(prim))
+
+    @cached_property
+    def instancers(self) -> Mapping[Any, Sequence[Any]]:
+        """The drawn PointInstancers, by each prim that they target."""
+        by_target: dict[Any, list[Any]] = defaultdict(list)
+        for instancer in self.live_instancers:
+            for target in prototypes_of(instancer):
+                by_target[target].append(instancer)
+        return by_target
 
     @property
     def out_of_reach(self) -> Iterator[Any]:
@@ -80,10 +92,9 @@ def _composed(root: Any) -> Any:
     return Usd.PrimRange(root, _COMPOSED)
 
 
-def _prototypes(instancers: Iterable[Any]) -> Iterator[Any]:
-    """The targets of PointInstancers, as the walk meets them."""
-    for instancer in instancers:
-        for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
-            target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
-            if target:
-                yield in_prototype(target)
+def prototypes_of(instancer: Any) -> Iterator[Any]:
+    """The targets of a PointInstancer, as the walk meets them."""
+    for path in instancer.GetRelationship("prototypes").GetForwardedTargets():
+        target = instancer.GetStage().GetPrimAtPath(path.GetPrimPath())
+        if target:
+            yield in_prototype(target)

@@ -12,11 +12,13 @@ from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import (
     DRAWN_BELOW,
     get_parent,
+    get_prim_stack,
     get_property_names,
     get_type,
     has_specifier,
 )
 from usdvol_lint.facts.usd.instances import in_prototype
+from usdvol_lint.facts.usd.unselected import may_be_said
 from usdvol_lint.facts.usd.untyped import GROUP_TYPES
 
 _ARRAYS = (
@@ -39,6 +41,7 @@ def lookalikes(stage: Any, untyped: Iterable[Any], unbound: Collection[Any]) -> 
     """By path: what would bind one of the fields at these paths, or has all the splat arrays.
 
     `untyped` are the prims that are in question, besides those above the fields.
+    Left out are those that a variant which is not selected may give a type.
     """
     found = {}
     for prim in chain(_above(stage, unbound), untyped):
@@ -46,7 +49,8 @@ def lookalikes(stage: Any, untyped: Iterable[Any], unbound: Collection[Any]) -> 
         binding = _binding(prim, names, unbound) if unbound and names else None
         if binding and _is_above_volume(prim):
             continue  # which may forward to it, in a variant that is not selected
-        if binding or (names and _has_arrays(names)):
+        is_alike = binding or (names and _has_arrays(names))
+        if is_alike and not _may_be_typed(prim):
             found[prim] = Lookalike(prim, binding)
     return sorted(found.values(), key=lambda each: each.prim.GetPath())
 
@@ -77,6 +81,17 @@ def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any |
 
 def _is_above_volume(prim: Any) -> bool:
     return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim, DRAWN_BELOW))
+
+
+def _may_be_typed(prim: Any) -> bool:
+    """Whether a variant may give a prim another type: only a type said in place is stronger."""
+    local = prim.GetStage().GetLayerStack()
+    for spec in get_prim_stack(prim):
+        if spec.typeName:
+            if spec.layer in local and not spec.path.ContainsPrimVariantSelection():
+                return False
+            break
+    return may_be_said(prim, lambda spec: bool(spec.typeName))
 
 
 def _has_arrays(names: Collection[str]) -> bool:
