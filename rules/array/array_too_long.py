@@ -14,4 +14,5 @@ def array_too_long(particles: Prim, facts: Facts) -> Problems:
         else:
             message = "if some were left out of the others, every later one has those of another"
             advice = "leave the same particles out of all arrays; cut the end off only if it is spare"
-        yield Problem(f"{surplus.words}: {message}", at=surplus.misfits, suggestion=advice)
+        remedy = facts.particles.misfitting_default(particles, surplus.arrays[0])
+        yield Problem(f"{surplus.words}: {message}", at=surplus.misfits, suggestion=remedy or advice)

@@ -2,8 +2,7 @@
 
 from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
 
-_SLACK = 1e-5
-_HALF_SLACK = 2**-10
+_SLACK, _HALF_SLACK = 1e-5, 2**-10
 
 
 @rule("ARR022", on="ParticleField", severity=INFO, since="0.1")

@@ -13,15 +13,19 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     for array in arrays.used("coefficients"):
         short, long = arrays.too_short(array, each), arrays.too_long(array, each)
         takes = f"degree {degree.value}{authored} takes {each:,}{' for each' * (fitting is None)}"
+        remedy = facts.particles.misfitting_default(particles, array) if short or long else None
         if short:
             yield Problem(
                 f"{short.shares}; {takes}",
                 at=short,
-                suggestion=f"author {each:,} coefficient{'s' * (each > 1)} for each position"
-                if fitting is None
-                else f"export all of degree {degree.value} again, or author degree {fitting}"
-                if degree.is_authored
-                else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits",
+                suggestion=remedy
+                or (
+                    f"author {each:,} coefficient{'s' * (each > 1)} for each position"
+                    if fitting is None
+                    else f"export all of degree {degree.value} again, or author degree {fitting}"
+                    if degree.is_authored
+                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
+                ),
             )
         if long and not _is_told_with_others(array, facts, particles):
             alone = arrays.others_fit(array)
@@ -30,9 +34,12 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
                 f"{long.shares}; {takes}{shift if fitting is None else ''}",
                 at=long,
                 severity=None if alone or fitting is not None else WARNING,
-                suggestion="leave the same particles out of the coefficients; cut the end off only if it is spare"
-                if fitting is None
-                else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits",
+                suggestion=remedy
+                or (
+                    "leave the same particles out of the coefficients; cut the end off only if it is spare"
+                    if fitting is None
+                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
+                ),
             )
 
 

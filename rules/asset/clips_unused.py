@@ -11,29 +11,32 @@ from usdvol_lint.schema import CLIPS
 def clips_unused(root: Prim, facts: Facts) -> Problems:
     for lost in facts.layers.lost_clips:
         bearer, them = (f"the clip set {quoted(lost.name)}", "it") if lost.name else ("clips", "them")
-        what = f"{bearer} {lost.fault.what}: USD does not use {them}, and "
-        yield _problem(lost, what, lost.prim, lost.advice, absent=_absent(lost))
+        yield problem(f"{bearer} {lost.fault.what}: USD does not use {them}, and", lost, lost.advice)
     for left in facts.layers.clips_left_behind:
-        what = f"an arc to a prim below leaves behind {_clips(left)}: "
         advice = f"bring in <{left.path}>, or author its clips here too"
-        yield _problem(left, what, left.prim, advice, absent=_absent(left))
+        yield problem(f"an arc to a prim below leaves behind {clips(left)}:", left, advice)
     for stopped in facts.layers.stopped_clips:
-        what = f"{_clips(stopped.carrier)} do not reach into this instance: "
         advice = "remove instanceable, or carry the clips on a prim inside what is instanced"
-        yield _problem(stopped, what, stopped.instance, advice)
+        yield problem(f"{clips(stopped.carrier)} do not reach into this instance:", stopped, advice)
 
 
-def _problem(lost: Any, what: str, prim: Prim, advice: str | None, **more: Any) -> Problem:
-    level = None if lost.without_value else WARNING
-    return Problem(what + _effect(lost), at=prim, spec=lost.spec, suggestion=advice, severity=level, **more)
+def problem(what: str, lost: Any, advice: str | None) -> Problem:
+    return Problem(
+        f"{what} {effect(lost)}",
+        at=lost.prim,
+        spec=lost.spec,
+        suggestion=advice,
+        severity=None if lost.without_value else WARNING,
+        absent=absent(lost),
+    )
 
 
-def _clips(carrier: Any) -> str:
+def clips(carrier: Any) -> str:
     """The clips of a prim in a layer."""
     return f"the value clips of <{carrier.path}> in {quoted(carrier.layer.GetDisplayName())}"
 
 
-def _effect(lost: Any) -> str:
+def effect(lost: Any) -> str:
     """What the attributes lack."""
     missed: Sequence[Any] = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
@@ -41,6 +44,6 @@ def _effect(lost: Any) -> str:
     return f"{names} {'has' if len(missed) == 1 else 'have'} {what}"
 
 
-def _absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
+def absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
     """What each attribute lacks: what the clips need, or a value from elsewhere."""
     return [(*lacks(lost.prim, CLIPS), *lacks(each.GetPrim(), each.GetName())) for each in lost.attributes]

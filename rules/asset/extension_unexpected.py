@@ -17,6 +17,8 @@ def _no_volume(content: Content) -> bool | None:
 
 @rule("AST006", on=tuple(_WANTED), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
+    if facts.layers.hides_ours(field):
+        return
     type_name = next(name for name in _WANTED if facts.prims.is_a(field, name))
     prim = f"{_FORMATS[_WANTED[type_name]]}Asset"
     paths, inside = facts.files.paths(field), facts.grids.contents(field)

@@ -12,6 +12,8 @@ from usdvol_lint.schema import DECLARED_BY
     since="0.1",
 )
 def attribute_of_other_type(prim: Prim, facts: Facts) -> Problems:
+    if facts.layers.hides_ours(prim):
+        return
     undeclared = facts.prims.authored(prim).undeclared
     misspelt = {slip.attribute.GetName() for slip in facts.prims.misspelt(prim)}
     for name in sorted(undeclared.intersection(DECLARED_BY) - misspelt):

@@ -122,9 +122,7 @@ class Layers(Wing):
         from usdvol_lint.facts.layers.stopped_clips import find_stopped
 
         stopped = find_stopped(self._stage, self.tables)
-        return tuple(
-            each for each in stopped if not self._composition.may_lack_values(each.instance)
-        )
+        return tuple(each for each in stopped if not self._composition.may_lack_values(each.prim))
 
     @cached_property
     def _losing(self) -> frozenset[Any]:

@@ -23,11 +23,11 @@ from usdvol_lint.facts.usd.instances import (
 class StoppedClips(NamedTuple):
     """The clips of an instance or a prim above it, as its strongest `carrier` names them.
 
-    `attributes`, at least one, would have values of the clips if `instance` were none; `spec` is
-    that which makes it one.
+    `attributes`, at least one, would have values of the clips if `prim` were no instance; `spec`
+    is that which makes it one.
     """
 
-    instance: Any
+    prim: Any
     spec: Any
     carrier: Any
     attributes: tuple[Any, ...]

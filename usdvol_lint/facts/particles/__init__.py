@@ -84,6 +84,12 @@ class Particles(Wing):
             self._advance,
         )
 
+    def misfitting_default(self, prim: Any, array: ParticleArray) -> str | None:
+        """The default that hides what would fit, in words, where an array does not fit."""
+        from usdvol_lint.facts.particles.hiding import misfitting_default
+
+        return misfitting_default(array, self.arrays(prim), self._prims.hidden_animation)
+
     def unseen(self, prim: Any) -> Unseen | None:
         """The particles that can't be seen at any time, if there are some."""
         arrays = self.arrays(prim)
