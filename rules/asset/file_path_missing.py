@@ -8,6 +8,8 @@ def file_path_missing(field: Prim, facts: Facts) -> Problems:
     paths = facts.files.paths(field)
     if paths.names_a_path or facts.files.unlisted_clips(field) or facts.layers.may_lack_values(field):
         return
+    if facts.prims.is_told_as_misspelt(field, "filePath"):
+        return
     what = "is empty" if paths.of(AssetState.EMPTY) else "is blocked" if paths.samples else "has no value"
     yield Problem(
         f"filePath {what}" if paths.attribute.IsAuthored() else "no filePath",
