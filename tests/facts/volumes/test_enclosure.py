@@ -152,7 +152,7 @@ def test_half_a_voxel_is_not_worth_a_word_beside_more(lint: Lint) -> None:
         ),
         (
             animated({1: POINT, 2: POINT}),
-            "float3[] extent = [(0.05,",
+            "1: [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]', '2: [(0.05,",
         ),
     ],
 )
