@@ -161,10 +161,10 @@ def test_what_is_suggested_fits(extent: str, suggestion: str, lint: Lint) -> Non
     written = only(lint(volume(extent, files))).suggestion
     assert written is not None
     assert written.startswith(f"write '{suggestion}")
-    statement = written.removeprefix("write '").removesuffix("'")
+    statement = written.removeprefix("write '").removesuffix("'").replace("', '", ", ")
     if not statement.startswith("float3"):
-        first = f"1: {UNIT}"
-        statement = f"float3[] extent.timeSamples = {{ {first}, {statement} }}"
+        first = "" if statement.startswith("1:") else f"1: {UNIT}, "
+        statement = f"float3[] extent.timeSamples = {{ {first}{statement} }}"
     assert lint(volume(statement, files)) == []
 
 
