@@ -27,6 +27,8 @@ def field_name_missing(field: Prim, facts: Facts) -> Problems:
     unasked = list(contents.grouped(_only_name)) if contents.timeline.single_grid else []
     if (contents.timeline.single_grid and not unasked) or facts.layers.may_lack_values(field):
         return
+    if facts.prims.is_told_as_misspelt(field, "fieldName"):
+        return
     what = "fieldName is empty" if "" in names else "no fieldName"
     advice = "author the name that the field has in its file, such as 'density'"
     if unasked:

@@ -7,8 +7,7 @@ _NAMED = 20
 
 @rule("SCH007", on=STAGE, severity=WARNING, since="0.1")
 def extent_missing(stage: Prim, facts: Facts) -> Problems:
-    bare = facts.prims.without_extent
-    prims = [prim for prim in bare if not facts.layers.may_lack_values(prim) and not _is_misspelt(prim, facts)]
+    prims = [prim for prim in facts.prims.without_extent if not _may_be_elsewhere(prim, facts)]
     if not prims:
         return
     names = [f"{prim.GetTypeName()} <{facts.prims.shown_path(prim)}>" for prim in prims[:_NAMED]]
@@ -21,6 +20,6 @@ def extent_missing(stage: Prim, facts: Facts) -> Problems:
     )
 
 
-def _is_misspelt(prim: Prim, facts: Facts) -> bool:
-    """Whether there is an extent by another name, which SCH004 tells."""
-    return any(slip.intended == "extent" for slip in facts.prims.misspelt(prim))
+def _may_be_elsewhere(prim: Prim, facts: Facts) -> bool:
+    """Whether the extent may lie in a layer that does not open, or has another name."""
+    return facts.layers.may_lack_values(prim) or facts.prims.is_told_as_misspelt(prim, "extent")

@@ -39,15 +39,14 @@ def test_an_instance_that_stands_elsewhere_than_its_field(lint: Lint) -> None:
 
 @pytest.mark.parametrize("moved", ["one", "two"])
 def test_each_instance_stands_where_it_stands(moved: str, lint: Lint) -> None:
-    """Whichever comes first; and what is suggested encloses the field as all of them see it."""
+    """Whichever comes first; and no extent is suggested that would hide it."""
     instances = "".join(
         INSTANCE.format(name, "\n " + OPS["move"] if name == moved else "")
         for name in ("one", "two", "three")
     )
     found = only(lint(SHARED + instances, "VOL013"))
     assert f"moved as its field is, in </{moved}/cloud> reaches out of the extent" in found.message
-    _, _, numbers = str(found.suggestion).partition("= ")
-    assert lint(SHARED.replace("[(0, 0, 0), (1, 1, 1)]", numbers[:-1]) + instances, "VOL013") == []
+    assert found.suggestion == "move the field below the Volume, or give both the same transform"
     found = only(lint(SHARED + instances, "VOL015"))
     assert f"its space is moved by (-1, -2, -3) in </{moved}/cloud> in relation" in found.message
 

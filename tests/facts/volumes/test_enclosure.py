@@ -152,7 +152,7 @@ def test_half_a_voxel_is_not_worth_a_word_beside_more(lint: Lint) -> None:
         ),
         (
             animated({1: POINT, 2: POINT}),
-            "float3[] extent = [(0.05,",
+            "1: [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]', '2: [(0.05,",
         ),
     ],
 )
@@ -161,10 +161,10 @@ def test_what_is_suggested_fits(extent: str, suggestion: str, lint: Lint) -> Non
     written = only(lint(volume(extent, files))).suggestion
     assert written is not None
     assert written.startswith(f"write '{suggestion}")
-    statement = written.removeprefix("write '").removesuffix("'")
+    statement = written.removeprefix("write '").removesuffix("'").replace("', '", ", ")
     if not statement.startswith("float3"):
-        first = f"1: {UNIT}"
-        statement = f"float3[] extent.timeSamples = {{ {first}, {statement} }}"
+        first = "" if statement.startswith("1:") else f"1: {UNIT}, "
+        statement = f"float3[] extent.timeSamples = {{ {first}{statement} }}"
     assert lint(volume(statement, files)) == []
 
 

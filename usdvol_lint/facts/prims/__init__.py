@@ -110,6 +110,12 @@ class Prims(Wing):
 
         return misspelt(prim, self.authored(prim))
 
+    def is_told_as_misspelt(self, prim: Any, name: str) -> bool:
+        """Whether SCH004 tells that an attribute is probably meant to be the one of this name."""
+        return any(slip.intended == name for slip in self.misspelt(prim)) and not self.encoding(
+            prim
+        )
+
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The values of a prim's attributes that are tokens the schema does not allow."""
         from usdvol_lint.facts.prims.contradictions import unlisted_tokens

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -174,6 +174,13 @@ class Volumes(Wing):
         from usdvol_lint.facts.volumes.placement import displacement
 
         return displacement(volume, field)
+
+    def are_apart(self, volume: Any, fields: Container[str]) -> bool:
+        """Whether one of these fields is outside a Volume and does not move with it."""
+        return any(
+            target.shown in fields and self.displacement(volume, target.prim)
+            for _, target in self.bindings(volume).outside(volume)
+        )
 
     @summary
     def overhangs(self, table: Table) -> Sequence[float]:
