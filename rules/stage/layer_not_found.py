@@ -8,14 +8,9 @@ _NAMED = 3
 @rule("STG001", on=STAGE, severity=ERROR, since="0.1")
 def layer_not_found(root: Prim, facts: Facts) -> Problems:
     for first, *others in facts.layers.of_unread_formats:
-        more = f" and {len(others)} more" if others else ""
-        yield NotChecked(
-            f"no plugin here reads {first.extension!r} files: what the {first.arc} "
-            f"{quoted(first.asset)}{more} should bring was not checked",
-            at=first.prim,
-            spec=first.spec,
-            asset=first.asset,
-        )
+        what = f"the {first.arc} {quoted(first.asset)}{f' and {len(others)} more' if others else ''}"
+        said = f"no plugin here reads {first.extension!r} files: what {what} should bring was not checked"
+        yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset)
     for missing in facts.layers.missing:
         if missing.extension:
             continue
