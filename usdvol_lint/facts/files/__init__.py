@@ -122,24 +122,6 @@ class Files(Wing):
 
         return find_frames(self._disk, found.anchored(), found.first.path)
 
-    def is_only_declared(self, field: Any) -> bool:
-        """Whether the stage's own layer declares `filePath`, and no layer gives it a value."""
-        paths, root = self.paths(field), self._stage.GetRootLayer()
-        specs = paths.attribute.GetPropertyStack()
-        return not paths.samples and any(spec.layer == root for spec in specs)
-
-    def as_expression(self, found: Affected) -> str | None:
-        """The first path as an expression with the environment variables that it has; or None."""
-        from usdvol_lint.facts.files.patterns import as_expression
-
-        return as_expression(found.first.path)
-
-    def has_frame(self, found: Affected) -> bool:
-        """Whether the first path has a placeholder for a frame."""
-        from usdvol_lint.facts.files.patterns import has_frame
-
-        return has_frame(found.first.path)
-
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
         from usdvol_lint.facts.files.letter_case import recased
@@ -151,12 +133,6 @@ class Files(Wing):
         from usdvol_lint.facts.files.origins import outside_package
 
         return outside_package(self.paths(field)) if self._has_packages else None
-
-    def below_layer(self, found: Affected) -> str | None:
-        """The first path relative to the folder of its layer, if it lies below that; else None."""
-        from usdvol_lint.facts.files.origins import below_layer
-
-        return below_layer(found)
 
     def unselected_path(self, field: Any) -> VariantPath | None:
         """A variant that is not selected, and that names a file for the field."""

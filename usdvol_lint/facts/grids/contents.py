@@ -136,8 +136,8 @@ class Content(NamedTuple):
         """The purposes under which the file has grids with the name that the field claims."""
         grids = self.file.grids if self.file else ()
         name = self.claim.name
-        purposes = [each.purpose for each in grids if name in (each.unique_name, each.label)]
-        return tuple(dict.fromkeys(purposes))
+        named = [each.purpose for each in grids if name in (each.unique_name, each.label)]
+        return tuple(dict.fromkeys(filter(None, named)))
 
     @property
     def label(self) -> str:
