@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from functools import cached_property
@@ -13,6 +12,7 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
+    from usdvol_lint.facts.files.absences import MissingFolders
     from usdvol_lint.facts.files.alike import Alike, Namesakes
     from usdvol_lint.facts.files.animation import UnlistedClips
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
@@ -103,8 +103,7 @@ class Files(Wing):
 
         None of them where no folder is missing.
         """
-        folder = self._missing_folders.get(field)
-        return [] if folder is None else self._below_missing_folder[folder]
+        return self._missing_folders.sharing(field)
 
     def alike(self, field: Any) -> Alike:
         """What is known of other fields of the same prim that name the same files."""
@@ -179,31 +178,15 @@ class Files(Wing):
         return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
-    def _missing_folders(self) -> dict[Any, str]:
-        """By field, the one folder that is missing above all of its missing files."""
-        from usdvol_lint.facts.files.absences import common_missing_folder
+    def _missing_folders(self) -> MissingFolders:
+        from usdvol_lint.facts.files.absences import MissingFolders
 
-        fields = (
+        missing = (
             (field, self.missing(field))
             for field, paths in self.paths.readable(schema.FIELD_ASSET)
             if AssetState.MISSING in paths.states
         )
-        found = (
-            (field, common_missing_folder(missing, self._disk))
-            for field, missing in fields
-            if missing
-        )
-        return {field: folder for field, folder in found if folder}
-
-    @cached_property
-    def _below_missing_folder(self) -> dict[str, list[Any]]:
-        """The fields by their missing folder, in the order in which they are shown."""
-        from usdvol_lint.facts.usd.instances import as_shown
-
-        fields: dict[str, list[Any]] = defaultdict(list)
-        for field in as_shown(self._missing_folders):
-            fields[self._missing_folders[field]].append(field)
-        return fields
+        return MissingFolders(missing, self._disk)
 
     @cached_property
     def _namesakes(self) -> Namesakes:
