@@ -132,6 +132,14 @@ class Content(NamedTuple):
         return frozenset(grid.unique_name for grid in self.file.grids) if self.file else frozenset()
 
     @property
+    def purposes(self) -> tuple[str, ...]:
+        """The purposes under which the file has grids with the name that the field claims."""
+        grids = self.file.grids if self.file else ()
+        name = self.claim.name
+        named = [each.purpose for each in grids if name in (each.unique_name, each.label)]
+        return tuple(dict.fromkeys(filter(None, named)))
+
+    @property
     def label(self) -> str:
         """The label of the selected grid in quotes, or empty."""
         return quoted_short(self.grid.label) if self.grid else ""
