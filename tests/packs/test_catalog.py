@@ -52,7 +52,7 @@ def test_folders_add_up(show: Path, tmp_path: Path) -> None:
         "    yield Problem('named', at=volume)\n"
     )
     configure(show, f"packs = ['{STUDIO}']\nselect = ['STU001', 'OTH']\n")
-    ran = run("--pack", other, "--output-format", "concise", ".", cwd=show)
+    ran = run("--pack", other, "--output-format", "concise", "--show", "info", ".", cwd=show)
     assert ran == Ran(1, "fog.usda:2:1: OTH001 info </fog> named\n" + WRONG, "")
 
 

@@ -189,7 +189,7 @@ COMPLETED: dict[str, tuple[Files, set[str]]] = {
                 )
             ),
         },
-        {"asset AST001 error"},
+        {"asset AST001 info"},
     ),
     "a variant that defines the field": (
         {
@@ -438,7 +438,7 @@ STAYS: dict[str, tuple[Files, list[str]]] = {
             ),
             "shot": layer(over("smoke", "", REFERENCE, "def")),
         },
-        ["asset AST001 error", "shot AST001 error"],
+        ["asset AST001 info", "shot AST001 info"],
     ),
     "a target that is nowhere": (
         {

@@ -58,12 +58,13 @@ class Stamp:
 
 
 def _absent(problem: Problem) -> tuple[frozenset[Lack], ...]:
-    """What is absent, in terms of the specs of the prims that lack it."""
+    """What is absent, in terms of the specs in files of the prims that lack it."""
     return tuple(
         frozenset(
             (spec.layer.realPath, str(spec.path), name)
             for prim, name in part
             for spec in prim.GetPrimStack()
+            if spec.layer.realPath
         )
         for part in problem.absent
     )

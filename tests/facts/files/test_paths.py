@@ -19,10 +19,10 @@ from usdvol_lint.facts.files.folders import Listing
     [
         ("vdb.vdb", []),
         ("VDB.VDB", []),
-        ("f3d.f3d", ["name a '.vdb' file, or make the prim a Field3DAsset"]),
-        ("nvdb.nvdb", ["write it as '.vdb' for renderers that read OpenVDB alone"]),
-        ("abc.abc", ["name a '.vdb' file"]),
-        ("plain", ["name a '.vdb' file"]),
+        ("f3d.f3d", ["end its name in '.vdb'"]),
+        ("nvdb.nvdb", ["end its name in '.vdb'"]),
+        ("abc.abc", ["end its name in '.vdb'"]),
+        ("plain", ["end its name in '.vdb'"]),
     ],
 )
 def test_extensions(name: str, advice: list[str], lint_text: Lint, tmp_path: Path) -> None:
@@ -32,13 +32,20 @@ def test_extensions(name: str, advice: list[str], lint_text: Lint, tmp_path: Pat
     ] == advice
 
 
-@pytest.mark.parametrize("name", ["vdb.vdb", "f3d.f3d", "nvdb.nvdb", "plain"])
+@pytest.mark.parametrize(
+    ("name", "advice"),
+    [
+        ("vdb.vdb", ["make the prim an OpenVDBAsset"]),
+        ("f3d.f3d", []),
+        ("nvdb.nvdb", ["make the prim an OpenVDBAsset, and end the file's name in '.vdb'"]),
+        ("plain", ["make the prim an OpenVDBAsset, and end the file's name in '.vdb'"]),
+    ],
+)
 def test_extensions_of_openvdb_files_on_a_field3d_field(
-    name: str, lint_text: Lint, tmp_path: Path
+    name: str, advice: list[str], lint_text: Lint, tmp_path: Path
 ) -> None:
     write(tmp_path, name)
     report = lint_text(field(f"asset filePath = @./{name}@", kind="Field3DAsset"))
-    advice = [] if name == "f3d.f3d" else ["name a '.f3d' file, or make the prim an OpenVDBAsset"]
     assert [f[3] for f in said(report, "AST006")] == advice
 
 
