@@ -27,6 +27,7 @@ PACKAGES = (
     {"spelling"},
     {"volumefile"},
     {"facts"},
+    {"precondition"},
     {"rule"},
     {"packs"},
     {"engine"},
