@@ -9,13 +9,13 @@ from usdvol_lint.schema import CLIPS
 
 @rule("AST016", on=STAGE, severity=ERROR, since="0.1")
 def clips_unused(root: Prim, facts: Facts) -> Problems:
-    for lost in facts.layers.lost_clips:
+    for lost in facts.layers.clip_losses.lost:
         bearer, them = (f"the clip set {quoted(lost.name)}", "it") if lost.name else ("clips", "them")
         yield problem(f"{bearer} {lost.fault.what}: USD does not use {them}, and", lost, lost.advice)
-    for left in facts.layers.clips_left_behind:
+    for left in facts.layers.clip_losses.left_behind:
         advice = f"bring in <{left.path}>, or author its clips here too"
         yield problem(f"an arc to a prim below leaves behind {clips(left)}:", left, advice)
-    for stopped in facts.layers.stopped_clips:
+    for stopped in facts.layers.clip_losses.stopped:
         advice = "remove instanceable, or carry the clips on a prim inside what is instanced"
         yield problem(f"{clips(stopped.carrier)} do not reach into this instance:", stopped, advice)
 

@@ -155,7 +155,7 @@ class _Completions:
             bindings = prim.GetAuthoredPropertiesInNamespace(FIELD_NAMESPACE)
             has = {name for name in names if self._has(prim, name)} | {TYPE_NAME, FIELD_NAMESPACE}
             has.update(each.GetName() for each in bindings)
-            for clip_set in self._facts.layers.clip_sets_of(prim):
+            for clip_set in self._facts.layers.clips.reaching(prim):
                 self._find_in_clips(prim, clip_set, has)
 
     def _find_in_clips(self, prim: Any, clip_set: ClipSet, has: set[str]) -> None:
@@ -234,7 +234,7 @@ class _Completions:
 
     def _find_clips(self) -> None:
         """The clip sets of which other specs have a part."""
-        for prim in self._facts.layers.clip_bearers:
+        for prim in self._facts.layers.clips.bearing:
             specs = [spec for spec in get_prim_stack(prim) if spec.HasInfo("clips")]
             if len(specs) > 1:
                 for spec in specs:

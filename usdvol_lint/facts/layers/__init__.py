@@ -11,19 +11,17 @@ from usdvol_lint import schema
 from usdvol_lint.facts.found import Wing
 
 if TYPE_CHECKING:
+    from usdvol_lint.facts.layers.clip_losses import ClipLosses
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
     from usdvol_lint.facts.layers.instancing import LostOverrides
-    from usdvol_lint.facts.layers.left_behind import LeftBehind
-    from usdvol_lint.facts.layers.lost_clips import LostClips
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.retyping import Retyped
-    from usdvol_lint.facts.layers.stopped_clips import StoppedClips
     from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.arcs import Arcs, Layered
-    from usdvol_lint.facts.usd.clips import Clips, ClipSet
+    from usdvol_lint.facts.usd.clips import Clips
     from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import PrimKinds
 
@@ -94,49 +92,14 @@ class Layers(Wing):
 
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
-        return self._composition.may_lack_values(prim) or prim in self._losing
+        return self._composition.may_lack_values(prim) or prim in self.clip_losses.prims
 
     @cached_property
-    def lost_clips(self) -> tuple[LostClips, ...]:
-        """The value clips that USD does not use, though they hold values for prims of ours.
+    def clip_losses(self) -> ClipLosses:
+        """The value clips that do not arrive at prims of ours."""
+        from usdvol_lint.facts.layers.clip_losses import ClipLosses
 
-        Those are left out that a layer which failed to open may set right.
-        """
-        if not self._clips.are_authored:
-            return ()
-        from usdvol_lint.facts.layers.lost_clips import find_lost_clips
-
-        lost = find_lost_clips(self.tables, self._clips)
-        return tuple(each for each in lost if not self._composition.may_lack_values(each.prim))
-
-    @cached_property
-    def clips_left_behind(self) -> tuple[LeftBehind, ...]:
-        """The value clips of other layers that an arc leaves behind."""
-        if not self._arcs.prims:
-            return ()
-        from usdvol_lint.facts.layers.left_behind import find_left_behind
-
-        left = find_left_behind(self._stage, self.tables, self._clips)
-        return tuple(each for each in left if not self._composition.may_lack_values(each.prim))
-
-    @cached_property
-    def stopped_clips(self) -> tuple[StoppedClips, ...]:
-        """The value clips on instances and above them, which do not reach into them."""
-        if not self._stage.GetPrototypes():
-            return ()
-        from usdvol_lint.facts.layers.stopped_clips import find_stopped
-
-        stopped = find_stopped(self._stage, self.tables)
-        return tuple(each for each in stopped if not self._composition.may_lack_values(each.prim))
-
-    @cached_property
-    def _losing(self) -> frozenset[Any]:
-        return frozenset(
-            attribute.GetPrim()
-            for losses in (self.lost_clips, self.clips_left_behind, self.stopped_clips)
-            for each in losses
-            for attribute in each.attributes
-        )
+        return ClipLosses(self._stage, self.tables, self._clips, self._arcs, self._composition)
 
     @property
     def are_several(self) -> bool:
@@ -144,13 +107,9 @@ class Layers(Wing):
         return self._clips.are_authored or not self._arcs.is_one_layer
 
     @property
-    def clip_bearers(self) -> frozenset[Any]:
-        """The prims on which value clips are authored, above prims of ours or on them."""
-        return self._clips.bearing
-
-    def clip_sets_of(self, prim: Any) -> tuple[ClipSet, ...]:
-        """The clip sets that apply to a prim."""
-        return self._clips.reaching(prim)
+    def clips(self) -> Clips:
+        """The value clips above prims of ours or on them."""
+        return self._clips
 
     @property
     def layered(self) -> tuple[Layered, ...]:
@@ -233,11 +192,7 @@ class Layers(Wing):
 
     def rate_is_unsaid(self, attribute: Any) -> bool:
         """Whether the samples of an attribute are at other times because no rate is said."""
-        return any(
-            attribute == displaced.attribute
-            for unsaid in self.unsaid_rates
-            for displaced in unsaid.displaced
-        )
+        return any(unsaid.displaces(attribute) for unsaid in self.unsaid_rates)
 
     @cached_property
     def unlike_stage(self) -> tuple[UnlikeStage, ...]:

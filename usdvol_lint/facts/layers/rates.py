@@ -53,6 +53,10 @@ class UnsaidRate(NamedTuple):
     scale: float
     displaced: tuple[Displaced, ...]
 
+    def displaces(self, attribute: Any) -> bool:
+        """Whether samples of an attribute are at other times because of it."""
+        return any(each.attribute == attribute for each in self.displaced)
+
 
 def unsaid_rates(
     stage: Any, tables: Tables, clips: Clips, time_range: tuple[float, float] | None

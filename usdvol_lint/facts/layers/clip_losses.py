@@ -1,0 +1,68 @@
+"""Value clips that hold what prims of ours lack, and that do not arrive there, for any reason."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from usdvol_lint.facts.layers.composition import Composition
+from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.arcs import Arcs
+from usdvol_lint.facts.usd.clips import Clips
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.layers.left_behind import LeftBehind
+    from usdvol_lint.facts.layers.lost_clips import LostClips
+    from usdvol_lint.facts.layers.stopped_clips import StoppedClips
+
+_Loss = TypeVar("_Loss", "LostClips", "LeftBehind", "StoppedClips")
+
+
+class ClipLosses:
+    """The losses of a stage, without those that a layer which failed to open may set right."""
+
+    def __init__(
+        self, stage: Any, tables: Tables, clips: Clips, arcs: Arcs, composition: Composition
+    ) -> None:
+        self._stage = stage
+        self._tables = tables
+        self._clips = clips
+        self._arcs = arcs
+        self._composition = composition
+
+    @cached_property
+    def lost(self) -> tuple[LostClips, ...]:
+        """The clips that USD does not use, though they hold values for prims of ours."""
+        if not self._clips.are_authored:
+            return ()
+        from usdvol_lint.facts.layers.lost_clips import find_lost_clips
+
+        return self._certain(find_lost_clips(self._tables, self._clips))
+
+    @cached_property
+    def left_behind(self) -> tuple[LeftBehind, ...]:
+        """The clips of other layers that an arc leaves behind."""
+        if not self._arcs.prims:
+            return ()
+        from usdvol_lint.facts.layers.left_behind import find_left_behind
+
+        return self._certain(find_left_behind(self._stage, self._tables, self._clips))
+
+    @cached_property
+    def stopped(self) -> tuple[StoppedClips, ...]:
+        """The clips on instances and above them, which do not reach into them."""
+        if not self._stage.GetPrototypes():
+            return ()
+        from usdvol_lint.facts.layers.stopped_clips import find_stopped
+
+        return self._certain(find_stopped(self._stage, self._tables))
+
+    @cached_property
+    def prims(self) -> frozenset[Any]:
+        """The prims that lack what the clips hold."""
+        losses: tuple[Any, ...] = (*self.lost, *self.left_behind, *self.stopped)
+        return frozenset(attribute.GetPrim() for each in losses for attribute in each.attributes)
+
+    def _certain(self, losses: Iterable[_Loss]) -> tuple[_Loss, ...]:
+        return tuple(each for each in losses if not self._composition.may_lack_values(each.prim))
