@@ -1,10 +1,15 @@
-"""Prints what every wing of the facts knows of a prim: `python -m tools.facts STAGE PRIM`."""
+"""Prints what every wing of the facts knows of a prim: `python -m tools.facts STAGE PRIM`.
+
+For the prim `/`, what they know of the stage as a whole.
+"""
 
 from __future__ import annotations
 
 import inspect
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
+from operator import attrgetter
 from pprint import pformat
 from typing import Any
 
@@ -43,14 +48,28 @@ def main(arguments: list[str]) -> int:
         return 2
     prim = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
     facts = facts_of(stage)
+    if prim.IsPseudoRoot():
+        return _print_stage(facts)
     for wing_name, wing in wings(facts):
         called, schema_name = _ABOUT.get(wing_name, ("prim", ""))
         if not schema_name or facts.prims.is_a(prim, schema_name):
-            print(f"# {wing_name}: {inspect.getdoc(type(wing))}".splitlines()[0])
-            for question, answer in known(wing, prim, called):
-                print(f"{question}: {answer}")
-            print()
+            _print(wing_name, wing, known(wing, prim, called))
     return 0
+
+
+def _print_stage(facts: Facts) -> int:
+    """Prints what wings know of the stage as a whole."""
+    for name, wing in wings(facts):
+        if answers := list(known_of_stage(wing)):
+            _print(name, wing, answers)
+    return 0
+
+
+def _print(name: str, wing: Wing, answers: Iterable[tuple[str, str]]) -> None:
+    print(f"# {name}: {inspect.getdoc(type(wing))}".splitlines()[0])
+    for question, answer in answers:
+        print(f"{question}: {answer}")
+    print()
 
 
 def facts_of(stage: Any) -> Facts:
@@ -70,6 +89,13 @@ def known(wing: Wing, prim: Any, called: str) -> Iterator[tuple[str, str]]:
     for name, declared in vars(type(wing)).items():
         if not name.startswith("_") and (ask := _question(wing, name, declared, called)):
             yield name, _shown(ask, prim)
+
+
+def known_of_stage(wing: Wing) -> Iterator[tuple[str, str]]:
+    """What a wing declares of the stage, with what it says."""
+    for name, declared in vars(type(wing)).items():
+        if not name.startswith("_") and isinstance(declared, property | cached_property):
+            yield name, _shown(attrgetter(name), wing)
 
 
 def _question(wing: Wing, name: str, declared: Any, called: str) -> Callable[[Any], Any] | None:
