@@ -21,8 +21,13 @@ def grid_missing(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"no grid {quoted(name)}{where} in {found.shown}, which holds {content.holds}{found.count}",
             at=found,
-            suggestion=_suggestion(name, content.grid_names),
+            suggestion=_purpose(content.purposes) or _suggestion(name, content.grid_names),
         )
+
+
+def _purpose(purposes: tuple[str, ...]) -> str | None:
+    """What was probably meant where grids of that name are there, with other purposes."""
+    return f"did you mean fieldPurpose {' or '.join(map(quoted, purposes))}?" if purposes else None
 
 
 def _suggestion(name: str, names: frozenset[str]) -> str | None:

@@ -95,11 +95,13 @@ class Content(NamedTuple):
             grids = tuple(grid for grid in grids if grid.purpose == purpose)
         if not name:
             return grids if file.complete and len(grids) == 1 else ()
-        named = (
-            tuple(grid for grid in grids if getattr(grid, attribute) == name)
-            for attribute in ("unique_name", "label", "name")
-        )
-        return next(filter(None, named), ())
+        return _called(name, grids)
+
+    @property
+    def purposes(self) -> tuple[str, ...]:
+        """The purposes of the grids with the claimed name, whichever of them the field claims."""
+        named = _called(self.claim.name, self.file.grids) if self.file else ()
+        return tuple(dict.fromkeys(grid.purpose for grid in named if grid.purpose))
 
     @property
     def holds(self) -> str:
@@ -171,6 +173,15 @@ class ContentClass:
             answers[key] = key(self.content)
         answer: _K | None = answers[key]
         return answer
+
+
+def _called(name: str | None, grids: tuple[Grid, ...]) -> tuple[Grid, ...]:
+    """The grids of a name, in the order of the file."""
+    named = (
+        tuple(grid for grid in grids if getattr(grid, attribute) == name)
+        for attribute in ("unique_name", "label", "name")
+    )
+    return next(filter(None, named), ())
 
 
 def _shown(grid: Grid) -> str:
