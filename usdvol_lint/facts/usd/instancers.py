@@ -13,8 +13,6 @@ from usdvol_lint.facts.usd.calls import DRAWN_BELOW, is_defined
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
-_PLACES = ("positions", "orientations", "orientationsf", "scales")
-
 
 def undefined_prototypes(instancers: Iterable[Any], kinds: PrimKinds) -> Iterator[list[Any]]:
     """The prototypes of PointInstancers that nothing defines, each as its prims, the root first.
@@ -38,11 +36,10 @@ def undefined_prototypes(instancers: Iterable[Any], kinds: PrimKinds) -> Iterato
 
 def moved_prototypes(instancers: Iterable[Any]) -> frozenset[Any]:
     """The paths of the prototypes that PointInstancers show at changing places."""
-    moving = (each for each in instancers if any(_varies(each, name) for name in _PLACES))
+    moving = (each for each in instancers if _is_moving(each.GetAttribute("positions")))
     targets = (each.GetRelationship("prototypes").GetForwardedTargets() for each in moving)
     return frozenset(chain.from_iterable(targets))
 
 
-def _varies(prim: Any, name: str) -> bool:
-    attribute = prim.GetAttribute(name)
-    return bool(attribute and attribute.ValueMightBeTimeVarying())
+def _is_moving(positions: Any) -> bool:
+    return bool(positions and positions.ValueMightBeTimeVarying())
