@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from usdvol_lint.config import Config
 from usdvol_lint.engine.engine import Engine
@@ -15,6 +16,10 @@ from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog, load
 
 ROOT = Path(__file__).parent.parent
+
+# A busy machine fails no test.
+settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("untimed")
 
 
 @pytest.fixture(scope="session")

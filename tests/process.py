@@ -18,6 +18,7 @@ SAMPLES = ROOT / "tests" / "samples"
 PACKS = ROOT / "tests" / "packs"
 STUDIO = PACKS / "studio"
 """A pack with rules that report the same whatever rules are built in."""
+ONLY_STUDIO = ("--isolated", "--pack", STUDIO, "--select", "STU")
 ROUGH = PACKS / "rough"
 """A pack that crashes, hangs, ends the process or raises, as the name of a prim says."""
 TIMEOUT = 120
@@ -63,6 +64,12 @@ def run(*arguments: str | Path, cwd: Path, env: dict[str, str] | None = None) ->
 
 def _text(data: bytes) -> str:
     return data.decode("utf-8").replace("\r\n", "\n")
+
+
+def settings(ran: Ran) -> Any:
+    """What `--show-settings` printed."""
+    assert (ran.code, ran.err) == (0, "")
+    return ran.json
 
 
 def volume(name: str) -> str:

@@ -7,18 +7,14 @@ import inspect
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from statistics import median
 
 import pytest
 from process import ROOT
-from pxr import Sdf, Usd, Vt
 
 from usdvol_lint import schema
-from usdvol_lint.config import Config
-from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.usd.kinds import is_registered
-from usdvol_lint.model import Finding, Severity
-from usdvol_lint.packs.activation import activate
+from usdvol_lint.model import Severity
 from usdvol_lint.packs.catalog import ENGINE_RULES, Catalog
 from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
 
@@ -61,6 +57,10 @@ WITHOUT_USD = (
     "engine/lines.py",
 )
 """What the parent process may import: there neither pxr nor numpy may be named at module level."""
+
+LONGEST_RULE = 49
+LONGEST_HALF_OF_RULES = 21
+"""How many lines a rule's module has at most, and how many the shorter half of them have."""
 
 RULE_MODULES = sorted(path for path in RULES.rglob("*.py") if not path.name.startswith("_"))
 ENGINE_MODULES = sorted(ENGINE.rglob("*.py"))
@@ -208,6 +208,13 @@ def test_a_rule_module(path: Path) -> None:
     assert path.with_suffix(".md").is_file()
 
 
+def test_rules_are_short() -> None:
+    """A longer one says several things, or finds what a fact should find."""
+    lengths = {path.stem: len(path.read_text("utf-8").splitlines()) for path in RULE_MODULES}
+    assert {name: lines for name, lines in lengths.items() if lines > LONGEST_RULE} == {}
+    assert median(lengths.values()) <= LONGEST_HALF_OF_RULES
+
+
 def test_rules_say_what_they_are(built_in: dict[str, Rule]) -> None:
     levels = list(Severity)
     constants = {STAGE, UNKNOWN_TYPE, ABSTRACT_TYPE}
@@ -233,155 +240,18 @@ def test_names_and_codes_are_taken_once(catalog: Catalog) -> None:
     assert len({rule.name for rule in rules}) == len(rules)
 
 
-# --- rules at work --------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def everything(catalog: Catalog) -> Engine:
-    return Engine(catalog.rules, activate(Config(select=("ALL",)), catalog))
-
-
-def failures(findings: tuple[Finding, ...]) -> list[str]:
-    """What the rules themselves did wrong: a stage that makes USD fail is no such thing."""
-    return [
-        f"{finding.site.prim}: {finding.message}\n{finding.detail}"
-        for finding in findings
-        if finding.code == "LNT002"
-    ]
-
-
-TYPES = sorted({*schema.TYPE_BASES, "Xform", "Points", "Nonsense", ""})
-
-
-def bare(type_name: str) -> str:
-    apis = ", ".join(f'"{api}"' for api in schema.API_INCLUDES)
-    return (
-        "#usda 1.0\n"
-        f'def {type_name} "bare"\n{{\n}}\n'
-        f'def {type_name} "applied" (\n    prepend apiSchemas = [{apis}]\n)\n{{\n}}\n'
-    )
+# --- what pages claim -----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["#usda 1.0\n", *map(bare, TYPES)],
-    ids=["empty", *(name or "untyped" for name in TYPES)],
+    "path", sorted((ROOT / "tests" / "claims").glob("test_*.py")), ids=lambda path: path.stem
 )
-def test_no_rule_fails_on_next_to_nothing(
-    text: str, everything: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "stage.usda").write_text(text, encoding="utf-8")
-    report = everything.lint("stage.usda")
-    assert failures(report.findings) == []
-
-
-GARBAGE: tuple[tuple[str, Any], ...] = (
-    ("string", "text"),
-    ("string", ""),
-    ("token", "\N{SNOWMAN}"),
-    ("token[]", Vt.TokenArray(["a", "b"])),
-    ("bool", True),
-    ("int", -7),
-    ("int[]", Vt.IntArray()),
-    ("int64", 2**62),
-    ("double", float("nan")),
-    ("float", float("inf")),
-    ("half", -0.0),
-    ("float[]", Vt.FloatArray([float("nan"), 1.0, float("-inf")])),
-    ("float[]", Vt.FloatArray()),
-    ("half[]", Vt.HalfArray(3)),
-    ("float3", (float("nan"), 0, 1)),
-    ("float3[]", Vt.Vec3fArray(3)),
-    ("float3[]", Vt.Vec3fArray([(float("nan"), 0, 0)] * 2)),
-    ("point3f[]", Vt.Vec3fArray(5)),
-    ("point3d[]", Vt.Vec3dArray(2)),
-    ("quatf[]", Vt.QuatfArray(2)),
-    ("quath[]", Vt.QuathArray(1)),
-    ("matrix4d", None),
-    ("asset", Sdf.AssetPath("")),
-    ("asset", Sdf.AssetPath("a.vdb")),
-    ("asset", Sdf.AssetPath(".")),
-    ("asset", Sdf.AssetPath("a.usdz[b.vdb]")),
-    ("asset", Sdf.AssetPath("`${X`")),
-    ("asset[]", Sdf.AssetPathArray([Sdf.AssetPath("a.vdb"), Sdf.AssetPath("")])),
-    ("timecode", Sdf.TimeCode(3)),
-)
-
-
-def attributes(type_name: str) -> list[str]:
-    """What rules may read of a prim of that type: what USD or we know of it, and a field."""
-    known: set[str] = {name for names in schema.API_ATTRIBUTES.values() for name in names}
-    known |= {"filePath", "fieldName", "fieldIndex", "fieldDataType", "fieldClass", "extent"}
-    known |= {"vectorDataRoleHint", "projectionModeHint", "sortingModeHint", "field:density"}
-    definition = Usd.SchemaRegistry().FindConcretePrimDefinition(type_name)
-    if definition:
-        known |= {
-            name
-            for name in definition.GetPropertyNames()
-            if definition.GetSpecType(name) == Sdf.SpecTypeAttribute
-        }
-    return sorted(known)
-
-
-@pytest.mark.parametrize("type_name", TYPES, ids=lambda name: name or "untyped")
-def test_no_rule_fails_on_garbage(
-    type_name: str, everything: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Every kind of value in every attribute: as the default, at a time, blocked, and together."""
-    monkeypatch.chdir(tmp_path)
-    layer = Sdf.Layer.CreateNew("stage.usda")
-    for number, (value_type, value) in enumerate(GARBAGE):
-        prim = Sdf.PrimSpec(layer, f"p{number}", Sdf.SpecifierDef, type_name)
-        if number % 2:
-            apis = Sdf.TokenListOp.Create(prependedItems=list(schema.API_INCLUDES))
-            prim.SetInfo("apiSchemas", apis)
-        for index, name in enumerate(attributes(type_name), start=number):
-            spec = Sdf.AttributeSpec(prim, name, Sdf.ValueTypeNames.Find(value_type))
-            given = spec.typeName.defaultValue if value is None else value
-            if index % 3 != 1:
-                spec.default = given
-            if index % 3 != 0:
-                layer.SetTimeSample(spec.path, -1.0, given)
-                layer.SetTimeSample(spec.path, 2.5, Sdf.ValueBlock())
-                layer.SetTimeSample(spec.path, 1e300, given)
-            if index % 7 == 0:
-                spec.default = Sdf.ValueBlock()
-    layer.Save()
-    report = everything.lint("stage.usda")
-    assert failures(report.findings) == []
-    assert report.stats["prims"] == len(GARBAGE)
-
-
-RELATIONSHIPS = """
-    rel field
-    rel field:empty
-    rel field:blocked = None
-    rel field:gone = </gone>
-    rel field:itself = </{name}>
-    rel field:round = </{name}.field:round>
-    rel field:one = </{name}.field:two>
-    rel field:two = </{name}.field:one>
-    rel field:all = [</gone>, </{name}/inner>, </{name}/inner.filePath>, </{name}/inner/deep>]
-    rel field:a:b = </{name}/inner>
-    rel field:c:b = <inner>
-    double field:number = 3
-    custom rel density = </{name}/inner>
-    rel proxyPrim = </{name}/inner>
-    rel material:binding = </{name}/inner>
-"""
-
-
-@pytest.mark.parametrize("type_name", TYPES, ids=lambda name: name or "untyped")
-def test_no_rule_fails_on_strange_relationships(
-    type_name: str, everything: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    inner = "".join(f'    def {type_name} "inner{n}"\n    {{\n    }}\n' for n in ("", 1))
-    text = "#usda 1.0\n" + "".join(
-        f'def {outer} "{name}"\n{{{RELATIONSHIPS.format(name=name)}{inner}}}\n'
-        for outer, name in (("Volume", "volume"), (type_name, "other"))
-    )
-    (tmp_path / "stage.usda").write_text(text, encoding="utf-8")
-    report = everything.lint("stage.usda")
-    assert (report.status, failures(report.findings)) == ("checked", [])
+def test_claims_are_those_of_pages(path: Path, built_in: dict[str, Rule]) -> None:
+    """A test of a claim names the page that makes it, and stands with those of its family."""
+    family = path.stem.removeprefix("test_").removesuffix("_claims")
+    names = [node.name for node in tree(path).body if isinstance(node, ast.FunctionDef)]
+    for name in (name for name in names if name.startswith("test")):
+        code = name.split("_")[1]
+        assert code in built_in, f"{name} names no rule"
+        home = Path(inspect.getsourcefile(built_in[code].check) or "")
+        assert home.parent.name == family, f"{name} is in another family's module"

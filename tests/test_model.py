@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pickle
 import random
-from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -91,7 +90,7 @@ FOUND = Finding(
 
 
 def site(finding: Finding, **changes: object) -> Finding:
-    return replace(finding, site=replace(finding.site, **changes))  # type: ignore[arg-type]
+    return finding._replace(site=finding.site._replace(**changes))  # type: ignore[arg-type]
 
 
 def fingerprint(finding: Finding) -> str:
@@ -109,10 +108,10 @@ def test_what_a_fingerprint_is_made_of() -> None:
     same = [
         site(FOUND, line=99, column=None),
         site(FOUND, times=(1.0, 2.0)),
-        replace(FOUND, message="no file at 'b.vdb'", severity=Severity.INFO, suggestion="x"),
+        FOUND._replace(message="no file at 'b.vdb'", severity=Severity.INFO, suggestion="x"),
     ]
     different = [
-        replace(FOUND, code="AST003"),
+        FOUND._replace(code="AST003"),
         site(FOUND, layer="shots/b.usda"),
         site(FOUND, prim="/fire"),
         site(FOUND, property="fieldName"),
@@ -125,7 +124,7 @@ def test_what_a_fingerprint_is_made_of() -> None:
 
 def test_findings_are_sorted_and_unique_whatever_their_order() -> None:
     findings = [
-        replace(site(FOUND, prim=prim, line=line), code=code, message=message)
+        site(FOUND, prim=prim, line=line)._replace(code=code, message=message)
         for prim in (None, "/a", "/b")
         for line in (None, 3, 4)
         for code in ("AST002", "GRD001")
@@ -146,9 +145,9 @@ def test_text_that_is_no_unicode_has_a_fingerprint() -> None:
 
 
 def test_summary() -> None:
-    info = replace(FOUND, severity=Severity.INFO, code="LNT005")
+    info = FOUND._replace(severity=Severity.INFO, code="LNT005")
     checked = StageReport("a.usda", Status.CHECKED, {"prims": 2}, (FOUND, info))
-    broken = StageReport("b.usda", Status.UNREADABLE, {}, (replace(FOUND, code="LNT001"),))
+    broken = StageReport("b.usda", Status.UNREADABLE, {}, (FOUND._replace(code="LNT001"),))
     clean = StageReport("c.usda", Status.CHECKED, {"prims": 3, "volumes": 1})
     report = Report("1", "26.11", {}, (checked, broken, clean), 0.5)
     summary = report.summary

@@ -9,6 +9,9 @@ from dataclasses import dataclass, field
 SIGNATURE = b" BDV\0\0\0\0"
 UUID = b"01234567-89ab-cdef-0123-456789abcdef"
 
+UNIT = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+"""An affine map that moves nothing."""
+
 Offsets = Callable[[int, int, int], tuple[int, int, int]]
 
 

@@ -76,7 +76,7 @@ def facts_of(stage: Any) -> Facts:
     """The facts of a stage for all rules, as the engine makes them."""
     context = Context.of(stage)
     walked = walk(stage, list(load().rules.values()), context.kinds)
-    return Facts(context, walked.kept, walked.clipped, walked.undefined)
+    return Facts(context, walked)
 
 
 def wings(facts: Facts) -> Iterator[tuple[str, Wing]]:

@@ -17,6 +17,7 @@ FILE_NAME = "usdvol-lint.toml"
 TABLE = "usdvol-lint"
 FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = ("full", "concise", "json")
+SHOWABLE = ("info",)
 LOADS = ("all", "none")
 CONTENTS = ("all", "first", "off")
 VARIANTS = ("selected", "all")
@@ -30,6 +31,7 @@ class Config(NamedTuple):
 
     `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
     for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
+    `show` is what reports for people have besides errors and warnings.
     See `Depth` for `load`, `content`, `times` and `statistics`.
     """
 
@@ -42,6 +44,7 @@ class Config(NamedTuple):
     packs: tuple[str, ...] = ()
     fail_on: str = "error"
     output_format: str = "full"
+    show: tuple[str, ...] = ()
     jobs: int = 0
     timeout: float = 300.0
     load: str = "all"
@@ -50,6 +53,11 @@ class Config(NamedTuple):
     variant_limit: int = 100
     times: str | int = "all"
     statistics: bool = False
+
+    @property
+    def least_shown(self) -> Severity:
+        """The severity from which on reports for people have a finding."""
+        return Severity.INFO if "info" in (*self.show, self.fail_on) else Severity.WARNING
 
     @property
     def depth(self) -> Depth:
@@ -152,6 +160,11 @@ def _strings(where: str, value: Any) -> tuple[str, ...]:
     return tuple(strings(where, value))
 
 
+def shown(where: str, value: Any) -> tuple[str, ...]:
+    """The value, if it is a list of what reports for people can show."""
+    return tuple(one_of(where, word, SHOWABLE) for word in strings(where, value))
+
+
 def _table(where: str, value: Any) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise UsageError(f"{where} must be a table, not {value!r}")
@@ -208,6 +221,7 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "packs": _strings,
     "fail-on": partial(one_of, allowed=FAIL_ON),
     "output-format": partial(one_of, allowed=OUTPUT_FORMATS),
+    "show": shown,
     "jobs": partial(_whole_number, least=0),
     "timeout": _timeout,
     "load": partial(one_of, allowed=LOADS),

@@ -5,9 +5,8 @@ from __future__ import annotations
 import builtins
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from enum import IntEnum, StrEnum
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 
 class UsageError(Exception):
@@ -65,8 +64,7 @@ class Status(StrEnum):
     TIMED_OUT = "timed_out"
 
 
-@dataclass(frozen=True, slots=True)
-class Site:
+class Site(NamedTuple):
     """Where a finding is: the layer with the opinion, the composed prim, the time codes.
 
     `layer` is relative to the working directory, with `/`.
@@ -94,8 +92,26 @@ class Site:
         return f"default, {ranges}" if self.at_default else ranges
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+Lack: TypeAlias = tuple[str, str, str]
+"""The path of a layer, that of a spec there, and what this lacks: a property or a field of it."""
+
+
+class Completed(NamedTuple):
+    """What specs at `path` in some layers lack, and the stage has."""
+
+    layers: tuple[str, ...]
+    path: str
+    lacking: tuple[str, ...]
+
+
+class Completion(NamedTuple):
+    """What a stage brings to layers that lack it; `layers` are all those below its root."""
+
+    layers: tuple[str, ...]
+    specs: tuple[Completed, ...]
+
+
+class Finding(NamedTuple):
     """One problem, ready to be reported."""
 
     code: str
@@ -110,6 +126,8 @@ class Finding:
     fingerprint: str = ""
     faulty_rule: str | None = None
     """The code of a rule, where this is about that rule and no stage: reported once in a run."""
+    absent: tuple[frozenset[Lack], ...] = ()
+    """What is absent, if nothing else is wrong: of each set one has to be completed elsewhere."""
 
 
 class ParticleFieldStats(NamedTuple):
@@ -139,6 +157,7 @@ class StageReport(NamedTuple):
     `path` is the stage as the user named it or as it was found in a folder.
     `stats` are counts by name, such as `volumes`; `seconds` is wall-clock time by phase.
     `particle_fields` is None unless statistics were asked for.
+    `completes` is None where no layer lacks what the stage has.
     """
 
     path: str
@@ -149,6 +168,7 @@ class StageReport(NamedTuple):
     findings: tuple[Finding, ...] = ()
     seconds: Mapping[str, float] = {}
     particle_fields: tuple[ParticleFieldStats, ...] | None = None
+    completes: Completion | None = None
 
 
 class Summary(NamedTuple):
@@ -249,7 +269,7 @@ def with_fingerprints(findings: Iterable[Finding]) -> tuple[Finding, ...]:
         if seen[identity]:
             text += f"\0{seen[identity]}"
         seen[identity] += 1
-        stamped.append(replace(finding, fingerprint=_digest(text)))
+        stamped.append(finding._replace(fingerprint=_digest(text)))
     return tuple(stamped)
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator
-from dataclasses import KW_ONLY, dataclass
 from enum import Enum
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
+from usdvol_lint import schema
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.files.states import AssetState, FileFault, PathMark
@@ -32,6 +32,7 @@ __all__ = [
     "ABSTRACT_TYPE",
     "ERROR",
     "INFO",
+    "OURS",
     "STAGE",
     "UNKNOWN_TYPE",
     "WARNING",
@@ -63,6 +64,8 @@ __all__ = [
     "file_paths",
     "format_time",
     "frame_ranges",
+    "lacks",
+    "layered",
     "quoted",
     "rule",
 ]
@@ -77,6 +80,9 @@ else:
 
 _ATTRIBUTES = frozenset(chain.from_iterable(ATTRIBUTES.values()))
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
+
+OURS = tuple(sorted(schema.OURS))
+"""What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
 Prim: TypeAlias = Any
 """A `pxr.Usd.Prim`; spelt so that rules can be loaded where pxr is not imported."""
@@ -99,7 +105,11 @@ class Occurrence(Protocol):
     def asset(self) -> str | None: ...
 
 
-@dataclass(frozen=True, slots=True)
+def lacks(prim: Prim, *names: str) -> tuple[tuple[Prim, str], ...]:
+    """A part of `Problem.absent`: a prim lacks one of these properties, or words of `schema`."""
+    return tuple((prim, name) for name in names)
+
+
 class _Result:
     """What a rule reports, and where.
 
@@ -109,45 +119,64 @@ class _Result:
     `spec` names another `Sdf` spec.
     """
 
-    message: str
-    _: KW_ONLY
-    at: Any
-    times: tuple[float, ...] = ()
-    at_default: bool = False
-    suggestion: str | None = None
-    spec: Any = None
-    asset: str | None = None
+    __slots__ = ("asset", "at", "at_default", "message", "spec", "suggestion", "times")
 
-    def __post_init__(self) -> None:
-        occurrence, times = self.at, self.times
-        if hasattr(occurrence, "at_default"):
-            times = occurrence.times
-            object.__setattr__(self, "at", occurrence.attribute)
-            object.__setattr__(self, "at_default", occurrence.at_default)
-            object.__setattr__(self, "asset", occurrence.asset)
-        object.__setattr__(self, "times", tuple(map(float, times)))
+    def __init__(
+        self,
+        message: str,
+        *,
+        at: Any,
+        times: Iterable[float] = (),
+        at_default: bool = False,
+        suggestion: str | None = None,
+        spec: Any = None,
+        asset: str | None = None,
+    ) -> None:
         # What is no text here would fail where reports are written, for all stages at once.
-        if not all(isinstance(text, str) for text in (self.message, self.suggestion or "")):
+        if not all(isinstance(text, str) for text in (message, suggestion or "")):
             raise TypeError("message and suggestion of a problem are text")
+        if hasattr(at, "at_default"):
+            at, times, at_default, asset = at.attribute, at.times, at.at_default, at.asset
+        self.message = message
+        self.at = at
+        self.times = tuple(map(float, times))
+        self.at_default = at_default
+        self.suggestion = suggestion
+        self.spec = spec
+        self.asset = asset
 
 
-@dataclass(frozen=True, slots=True)
 class Problem(_Result):
     """What a rule yields: what is wrong, and where.
 
     `severity` may lower the rule's own for a milder case, never raise it.
     `holds` is called after all variant selections were checked; if it returns False, the problem is
     not reported.
+    `absent` is what is absent, if nothing is wrong: the problem is not reported where another stage
+    of the run composes this one and has all of it, of each part (see `lacks`) one.
     """
 
-    _: KW_ONLY
-    severity: Severity | None = None
-    holds: Callable[[], bool] | None = None
+    __slots__ = ("absent", "holds", "severity")
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        severity: Severity | None = None,
+        holds: Callable[[], bool] | None = None,
+        absent: Iterable[tuple[tuple[Prim, str], ...]] = (),
+        **where: Any,
+    ) -> None:
+        super().__init__(message, **where)
+        self.severity = severity
+        self.holds = holds
+        self.absent = tuple(absent)
 
 
-@dataclass(frozen=True, slots=True)
 class NotChecked(_Result):
     """What a rule could not check, and why: reported as LNT005, never as an error."""
+
+    __slots__ = ()
 
 
 Problems: TypeAlias = Iterator[Problem | NotChecked]
@@ -189,6 +218,11 @@ def authored(*names: str) -> When:
     return When(Prims.authored, lambda authored: not authored.declared.keys().isdisjoint(names))
 
 
+def layered() -> When:
+    """When several specs make up a prim, or value clips apply to it."""
+    return When(Prims.authored, lambda authored: authored.is_layered or authored.is_clipped)
+
+
 def file_paths(*marks: AssetState | PathMark) -> When:
     """When the values of `filePath` have one of these states or marks."""
     _require("file_paths", marks, AssetState, PathMark)
@@ -215,18 +249,17 @@ def _require(precondition: str, marks: tuple[object, ...], *kinds: type[Enum]) -
         raise ValueError(f"{precondition}: takes members of {names}, not {marks!r}")
 
 
-@dataclass(frozen=True, slots=True)
 class AnyKey:
     """Whether any of these keys is not None for any class of contents."""
 
-    keys: tuple[Callable[[Content], Hashable | None], ...]
+    def __init__(self, keys: tuple[Callable[[Content], Hashable | None], ...]) -> None:
+        self.keys = keys
 
     def __call__(self, classes: Iterable[ContentClass]) -> bool:
         return any(contents.answer(key) is not None for contents in classes for key in self.keys)
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(NamedTuple):
     """One rule: what it is called, which prims it checks, and how.
 
     `on` are schema names: a prim type, also as a base, or an applied API; or one of `STAGE` (the

@@ -18,7 +18,9 @@ POINT_INSTANCER = "PointInstancer"
 OURS = frozenset({VOLUME, FIELD, PARTICLE_FIELD})
 
 FIELD_NAMESPACE = "field:"
-"""The prefix of a Volume's relationships to its fields."""
+"""The prefix of a Volume's relationships to its fields; what a field lacks that none targets."""
+TYPE_NAME, SPECIFIER, CLIPS, PRIMS = "typeName", "specifier", "clips", "primChildren"
+"""What specs may lack that is no property, in USD's words."""
 
 STAGE = "<stage>"
 UNKNOWN_TYPE = "<unknown type>"

@@ -5,12 +5,14 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR003", on="ParticleField", severity=WARNING, since="0.1")
 def array_too_long(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.particles.arrays(particles)
-    for array in arrays.used("orientations", "scales", "opacities"):
-        long = arrays.too_long(array)
-        if long:
-            yield Problem(
-                long.words,
-                at=long,
-                suggestion="author one element for each position",
-            )
+    for surplus in facts.particles.surpluses(particles):
+        if surplus.nouns == "coefficients":
+            continue  # ARR004 says it
+        if surplus.are_all:
+            message = "the end of all arrays is not read"
+            advice = "if the end is spare, cut it off; if positions were left out, leave the same out of all arrays"
+        else:
+            message = "if some were left out of the others, every later one has those of another"
+            advice = "leave the same particles out of all arrays; cut the end off only if it is spare"
+        remedy = facts.particles.misfitting_default(particles, surplus.arrays[0])
+        yield Problem(f"{surplus.words}: {message}", at=surplus.misfits, suggestion=remedy or advice)

@@ -9,8 +9,9 @@ def array_too_short(particles: Prim, facts: Facts) -> Problems:
     for array in arrays.used("orientations", "scales", "opacities"):
         short = arrays.too_short(array)
         if short:
+            remedy = facts.particles.misfitting_default(particles, array)
             yield Problem(
                 short.words,
                 at=short,
-                suggestion="author one element for each position",
+                suggestion=remedy or "author one element for each position",
             )

@@ -5,19 +5,23 @@ from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR014", on="ParticleField", severity=WARNING, since="0.1")
 def degenerate(particles: Prim, facts: Facts, *, many: float = 0.1) -> Problems:
-    arrays = facts.particles.arrays(particles)
-    if arrays.most_particles == 1:
+    if facts.particles.arrays(particles).most_particles == 1:
         return  # a placeholder
-    looked_for = (
-        *(("of no size along two axes", array.zeros(2)) for array in arrays.used("scales")),
-        *(("of 0", array.zeros()) for array in arrays.used("opacities")),
-        *(("the same as the next", array.repetitions()) for array in arrays.used("positions")),
-    )
-    for what, found in looked_for:
-        if found:
-            yield Problem(
-                f"{found.amount} {what}, {found.first}",
-                at=found,
-                severity=None if found.share > many else INFO,
-                suggestion="leave these particles out of the export, in all arrays",
-            )
+    unseen = facts.particles.unseen(particles)
+    if unseen:
+        yield Problem(
+            unseen.words,
+            at=unseen.attribute,
+            severity=None if unseen.lopsided_share > many else INFO,
+            suggestion="leave these particles out of the export, in all arrays",
+        )
+    copies = facts.particles.copies(particles, unseen)
+    if copies:
+        yield Problem(
+            copies.words,
+            at=copies.attribute,
+            severity=None if copies.share > many else INFO,
+            suggestion=("author positions in float, if half made them alike; " if copies.are_half else "")
+            + "leave out what is padding or was exported twice, in all arrays: "
+            "where it is not opaque, the picture becomes a little thinner",
+        )

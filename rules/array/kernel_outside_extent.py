@@ -2,18 +2,15 @@
 
 from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
 
-_SLACK = 1e-5
-_HALF_SLACK = 2**-10
+_SLACK, _HALF_SLACK = 1e-5, 2**-10
 
 
 @rule("ARR022", on="ParticleField", severity=INFO, since="0.1")
 def kernel_outside_extent(particles: Prim, facts: Facts, *, share: float = 0.1, clamp: float = 50_000.0) -> Problems:
     found = facts.particles.kernels_outside_extent(particles, share, clamp)
-    positions = facts.particles.arrays(particles).positions
-    if not found or not positions or facts.layers.may_lack_values(particles):
+    if not found or facts.layers.may_lack_values(particles):
         return
-    slack = _HALF_SLACK if positions.is_half else _SLACK
-    if facts.particles.positions_outside_extent(particles, slack, clamp):
+    if facts.particles.positions_outside_extent(particles, _SLACK, _HALF_SLACK, clamp):
         return  # ARR013 says it
     extent, fitting = found.shown
     yield Problem(

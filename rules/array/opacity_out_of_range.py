@@ -12,14 +12,15 @@ def opacity_out_of_range(particles: Prim, facts: Facts, *, tolerance: float = 1e
             yield Problem(
                 f"{found.amount} outside of 0 to 1, from {low:.6g} to {high:.6g}, {found.first}",
                 at=found,
-                suggestion=_remedy(low, high, found.share),
+                suggestion=_LOGITS if facts.particles.are_logits(array, found) else _remedy(low, high, found.share),
             )
 
 
+_LOGITS = "these look like the logits of a PLY file: apply the sigmoid, 1 / (1 + exp(-x)), before the export"
+
+
 def _remedy(low: float, high: float, share: float) -> str:
-    """Logits rarely leave -15 to 15, bytes reach far beyond; few strays are neither."""
-    if share > 0.5 and low > -100 and high < 32:
-        return "these look like the logits of a PLY file: apply the sigmoid, 1 / (1 + exp(-x)), before the export"
+    """Bytes reach far beyond what logits do; few strays are neither."""
     if share > 0.5 and low >= 0 and high <= 255:
         return "these look like bytes: divide them by 255 before the export"
     return "clamp them to 0 and 1 before the export"

@@ -15,7 +15,7 @@ def orientations_missing(particles: Prim, facts: Facts) -> Problems:
         return
     if not arrays.lack("orientations") or facts.layers.may_lack_values(particles):
         return
-    if any(slip.intended.startswith("orientations") for slip in facts.prims.misspelt(particles)):
+    if facts.particles.is_misspelt(particles, "orientations"):
         return  # SCH004 says it
     is_applied = apis.has(_API)
     if not is_applied and any(particles.GetAttribute(name).HasAuthoredValue() for name in API_ATTRIBUTES[_API]):

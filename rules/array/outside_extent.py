@@ -12,11 +12,10 @@ def outside_extent(
     half_slack: float = 2**-10,
     clamp: float = 50_000.0,
 ) -> Problems:
-    for array in facts.particles.arrays(particles).used("positions"):
-        outside = facts.particles.positions_outside_extent(particles, half_slack if array.is_half else slack, clamp)
-        if outside:
-            yield Problem(
-                f"{outside.elements.amount} outside of the extent, {outside.shown_extent}, {outside.elements.first}",
-                at=outside,
-                suggestion=f"the positions span {outside.shown_positions}: author at least that",
-            )
+    outside = facts.particles.positions_outside_extent(particles, slack, half_slack, clamp)
+    if outside:
+        yield Problem(
+            f"{outside.elements.amount} outside of the extent, {outside.shown_extent}, {outside.elements.first}",
+            at=outside,
+            suggestion=f"the positions span {outside.shown_positions}: author at least that",
+        )

@@ -1,6 +1,6 @@
 """ARR001: a particle field without positions has no particles, and without first ones draws none."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, format_time, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, format_time, lacks, rule
 
 
 @rule("ARR001", on="ParticleField", severity=WARNING, since="0.1")
@@ -9,7 +9,7 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
     late = arrays.late_positions
     if not (arrays.lack_positions or late) or facts.layers.may_lack_values(particles):
         return
-    if any(slip.intended.startswith("positions") for slip in facts.prims.misspelt(particles)):
+    if facts.particles.is_misspelt(particles, "positions"):
         return  # SCH004 says it
     if late:
         filled = format_time(late.filled)
@@ -25,4 +25,5 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
         "no particles at any time",
         at=arrays.positions.attribute if arrays.positions else particles,
         suggestion="author positions, or in half precision positionsh",
+        absent=[lacks(particles, "positions")],
     )

@@ -1,6 +1,6 @@
 """ARR017: particles without coefficients are all of the same grey."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, lacks, rule
 
 
 @rule("ARR017", on="ParticleField", severity=WARNING, since="0.1")
@@ -10,7 +10,7 @@ def radiance_empty(particles: Prim, facts: Facts) -> Problems:
         return
     if facts.particles.material_is_bound(particles) or facts.layers.may_lack_values(particles):
         return
-    if any("Coefficients" in slip.intended for slip in facts.prims.misspelt(particles)):
+    if facts.particles.is_misspelt(particles, "radiance:sphericalHarmonicsCoefficients"):
         return  # SCH004 says it
     has_colour = particles.GetAttribute("primvars:displayColor").HasAuthoredValue()
     yield Problem(
@@ -20,4 +20,5 @@ def radiance_empty(particles: Prim, facts: Facts) -> Problems:
         suggestion="author degree 0 and for each colour c the coefficient (c - 0.5) / 0.28209479"
         if has_colour
         else "author radiance:sphericalHarmonicsCoefficients and the degree that fits",
+        absent=[lacks(particles, "radiance:sphericalHarmonicsCoefficients")],
     )

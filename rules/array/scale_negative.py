@@ -14,6 +14,6 @@ def scale_negative(particles: Prim, facts: Facts) -> Problems:
                 at=found,
                 severity=None if are_most else WARNING,
                 suggestion="these look like the logarithms of a PLY file: apply exp(x) before the export"
-                if are_most and low > -50 and high < 20
+                if facts.particles.are_logarithms(array, found)
                 else "author sizes from 0",
             )

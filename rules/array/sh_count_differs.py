@@ -1,26 +1,49 @@
 """ARR004: each particle has as many spherical harmonics coefficients as the degree says."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, ParticleArray, Prim, Problem, Problems, rule
 
 
 @rule("ARR004", on="ParticleField", severity=ERROR, since="0.1")
 def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
-    authored = "" if degree.is_authored else ", what USD falls back to,"
     if not each:
         return  # ARR005 says it
+    authored = "" if degree.is_authored else ", what USD falls back to,"
     for array in arrays.used("coefficients"):
-        for misfits, severity in (
-            (arrays.too_short(array, each), None),
-            (arrays.too_long(array, each), WARNING),
-        ):
-            if misfits:
-                yield Problem(
-                    f"{misfits.words}, and degree {degree.value}{authored} takes {each:,} for each",
-                    at=misfits,
-                    severity=severity,
-                    suggestion=f"author {each:,} coefficient{'s' * (each > 1)} for each position"
+        short, long = arrays.too_short(array, each), arrays.too_long(array, each)
+        takes = f"degree {degree.value}{authored} takes {each:,}{' for each' * (fitting is None)}"
+        remedy = facts.particles.misfitting_default(particles, array) if short or long else None
+        if short:
+            yield Problem(
+                f"{short.shares}; {takes}",
+                at=short,
+                suggestion=remedy
+                or (
+                    f"author {each:,} coefficient{'s' * (each > 1)} for each position"
                     if fitting is None
-                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits",
-                )
+                    else f"export all of degree {degree.value} again, or author degree {fitting}"
+                    if degree.is_authored
+                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
+                ),
+            )
+        if long and not _is_told_with_others(array, facts, particles):
+            alone = arrays.others_fit(array)
+            shift = ": if particles were left out of the others, every later one has the colours of another"
+            yield Problem(
+                f"{long.shares}; {takes}{shift if fitting is None else ''}",
+                at=long,
+                severity=None if alone or fitting is not None else WARNING,
+                suggestion=remedy
+                or (
+                    "leave the same particles out of the coefficients; cut the end off only if it is spare"
+                    if fitting is None
+                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
+                ),
+            )
+
+
+def _is_told_with_others(array: ParticleArray, facts: Facts, particles: Prim) -> bool:
+    """Whether ARR003 names the coefficients too."""
+    groups = [surplus.arrays for surplus in facts.particles.surpluses(particles)]
+    return any(array in group and len(group) > 1 for group in groups)

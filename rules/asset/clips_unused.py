@@ -3,39 +3,47 @@
 from collections.abc import Sequence
 from typing import Any
 
-from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, quoted, rule
+from usdvol_lint.schema import CLIPS
 
 
 @rule("AST016", on=STAGE, severity=ERROR, since="0.1")
 def clips_unused(root: Prim, facts: Facts) -> Problems:
     for lost in facts.layers.lost_clips:
         bearer, them = (f"the clip set {quoted(lost.name)}", "it") if lost.name else ("clips", "them")
-        yield Problem(
-            f"{bearer} {lost.fault.what}: USD does not use {them}, and {effect(lost)}",
-            at=lost.prim,
-            spec=lost.spec,
-            suggestion=lost.advice,
-            severity=None if lost.without_value else WARNING,
-        )
+        yield problem(f"{bearer} {lost.fault.what}: USD does not use {them}, and", lost, lost.advice)
     for left in facts.layers.clips_left_behind:
-        clips = f"the value clips of <{left.path}> in {quoted(left.layer.GetDisplayName())}"
-        what = f"{clips} do not reach what is below the instance that carries them"
-        advice = "author them on a prim above it, or remove instanceable"
-        if not left.by_instance:
-            what = f"an arc to a prim below leaves behind {clips}"
-            advice = f"bring in <{left.path}>, or author its clips here too"
-        yield Problem(
-            f"{what}: {effect(left)}",
-            at=left.prim,
-            spec=left.spec,
-            suggestion=advice,
-            severity=None if left.without_value else WARNING,
-        )
+        advice = f"bring in <{left.path}>, or author its clips here too"
+        yield problem(f"an arc to a prim below leaves behind {clips(left)}:", left, advice)
+    for stopped in facts.layers.stopped_clips:
+        advice = "remove instanceable, or carry the clips on a prim inside what is instanced"
+        yield problem(f"{clips(stopped.carrier)} do not reach into this instance:", stopped, advice)
+
+
+def problem(what: str, lost: Any, advice: str | None) -> Problem:
+    return Problem(
+        f"{what} {effect(lost)}",
+        at=lost.prim,
+        spec=lost.spec,
+        suggestion=advice,
+        severity=None if lost.without_value else WARNING,
+        absent=absent(lost),
+    )
+
+
+def clips(carrier: Any) -> str:
+    """The clips of a prim in a layer."""
+    return f"the value clips of <{carrier.path}> in {quoted(carrier.layer.GetDisplayName())}"
 
 
 def effect(lost: Any) -> str:
     """What the attributes lack."""
     missed: Sequence[Any] = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
-    has = "has" if len(missed) == 1 else "have"
-    return f"{names} {has} {'no value' if lost.without_value else 'only a default, the same at all times'}"
+    what = "no value" if lost.without_value else "only a default, the same at all times"
+    return f"{names} {'has' if len(missed) == 1 else 'have'} {what}"
+
+
+def absent(lost: Any) -> list[tuple[tuple[Any, str], ...]]:
+    """What each attribute lacks: what the clips need, or a value from elsewhere."""
+    return [(*lacks(lost.prim, CLIPS), *lacks(each.GetPrim(), each.GetName())) for each in lost.attributes]

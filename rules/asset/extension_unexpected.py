@@ -3,45 +3,47 @@
 from usdvol_lint.rule import ERROR, WARNING, Content, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 from usdvol_lint.schema import FILE_EXTENSIONS
 
-_TYPES = {extension: name for name, extension in FILE_EXTENSIONS.items()}
-_FORMATS = {".vdb": "an OpenVDB", ".f3d": "a Field3D"}
-_EXTENSIONS = {"openvdb": ".vdb", "field3d": ".f3d"}
+_WANTED = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
+_FORMATS = {"openvdb": "an OpenVDB", "field3d": "a Field3D", "nanovdb": "a NanoVDB"}
 
 
-def _swapped(content: Content) -> str | None:
+def _other_format(content: Content) -> str | None:
     return content.swapped_format
 
 
-@rule("AST006", on=tuple(_TYPES.values()), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
+def _no_volume(content: Content) -> bool | None:
+    return content.is_no_volume or None
+
+
+@rule("AST006", on=tuple(_WANTED), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
-    wanted = ".vdb" if facts.prims.is_a(field, "OpenVDBAsset") else ".f3d"
-    paths = facts.files.paths(field)
-    swapped = facts.grids.contents(field).grouped(_swapped)
-    for found_format, _, found in swapped:
-        extension = _EXTENSIONS[found_format]
+    if facts.layers.hides_ours(field):
+        return
+    type_name = next(name for name in _WANTED if facts.prims.is_a(field, name))
+    prim = f"{_FORMATS[_WANTED[type_name]]}Asset"
+    paths, inside = facts.files.paths(field), facts.grids.contents(field)
+    others = inside.grouped(_other_format)
+    for other, _, found in others:
         yield Problem(
-            f"{found.shown} is {_FORMATS[extension]} file, and {_TYPES[wanted]} wants "
-            f"{_FORMATS[wanted]} file{found.count}",
+            f"{found.shown} is {_FORMATS[other]} file, but the prim is {prim}{found.count}",
             at=found,
-            suggestion=f"name a '{wanted}' file, or make the prim {_FORMATS[extension]}Asset",
+            suggestion=_advice(other, found.first.extension),
         )
-    accounted = {sample.extension for _, _, found in swapped for sample in found.samples}
-    other = paths.affected(
-        each for each in paths.samples if each.is_there and each.extension not in (wanted, *accounted)
-    )
-    if other:
-        extension = other.first.extension
-        if (extension, wanted) == (".nvdb", ".vdb"):
+    wanted = FILE_EXTENSIONS[type_name]
+    told = [found for _, _, found in (*others, *inside.grouped(_no_volume))]
+    accounted = {wanted, *(sample.extension for found in told for sample in found.samples)}
+    misnamed = paths.affected(each for each in paths.samples if each.is_there and each.extension not in accounted)
+    if misnamed:
+        formats = inside.timeline.formats
+        what = f"does not end in '{wanted}', as the file of {prim} does"
+        advice = f"end its name in '{wanted}'" if formats else f"name a '{wanted}' file"
+        if (misnamed.first.extension, wanted) == (".nvdb", ".vdb") and "openvdb" not in formats:
             what = "is a NanoVDB file, which some renderers read and Storm does not"
             advice = "write it as '.vdb' for renderers that read OpenVDB alone"
-        else:
-            what = f"does not end in '{wanted}', as the file of {_FORMATS[wanted]}Asset does"
-            advice = f"name a '{wanted}' file"
-        if extension in _TYPES:
-            advice += f", or make the prim {_FORMATS[extension]}Asset"
-        yield Problem(
-            f"{other.shown} {what}{other.count}",
-            at=other,
-            severity=WARNING,
-            suggestion=advice,
-        )
+        yield Problem(f"{misnamed.shown} {what}{misnamed.count}", at=misnamed, suggestion=advice, severity=WARNING)
+
+
+def _advice(other: str, extension: str) -> str:
+    if other == "openvdb":
+        return "make the prim an OpenVDBAsset" + ", and end the file's name in '.vdb'" * (extension != ".vdb")
+    return "convert it to OpenVDB, for an OpenVDBAsset: no reader of other files ships with OpenUSD"

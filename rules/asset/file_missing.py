@@ -5,16 +5,17 @@ from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, 
 
 @rule("AST002", on="FieldAsset", when=file_paths(AssetState.MISSING), severity=ERROR, since="0.1")
 def file_missing(field: Prim, facts: Facts) -> Problems:
-    missing = facts.files.paths(field).of(AssetState.MISSING)
+    missing = facts.files.missing(field)
     if missing:
         fields = facts.files.sharing_missing_folder(field)
-        if fields and fields[0] != field:
+        alike = facts.files.alike(field)
+        if fields[0] != field if fields else not alike.is_first:
             return
         absence = facts.files.absence(missing.anchored(), missing.first.path)
         others = len(fields) - 1
-        shared = f", where {others} other field{'s' * (others > 1)} should have files too" if others > 0 else ""
+        below = f", where {others} other field{'s' * (others > 1)} should have files too" if others > 0 else ""
         yield Problem(
-            f"no file at {missing.shown}{absence.reason}{shared}{missing.count}",
+            f"no file at {missing.shown}{absence.reason}{below if fields else alike.others}{missing.count}",
             at=missing,
             suggestion=absence.advice,
         )

@@ -15,8 +15,4 @@ _ADVICE = {
 def not_a_file(field: Prim, facts: Facts) -> Problems:
     for found in facts.files.paths(field).by_detail(AssetState.NOT_A_FILE):
         fault = FileFault(found.first.detail)
-        yield Problem(
-            f"{found.shown} is {fault}{found.count}",
-            at=found,
-            suggestion=_ADVICE.get(fault),
-        )
+        yield Problem(f"{found.shown} is {fault}{found.count}", at=found, suggestion=_ADVICE.get(fault))

@@ -1,14 +1,17 @@
 """AST015: a package must hold the files that it names."""
 
-from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 
 
-@rule("AST015", on="FieldAsset", when=file_paths(PathMark.PACKAGED), severity=WARNING, since="0.1")
+@rule("AST015", on="FieldAsset", when=file_paths(PathMark.PACKAGED), severity=ERROR, since="0.1")
 def outside_package(field: Prim, facts: Facts) -> Problems:
     outside = facts.files.outside_package(field)
-    if outside:
+    if outside and facts.files.alike(field).is_first:
+        others = facts.files.alike(field).others
+        effect = ", so no file is found" if outside.has_missing else ""
         yield Problem(
-            f"{outside.shown} lies outside the package that names it{outside.count}",
+            f"{outside.shown} lies outside the package that names it{effect}{others}{outside.count}",
             at=outside,
             suggestion="add the file to the package, and name it in relation to the layer",
+            severity=None if outside.has_missing else WARNING,
         )

@@ -2,7 +2,7 @@
 
 import re
 
-from usdvol_lint.rule import INFO, Facts, PathMark, Prim, Problem, Problems, file_paths, quoted, rule
+from usdvol_lint.rule import INFO, AssetState, Facts, PathMark, Prim, Problem, Problems, file_paths, quoted, rule
 
 _ABSOLUTE = re.compile(r"/|\\\\|[A-Za-z]:")
 
@@ -11,7 +11,7 @@ _ABSOLUTE = re.compile(r"/|\\\\|[A-Za-z]:")
 def path_absolute(field: Prim, facts: Facts) -> Problems:
     paths = facts.files.paths(field)
     found = paths.matching(_ABSOLUTE)
-    if found is None or facts.files.outside_package(field):
+    if found is None or AssetState.MISSING in paths.states or facts.files.outside_package(field):
         return
     # An expression takes its root from a variable, which each place may set.
     absolute = paths.affected(sample for sample in found.samples if sample.authored == sample.path)

@@ -1,15 +1,18 @@
 """AST009: a path must have the case of the names that it leads to."""
 
-from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, quoted, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, quoted, rule
 
 
-@rule("AST009", on="FieldAsset", when=file_paths(PathMark.CASE_BLIND), severity=WARNING, since="0.1")
+@rule("AST009", on="FieldAsset", when=file_paths(PathMark.CASE_BLIND), severity=ERROR, since="0.1")
 def path_case_differs(field: Prim, facts: Facts) -> Problems:
     recased = facts.files.recased(field)
-    if recased:
-        affected = recased.affected
+    if recased and facts.files.alike(field).is_first:
+        affected, meant = recased.affected, quoted(recased.path)
+        others = facts.files.alike(field).others
+        effect = ", so no file is found" if affected.has_missing else ""
         yield Problem(
-            f"{affected.shown} is {quoted(recased.path)} on disk, in another case{affected.count}",
+            f"{affected.shown} is {meant} on disk, in another case{effect}{others}{affected.count}",
             at=affected,
-            suggestion=f"write it as {quoted(recased.path)}",
+            suggestion=f"write it as {meant}",
+            severity=None if affected.has_missing else WARNING,
         )

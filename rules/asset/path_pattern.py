@@ -12,15 +12,21 @@ def path_pattern(field: Prim, facts: Facts) -> Problems:
     for found in facts.files.paths(field).by_detail(AssetState.PATTERN):
         frames = facts.files.frames(found)
         yield Problem(
-            f"no file at {found.shown}: USD does not replace {found.first.detail!r}{found.count}",
+            f"no file at {found.shown}: USD does not replace '{found.first.detail}'{found.count}",
             at=found,
-            suggestion=_time_samples(frames) if frames else _advice(found.first.path),
+            suggestion=_time_samples(frames)
+            if frames
+            else _advice(facts.files.as_expression(found), facts.files.has_frame(found)),
         )
 
 
-def _advice(path: str) -> str:
-    if "${" in path:
-        return f'USD replaces variables in an expression alone: @`"{path}"`@'
+def _advice(expression: str | None, has_frame: bool) -> str:
+    each = ", in a time sample for each frame instead of the placeholder" if has_frame else ""
+    if expression:
+        return (
+            "USD reads no environment variables: write the path out, or set them in expressionVariables, "
+            f"as USD replaces variables in an expression alone: @{expression}@{each}"
+        )
     return "name one file, or author a time sample for each frame"
 
 

@@ -19,8 +19,10 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         return
     if last < start or first > end:
         shift = format_time(start - first)
+        is_held = sequence.holds_last if last < start else sequence.holds_first
+        effect = "one file is held throughout" if is_held else "no file is shown"
         yield Problem(
-            f"{ranges}: one file is held throughout",
+            f"{ranges}: {effect}",
             at=attribute,
             suggestion=f"if they are to begin with the stage, move them by {shift} with the layer "
             "offset of the sublayer, reference or payload",
@@ -28,9 +30,9 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         return
     # A sample holds until the next would come, so every second frame covers the one after it.
     held = []
-    if first - start > sequence.step - 1e-6:
+    if first - start > sequence.step - 1e-6 and sequence.holds_first:
         held.append(f"the first file is held until {format_time(first)}")
-    if end - last > sequence.step - 1e-6:
+    if end - last > sequence.step - 1e-6 and sequence.holds_last:
         held.append(f"the last file is held from {format_time(last)} on")
     if held:
         yield Problem(

@@ -1,27 +1,43 @@
 """FLD002: a field should say what type of data it holds."""
 
-from usdvol_lint.rule import INFO, Facts, Grids, Prim, Problem, Problems, When, rule
+from usdvol_lint.rule import INFO, STAGE, Facts, Prim, Problem, Problems, lacks, rule
+from usdvol_lint.schema import FIELD_ASSET
 
 
-@rule(
-    "FLD002",
-    on="FieldAsset",
-    when=When(Grids.claims, lambda claims: not all(claim.data_type for claim in claims.all)),
-    severity=INFO,
-    since="0.1",
-)
-def field_data_type_missing(field: Prim, facts: Facts) -> Problems:
+@rule("FLD002", on=STAGE, severity=INFO, since="0.1")
+def field_data_type_missing(stage: Prim, facts: Facts) -> Problems:
+    fields = sorted(_untyped(facts), key=facts.prims.shown_path)
+    if not fields:
+        return
+    first = fields[0]
+    data_type = first.GetAttribute("fieldDataType")
+    said = "fieldDataType is empty" if "" in facts.prims.values(first, "fieldDataType") else "no fieldDataType"
+    if len(fields) > 1:
+        said = f"{len(fields):,} fields have no fieldDataType, the first is <{facts.prims.shown_path(first)}>"
+    yield Problem(
+        said,
+        at=data_type if data_type.IsAuthored() else first,
+        suggestion="author the type of the grid, such as 'float' or 'float3'",
+        absent=[lacks(field, "fieldDataType") for field in fields],
+    )
+
+
+def _untyped(facts: Facts) -> list[Prim]:
+    """The fields that never say a type, and whose files hold grids of types that have a token."""
+    claims = facts.grids.claims.readable(FIELD_ASSET)
+    silent = {field for field, said in claims if not all(claim.data_type for claim in said.all)}
+    if not silent:
+        return []
+    return [
+        field
+        for field, timeline in facts.grids.timelines.readable(FIELD_ASSET)
+        if field in silent and not timeline.lacks_data_type and _says_none(field, facts)
+    ]
+
+
+def _says_none(field: Prim, facts: Facts) -> bool:
     data_type = field.GetAttribute("fieldDataType")
-    if data_type.Get():
-        return
     values = list(facts.prims.values(field, "fieldDataType"))
-    if any(values) or ("" not in values and data_type.HasAuthoredValue()):
-        return
-    if facts.grids.contents(field).timeline.lacks_data_type:
-        return
-    if not facts.layers.may_lack_values(field):
-        yield Problem(
-            "fieldDataType is empty" if "" in values else "no fieldDataType",
-            at=data_type if data_type.IsAuthored() else field,
-            suggestion="author the type of the grid, such as 'float' or 'float3'",
-        )
+    if data_type.Get() or any(values) or ("" not in values and data_type.HasAuthoredValue()):
+        return False
+    return not facts.layers.may_lack_values(field)

@@ -1,6 +1,6 @@
 """FLD001: a field must say which of the fields in its file it is."""
 
-from usdvol_lint.rule import WARNING, Content, Facts, Grids, Prim, Problem, Problems, When, quoted, rule
+from usdvol_lint.rule import WARNING, Content, Facts, Grids, Prim, Problem, Problems, When, lacks, quoted, rule
 
 
 def _only_name(content: Content) -> str | None:
@@ -27,6 +27,8 @@ def field_name_missing(field: Prim, facts: Facts) -> Problems:
     unasked = list(contents.grouped(_only_name)) if contents.timeline.single_grid else []
     if (contents.timeline.single_grid and not unasked) or facts.layers.may_lack_values(field):
         return
+    if facts.prims.is_told_as_misspelt(field, "fieldName"):
+        return
     what = "fieldName is empty" if "" in names else "no fieldName"
     advice = "author the name that the field has in its file, such as 'density'"
     if unasked:
@@ -39,4 +41,5 @@ def field_name_missing(field: Prim, facts: Facts) -> Problems:
         what,
         at=name if name.IsAuthored() else field,
         suggestion=advice,
+        absent=[lacks(field, "fieldName", "filePath")],
     )

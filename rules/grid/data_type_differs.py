@@ -1,9 +1,15 @@
 """GRD005: a field's data type must be that of its grid."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import ERROR, WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
 from usdvol_lint.schema import ATTRIBUTES
 
 _KNOWN = ATTRIBUTES["OpenVDBAsset"]["fieldDataType"].tokens
+
+_WIDTHS = (
+    {"int", "int64"},
+    *({f"{name}{size}" for name in ("half", "float", "double")} for size in ("", "2", "3", "4")),
+)
+"""Types of the same numbers in other widths: a reader that takes one converts from the other."""
 
 
 def _difference(content: Content) -> tuple[str, str, bool] | None:
@@ -26,4 +32,9 @@ def data_type_differs(field: Prim, facts: Facts) -> Problems:
             suggestion=f"author fieldDataType {fitting[0]!r}"
             if fitting
             else f"remove it: no fieldDataType stands for {held}",
+            severity=WARNING if _differ_in_width(claimed, fitting) else None,
         )
+
+
+def _differ_in_width(claimed: str, fitting: tuple[str, ...]) -> bool:
+    return any(claimed in widths and not widths.isdisjoint(fitting) for widths in _WIDTHS)

@@ -19,8 +19,6 @@ def _ambiguity(content: Content) -> tuple[str, str] | None:
             f"{len(grids)} grids named {quoted(name)}, and the field has no fieldIndex",
             "author the fieldIndex that is meant, from 0 in the order of the file",
         )
-    if not (grid.name or grid.unique_name):
-        return "a grid without a name, which no fieldName can select", "name it in the file"
     if grid.name != grid.unique_name:
         return (
             f"a grid listed as {quoted(grid.unique_name)} whose own metadata name it {quoted(grid.name)}",

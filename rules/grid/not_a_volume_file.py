@@ -4,6 +4,8 @@ from usdvol_lint.rule import ERROR, Content, Facts, NotChecked, Prim, Problem, P
 
 _FAULTS = ("not-a-volume-file", "not-a-file")
 _FORMATS = {"openvdb": "an OpenVDB", "nanovdb": "a NanoVDB", "field3d": "a Field3D"}
+_AS_IT_IS = "make the prim an OpenVDBAsset, and end the file's name in '.vdb'"
+_CONVERTED = "convert it to OpenVDB, for an OpenVDBAsset: no reader of other files ships with OpenUSD"
 
 
 def _unread(content: Content) -> str | None:
@@ -11,12 +13,12 @@ def _unread(content: Content) -> str | None:
 
 
 def _stranger(content: Content) -> str | None:
-    # What the other type of field reads, by another extension, is AST006.
+    # What the extension shows too is AST006.
     return None if content.swapped_format else content.unexpected_format
 
 
 def _fault(content: Content) -> tuple[str, bool] | None:
-    if content.fault and content.fault.code in _FAULTS:
+    if content.fault and content.fault.code in _FAULTS and not content.swapped_format:
         return content.fault.code, content.reading.file is not None
     return None
 
@@ -25,21 +27,17 @@ def _fault(content: Content) -> tuple[str, bool] | None:
 def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
     inside = facts.grids.contents(field)
     for unread, _, found in inside.grouped(_unread):
-        yield NotChecked(
-            f"{found.shown} was not looked into: {unread}{found.count}",
-            at=found,
-        )
+        yield NotChecked(f"{found.shown} was not looked into: {unread}{found.count}", at=found)
     for (_, is_broken), content, found in inside.grouped(_fault):
-        what = "broken" if is_broken else "no volume file"
+        what = "broken" if is_broken else "not a volume file"
         yield Problem(
             f"{found.shown} is {what}: {content.fault}{found.count}",
             at=found,
-            suggestion="write it again, or copy it again" if is_broken else None,
+            suggestion="write or copy it again",
         )
     for stranger, content, found in inside.grouped(_stranger):
         yield Problem(
-            f"{found.shown} is {_FORMATS[stranger]} file, and {field.GetTypeName()} wants "
-            f"{_FORMATS[content.wanted]} file{found.count}",
+            f"{found.shown} is {_FORMATS[stranger]} file, but the prim is {_FORMATS[content.wanted]}Asset{found.count}",
             at=found,
-            suggestion="convert it" if stranger != "field3d" else "use a Field3DAsset",
+            suggestion=_AS_IT_IS if stranger == "openvdb" else _CONVERTED,
         )

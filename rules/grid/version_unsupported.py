@@ -32,13 +32,7 @@ def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> boo
     return any(each.answer(_Unsupported(newest)) is not None for each in classes)
 
 
-@rule(
-    "GRD010",
-    on="FieldAsset",
-    when=When(Grids.content_classes, _some_are_unsupported),
-    severity=WARNING,
-    since="0.1",
-)
+@rule("GRD010", on="FieldAsset", when=When(Grids.content_classes, _some_are_unsupported), severity=WARNING, since="0.1")
 def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
     unsupported = _Unsupported(newest)
     for _, content, found in facts.grids.contents(field).grouped(unsupported):

@@ -7,9 +7,9 @@ from usdvol_lint.schema import KERNEL_BASE
 @rule("PRT002", on="ParticleField", severity=ERROR, since="0.1")
 def kernel_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
-    if KERNEL_BASE not in apis.applied:
+    if KERNEL_BASE not in apis.applied and not facts.particles.is_told_as_misspelt(particles, KERNEL_BASE):
         yield Problem(
-            f"no applied API provides a kernel{apis.doubt}",
+            f"nothing gives these splats a kernel, their shape: no API schema for one is applied{apis.doubt}",
             at=particles,
             severity=WARNING if apis.third_party else None,
             suggestion=apis.remedy(

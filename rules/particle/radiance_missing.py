@@ -7,12 +7,12 @@ from usdvol_lint.schema import RADIANCE_BASE
 @rule("PRT003", on="ParticleField", severity=ERROR, since="0.1")
 def radiance_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
-    if RADIANCE_BASE in apis.applied:
+    if RADIANCE_BASE in apis.applied or facts.particles.is_told_as_misspelt(particles, RADIANCE_BASE):
         return
     bound = facts.particles.material_is_bound(particles)
     material = "; the bound material serves only renderers that prefer it" if bound else ""
     yield Problem(
-        f"no applied API provides radiance{material}{apis.doubt}",
+        f"nothing gives these splats radiance, their colours: no API schema for it is applied{material}{apis.doubt}",
         at=particles,
         severity=WARNING if bound or apis.third_party else None,
         suggestion=apis.remedy(RADIANCE_BASE, "apply ParticleFieldSphericalHarmonicsAttributeAPI"),

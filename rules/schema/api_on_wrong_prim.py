@@ -10,8 +10,7 @@ def api_on_wrong_prim(prim: Prim, facts: Facts) -> Problems:
     if facts.prims.is_a(prim, PARTICLE_FIELD) or facts.layers.hides_ours(prim):
         return
     type_name = prim.GetTypeName()
-    applied = [api for api in facts.particles.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS]
-    names = ", ".join(map(repr, applied))
+    names = ", ".join(repr(api) for api in facts.particles.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS)
     if not facts.prims.is_a(prim, UNKNOWN_TYPE):
         yield Problem(
             f"{names} on {type_name!r}" if type_name else f"{names} on a prim without a type",

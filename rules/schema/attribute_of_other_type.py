@@ -1,17 +1,19 @@
 """SCH016: an attribute of UsdVol's on a prim whose type lacks it is read by nobody."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Prims, Problem, Problems, When, rule
+from usdvol_lint.rule import INFO, OURS, Facts, Prim, Prims, Problem, Problems, When, rule
 from usdvol_lint.schema import DECLARED_BY
 
 
 @rule(
     "SCH016",
-    on=("Volume", "VolumeFieldBase", "ParticleField"),
+    on=OURS,
     when=When(Prims.authored, lambda authored: not authored.undeclared.isdisjoint(DECLARED_BY)),
     severity=INFO,
     since="0.1",
 )
 def attribute_of_other_type(prim: Prim, facts: Facts) -> Problems:
+    if facts.layers.hides_ours(prim):
+        return
     undeclared = facts.prims.authored(prim).undeclared
     misspelt = {slip.attribute.GetName() for slip in facts.prims.misspelt(prim)}
     for name in sorted(undeclared.intersection(DECLARED_BY) - misspelt):

@@ -1,15 +1,9 @@
 """SCH003: a value of another type than the schema declares is none to those who ask for it."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
+from usdvol_lint.rule import ERROR, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
 
-@rule(
-    "SCH003",
-    on=("Volume", "VolumeFieldBase", "ParticleField"),
-    when=When(Prims.may_be_mistyped, bool),
-    severity=ERROR,
-    since="0.1",
-)
+@rule("SCH003", on=OURS, when=When(Prims.may_be_mistyped, bool), severity=ERROR, since="0.1")
 def attribute_type_mismatch(prim: Prim, facts: Facts) -> Problems:
     for attribute, spec, found, wanted, only_role in facts.prims.mistyped(prim):
         name = attribute.GetName()

@@ -1,14 +1,13 @@
 """SCH007: without an extent, USD takes a Volume or particle field for empty."""
 
-from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 
 _NAMED = 20
 
 
 @rule("SCH007", on=STAGE, severity=WARNING, since="0.1")
 def extent_missing(stage: Prim, facts: Facts) -> Problems:
-    bare = facts.prims.without_extent
-    prims = [prim for prim in bare if not facts.layers.may_lack_values(prim) and not _is_misspelt(prim, facts)]
+    prims = [prim for prim in facts.prims.without_extent if not _may_be_elsewhere(prim, facts)]
     if not prims:
         return
     names = [f"{prim.GetTypeName()} <{facts.prims.shown_path(prim)}>" for prim in prims[:_NAMED]]
@@ -17,9 +16,10 @@ def extent_missing(stage: Prim, facts: Facts) -> Problems:
         f"no extent, so USD takes the bounds for empty: {', '.join(names)}{more}",
         at=prims[0],
         suggestion="author extent, at every time at which the shape changes",
+        absent=[lacks(prim, "extent") for prim in prims],
     )
 
 
-def _is_misspelt(prim: Prim, facts: Facts) -> bool:
-    """Whether there is an extent by another name, which SCH004 tells."""
-    return any(slip.intended == "extent" for slip in facts.prims.misspelt(prim))
+def _may_be_elsewhere(prim: Prim, facts: Facts) -> bool:
+    """Whether the extent may lie in a layer that does not open, or has another name."""
+    return facts.layers.may_lack_values(prim) or facts.prims.is_told_as_misspelt(prim, "extent")

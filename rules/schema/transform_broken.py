@@ -1,29 +1,28 @@
 """SCH015: a transform needs ops that are there, and numbers that are finite."""
 
-from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, authored, rule
+from usdvol_lint.rule import OURS, STAGE, WARNING, Facts, Prim, Problem, Problems, authored, rule
 
 
-@rule(
-    "SCH015",
-    on=("Volume", "VolumeFieldBase", "ParticleField", STAGE),
-    when=authored("xformOpOrder"),
-    severity=WARNING,
-    since="0.1",
-)
+@rule("SCH015", on=(*OURS, STAGE), when=authored("xformOpOrder"), severity=WARNING, since="0.1")
 def transform_broken(prim: Prim, facts: Facts) -> Problems:
     for each in facts.prims.above_ours if prim.IsPseudoRoot() else (prim,):
-        yield from _of_prim(each, facts)
+        problems = list(_of_prim(each, facts))
+        if problems and (each == prim or facts.prims.is_handed_down(each, "xformOpOrder")):
+            yield from problems
 
 
 def _of_prim(prim: Prim, facts: Facts) -> Problems:
     missing, not_finite = facts.prims.transform_faults(prim)
     if missing and not facts.layers.may_lack_values(prim):
-        for order, name, intended in missing:
+        for order, name, intended, is_there in missing:
+            why = "which is no op of UsdGeom" if is_there else "which is not there"
             yield Problem(
-                f"xformOpOrder names {name!r}, which is not there, so USD leaves it out",
+                f"xformOpOrder names {name!r}, {why}, so USD leaves it out",
                 at=order,
                 suggestion=f"did you mean {intended!r}?"
                 if intended
+                else "take the name out of xformOpOrder, or use an op that UsdGeom has"
+                if is_there
                 else f"author {name!r}, or take the name out of xformOpOrder",
             )
     for values in not_finite:

@@ -1,6 +1,7 @@
 """SCH012: a type in a stronger layer hides a Volume, field or particle field."""
 
 from usdvol_lint.rule import ERROR, INFO, STAGE, UNKNOWN_TYPE, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.schema import FIELD_ASSET
 from usdvol_lint.spelling import misspelt_type
 
 _GROUPS = ("Xform", "Scope")
@@ -22,6 +23,8 @@ def type_hidden(stage: Prim, facts: Facts) -> Problems:
             continue
         may_stand_in = not retyped.is_field and type_name not in _GROUPS
         lost = "it is no field" if retyped.is_field else "nothing is drawn"
+        if facts.prims.is_a(prim, FIELD_ASSET):
+            lost = "its file is one for the hidden type"
         yield Problem(
             what if may_stand_in else f"{what}: {lost}",
             at=prim,

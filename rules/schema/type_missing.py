@@ -1,7 +1,7 @@
 """SCH014: what makes a Volume or splat is nothing on a prim of another type, or of none."""
 
-from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rule
-from usdvol_lint.schema import PARTICLE_FIELD_ONLY_APIS
+from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, rule
+from usdvol_lint.schema import PARTICLE_FIELD_ONLY_APIS, TYPE_NAME
 
 
 @rule("SCH014", on=STAGE, severity=WARNING, since="0.1")
@@ -17,4 +17,5 @@ def type_missing(stage: Prim, facts: Facts) -> Problems:
             + ": nothing is drawn",
             at=prim,
             suggestion=f'make it a {wanted}: def {wanted} "{prim.GetName()}"',
+            absent=[lacks(prim, TYPE_NAME)],
         )

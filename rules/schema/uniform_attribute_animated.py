@@ -1,11 +1,11 @@
 """SCH006: a uniform attribute has one value, and time samples are no such thing."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
+from usdvol_lint.rule import OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
 
 @rule(
     "SCH006",
-    on=("Volume", "VolumeFieldBase", "ParticleField"),
+    on=OURS,
     when=When(Prims.authored, lambda authored: bool(authored.uniform)),
     severity=WARNING,
     since="0.1",

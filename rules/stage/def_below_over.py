@@ -1,6 +1,7 @@
 """STG005: a `def` below an `over` that nothing defines is not on the stage."""
 
-from usdvol_lint.rule import INFO, STAGE, WARNING, Facts, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.rule import INFO, STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, quoted, rule
+from usdvol_lint.schema import SPECIFIER
 
 
 @rule("STG005", on=STAGE, severity=WARNING, since="0.1")
@@ -20,4 +21,5 @@ def def_below_over(root: Prim, facts: Facts) -> Problems:
             suggestion=f"did you mean {quoted(similar)}?"
             if similar
             else f"write 'def \"{name}\"' where it should be drawn",
+            absent=[lacks(over, SPECIFIER)],
         )

@@ -1,6 +1,7 @@
 """STG003: a stage must hold something."""
 
-from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, rule
+from usdvol_lint.schema import PRIMS
 
 
 @rule("STG003", on=STAGE, severity=WARNING, since="0.1")
@@ -12,4 +13,5 @@ def empty_stage(root: Prim, facts: Facts) -> Problems:
             f"no prims at all in this layer{sublayers}",
             at=root,
             suggestion="export it again: this is what an export that died leaves behind",
+            absent=[lacks(root, PRIMS)],
         )

@@ -19,7 +19,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             )
             continue
         reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"
-        absence = None if missing.reason else facts.files.absence(missing.path, missing.asset)
+        absence = None if missing.reason else facts.files.absence(missing.path, missing.asset, by=missing.spec.layer)
         concerns_ours = facts.layers.may_bring_ours(missing.asset, str(missing.spec.path))
         yield Problem(
             f"{layer} {reason}; what it holds was not checked{where}",

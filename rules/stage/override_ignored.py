@@ -1,5 +1,7 @@
 """STG006: what layers say of prims below an instance reaches nothing."""
 
+from typing import Any
+
 from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rule
 
 
@@ -8,24 +10,19 @@ def override_ignored(stage: Prim, facts: Facts) -> Problems:
     for instance, overrides in facts.layers.lost_overrides:
         if facts.layers.may_lack_values(instance):
             continue
-        changed, spec = overrides[0]
-        below = changed.GetPath().MakeRelativePath(instance.GetPath())
+        path, at, spec = overrides[0]
+        below = path.MakeRelativePath(instance.GetPath())
         more = f" and {len(overrides) - 1} more" if len(overrides) > 1 else ""
-        shown = [f"<{facts.prims.shown_path(each)}>" for each in _instances(changed, instance)]
+        shown = [f"<{facts.prims.shown_path(each)}>" for each in _instances(path, stage.GetStage())]
         yield Problem(
             f"{shown[0]} is an instance, so what is said below it is ignored: {str(below)!r}{more}",
-            at=changed,
+            at=at,
             spec=spec,
             suggestion=f"say 'instanceable = false' on {' and '.join(shown)}",
         )
 
 
-def _instances(changed: Prim, outermost: Prim) -> list[Prim]:
-    """The instances above a property, from the outermost down."""
-    found = []
-    prim = changed.GetPrim()
-    while prim != outermost:
-        prim = prim.GetParent()
-        if prim.IsInstance():
-            found.append(prim)
-    return found[::-1]
+def _instances(path: Any, stage: Any) -> list[Prim]:
+    """The instances above the prim that a path leads to, from the outermost down."""
+    prims = map(stage.GetPrimAtPath, path.GetPrimPath().GetParentPath().GetPrefixes())
+    return [prim for prim in prims if prim and prim.IsInstance()]

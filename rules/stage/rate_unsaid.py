@@ -14,8 +14,7 @@ def rate_unsaid(root: Prim, facts: Facts) -> Problems:
             "the layer says no timeCodesPerSecond, so USD takes its rate for 24 and scales its "
             f"times by {format_time(unsaid.scale)} on this stage of {format_time(unsaid.rate)}: "
             f"{len(displaced.times)} of {displaced.total} samples land {where}{more}",
-            at=displaced.attribute,
-            times=displaced.times,
+            at=displaced,
             spec=unsaid.layer.pseudoRoot,
             suggestion="write the rate that its samples were made for into the layer, such as "
             f"'timeCodesPerSecond = {format_time(unsaid.rate)}'",

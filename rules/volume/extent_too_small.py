@@ -2,6 +2,8 @@
 
 from usdvol_lint.rule import ERROR, INFO, Facts, NotChecked, Prim, Problem, Problems, Volumes, When, rule
 
+_ALIGN = "move the field below the Volume, or give both the same transform"
+
 
 def _sticks_out(overhang: float, relative_slack: float) -> bool:
     return overhang > relative_slack
@@ -19,7 +21,7 @@ def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5
         yield Problem(
             (nothing if found.is_of_empty_extent else f"{missed} by {found.worst.amounts}") + found.count,
             at=found,
-            suggestion=f"write '{found.fitting}'",
+            suggestion=_ALIGN if facts.volumes.are_apart(volume, found.fields) else found.remedy,
             severity=INFO if found.only_half_voxels else None,
         )
     if unmeasured := facts.volumes.unmeasured_grids(volume):

@@ -3,14 +3,7 @@
 from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
-@rule(
-    "VOL011",
-    on="Volume",
-    when=bindings(BindingMark.OUTSIDE),
-    severity=INFO,
-    since="0.1",
-    default=False,
-)
+@rule("VOL011", on="Volume", when=bindings(BindingMark.OUTSIDE), severity=INFO, since="0.1", default=False)
 def field_outside_volume(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.volumes.bindings(volume).outside(volume):
         if not facts.volumes.is_shared(volume, target.prim):

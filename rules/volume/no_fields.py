@@ -1,6 +1,7 @@
 """VOL010: a Volume without fields shows nothing, unless a renderer fills it by other means."""
 
-from usdvol_lint.rule import INFO, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
+from usdvol_lint.rule import INFO, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, lacks, rule
+from usdvol_lint.schema import FIELD_NAMESPACE
 
 
 @rule("VOL010", on="Volume", when=bindings(BindingMark.NONE), severity=WARNING, since="0.1")
@@ -9,12 +10,11 @@ def no_fields(volume: Prim, facts: Facts) -> Problems:
     if fields.bindings or fields.undeclared or facts.layers.may_lack(volume):
         return
     unbound = facts.volumes.unbound_fields(volume)
-    if not unbound:
-        yield Problem("the Volume has no field", at=volume, severity=INFO)
-        return
     names = [str(field.GetPath().MakeRelativePath(volume.GetPath())) for field in unbound]
     yield Problem(
-        f"the Volume has no field, though there is {', '.join(map(repr, names))} below it",
+        "the Volume has no field" + (f", though there is {', '.join(map(repr, names))} below it" if names else ""),
         at=volume,
-        suggestion=f"add 'rel field:{unbound[0].GetName()} = <{names[0]}>'",
+        severity=None if names else INFO,
+        suggestion=f"add 'rel field:{unbound[0].GetName()} = <{names[0]}>'" if names else None,
+        absent=[lacks(volume, FIELD_NAMESPACE)],
     )

@@ -3,13 +3,7 @@
 from usdvol_lint.rule import ERROR, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
-@rule(
-    "VOL006",
-    on="Volume",
-    when=bindings(BindingMark.ATTRIBUTE, BindingMark.UNDECLARED),
-    severity=ERROR,
-    since="0.1",
-)
+@rule("VOL006", on="Volume", when=bindings(BindingMark.ATTRIBUTE, BindingMark.UNDECLARED), severity=ERROR, since="0.1")
 def not_a_relationship(volume: Prim, facts: Facts) -> Problems:
     fields = facts.volumes.bindings(volume)
     for binding in fields.bindings:

@@ -1,6 +1,6 @@
 """VOL003: a field relationship must have a target."""
 
-from usdvol_lint.rule import INFO, WARNING, Emptiness, Facts, Prim, Problem, Problems, bindings, rule
+from usdvol_lint.rule import INFO, WARNING, Emptiness, Facts, Prim, Problem, Problems, bindings, lacks, rule
 
 
 @rule(
@@ -19,6 +19,7 @@ def relationship_empty(volume: Prim, facts: Facts) -> Problems:
                 f"'field:{binding.name}' has no target{behind}",
                 at=binding.property,
                 suggestion=f"did you mean <{meant}>?" if meant else "name a field, or remove it",
+                absent=[lacks(volume, binding.property.GetName())],
             )
         elif binding.emptiness is Emptiness.CIRCULAR:
             yield Problem(

@@ -1,6 +1,6 @@
 """VOL002: a field relationship must target a field."""
 
-from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, rule
+from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, lacks, rule
 from usdvol_lint.spelling import misspelt_type
 
 
@@ -24,6 +24,7 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
             + (f"is of type {type_name!r}, not a field" if type_name else "has no type"),
             at=binding.property,
             suggestion=f"did you mean <{meant}>?" if meant else advice,
+            absent=[] if type_name else [lacks(volume, binding.property.GetName())],
         )
     for binding, target in bindings.with_target(TargetState.UNKNOWN_TYPE):
         type_name = target.type_name

@@ -1,58 +1,27 @@
-"""The walk meets every live prim once, and hands each to the rules that asked for it."""
+"""The walk meets every live prim once, and what is drawn though an over hides it."""
 
 from __future__ import annotations
 
-import shutil
-from collections import Counter
-from itertools import chain
 from pathlib import Path
 
 import pytest
-from process import ROOT
 from pxr import Usd
+from walks import CLOUD, INSTANCE, LIVE, asks, instancer, write_stage
 
-from usdvol_lint.engine.assign import assign
-from usdvol_lint.engine.engine import Engine
-from usdvol_lint.engine.walk import Walk, walk
-from usdvol_lint.facts import Context, Facts
+from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts.usd.kinds import PrimKinds
-from usdvol_lint.model import Severity
-from usdvol_lint.packs.catalog import Catalog
-from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
-
-
-def asks(code: str, *on: str) -> Rule:
-    return Rule(code, code.lower(), on, Severity.INFO, "1", lambda prim, facts: iter(()), {})
-
-
-def write_stage(folder: Path, text: str, **layers: str) -> str:
-    for name, layer in layers.items():
-        (folder / f"{name}.usda").write_text(f"#usda 1.0\n{layer}", encoding="utf-8")
-    path = folder / "stage.usda"
-    path.write_text(f"#usda 1.0\n{text}", encoding="utf-8")
-    return str(path)
-
-
-def assigned(stage: Usd.Stage, found: Walk, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
-    """Each rule with each prim that it is handed; no precondition fails."""
-    facts = Facts(Context.of(stage), found.kept, found.clipped, found.undefined)
-    failed: list[object] = []
-    pairs = list(assign(found, rules, facts, {}, lambda *failure: failed.append(failure)))
-    assert failed == []
-    return pairs
 
 
 def walked(
     folder: Path, text: str, load: object = Usd.Stage.LoadAll, **layers: str
 ) -> tuple[int, list[str]]:
-    """How many prims there are, and which of them are kept, but for PointInstancers.
+    """How many prims there are, and which of them a rule for Volumes gets.
 
     Those in a prototype are named by where they are in it.
     """
     stage = Usd.Stage.Open(write_stage(folder, text, **layers), load)
     result = walk(stage, [asks("ONE001", "Volume")], PrimKinds())
-    every = chain.from_iterable(result.kept.values())
-    kept = [prim for prim in every if prim.GetTypeName() != "PointInstancer"]
+    kept = [prim for prims in result.kept.values() for prim in prims]
     return result.prims, sorted(map(_path, kept))
 
 
@@ -65,9 +34,6 @@ def _below(prim: Usd.Prim) -> str:
     while not prototype.IsPrototype():
         prototype = prototype.GetParent()
     return str(prim.GetPath())[len(str(prototype.GetPath())) :]
-
-
-LIVE = 'def Volume "live"\n{\n}\n'
 
 
 @pytest.mark.parametrize(
@@ -93,16 +59,16 @@ def test_live_prims(text: str, prims: int, kept: list[str], tmp_path: Path) -> N
     assert walked(tmp_path, text) == (prims, kept)
 
 
-def instancer(name: str, *prototypes: str, below: str = "") -> str:
-    targets = ", ".join(f"<{path}>" for path in prototypes)
-    return f'def PointInstancer "{name}"\n{{\nrel prototypes = [{targets}]\n{below}}}\n'
-
-
 @pytest.mark.parametrize(
     ("prototypes", "library", "kept"),
     [
         (("/library/live",), f'over "library"\n{{\n{LIVE}}}\n', ["/library/live"]),
         (("/library/live.size",), f'over "library"\n{{\n{LIVE}}}\n', ["/library/live"]),
+        (
+            ("/library.chosen",),
+            f'over "library"\n{{\nrel chosen = </library/live>\n{LIVE}}}\n',
+            ["/library/live"],
+        ),
         (("/library/gone",), f'over "library"\n{{\n{LIVE}}}\n', []),
         (("/library",), f'over "library"\n{{\n{LIVE}}}\n', []),
         (("/library",), f'class "library"\n{{\n{LIVE}}}\n', []),
@@ -147,11 +113,39 @@ def test_what_an_over_takes_off_the_stage(tmp_path: Path) -> None:
     result = walk(stage, [asks("ONE001", "Sphere", "Xform")], PrimKinds())
     over = stage.GetPrimAtPath("/fx")
     assert result.undefined == {over: [over.GetChild("live"), over.GetPrimAtPath("c/live")]}
-    assert [[prim.GetName() for prim in kept] for kept in result.kept.values()] == [["a"], ["i"]]
+    assert [[prim.GetName() for prim in kept] for kept in result.kept.values()] == [["a"]]
 
 
-CLOUD = 'def Xform "cloud"\n{\n    def Volume "thick"\n    {\n    }\n}\n'
-INSTANCE = 'def "{}" (\n    instanceable = true\n    references = @./lib.usda@</{}>\n)\n{{\n}}\n'
+@pytest.mark.parametrize(
+    ("text", "untyped"),
+    [
+        ('def "a"\n{\nrel field:x = </x>\n}\n', ["/a"]),
+        ('def Scope "a"\n{\nfloat3[] radiance:sphericalHarmonicsCoefficients\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nhalf3[] radiance:sphericalHarmonicsCoefficientsh\n}\n', ["/a"]),
+        ('def Xform "a"\n{\nfloat3[] primvars:field:x\n}\n', []),
+        ('def Cube "a"\n{\nrel field:x = </x>\n}\n', []),
+        ('over "a"\n{\nrel field:x = </x>\n}\n', []),
+        (
+            'def "a" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n'
+            "{\nrel field:x = </x>\n}\n",
+            ["/a"],
+        ),
+    ],
+)
+def test_prims_of_other_types_that_have_our_data(
+    text: str, untyped: list[str], tmp_path: Path
+) -> None:
+    stage = Usd.Stage.Open(write_stage(tmp_path, LIVE + text))
+    assert [str(prim.GetPath()) for prim in walk(stage, [], PrimKinds()).untyped] == untyped
+
+
+def test_only_so_many_prims_of_other_types_are_looked_into(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("usdvol_lint.engine.walk._GROUPS", 300)
+    groups = "".join(f'def Xform "a{n}"\n{{\nrel field:x = </x>\n}}\n' for n in range(1000))
+    stage = Usd.Stage.Open(write_stage(tmp_path, groups))
+    assert 300 <= len(walk(stage, [], PrimKinds()).untyped) < 600
 
 
 def test_instances_are_walked_once(tmp_path: Path) -> None:
@@ -165,6 +159,80 @@ def test_instances_inside_instances_are_walked_once(tmp_path: Path) -> None:
     assert walked(tmp_path, text, lib=CLOUD + sky) == (9, ["prototype/thick"])
 
 
+@pytest.mark.parametrize(
+    ("text", "kept"),
+    [
+        (f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n', []),
+        (f'class "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n', []),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + INSTANCE.format("b", "cloud"),
+            ["prototype/thick"],
+        ),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + instancer("i", "/library/a"),
+            ["prototype/thick"],
+        ),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + instancer("i", "/library/a/thick"),
+            ["prototype/thick"],
+        ),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "cloud")}{LIVE}}}\n'
+            + instancer("i", "/library/live"),
+            ["/library/live"],
+        ),
+        (
+            f'class "library"\n{{\n{INSTANCE.format("a", "cloud")}}}\n'
+            + instancer("i", "/library/a"),
+            [],
+        ),
+        (f'class "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n', []),
+        (f'over "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n', []),
+        (INSTANCE.format("a", "below_over"), []),
+        (INSTANCE.format("a", "below_class"), []),
+        (INSTANCE.format("a", "below_over") + INSTANCE.format("b", "cloud"), ["prototype/thick"]),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "sky")}}}\n'
+            + instancer("i", "/library/a/left"),
+            ["prototype/thick"],
+        ),
+        (
+            f'over "library"\n{{\n{INSTANCE.format("a", "flock")}}}\n'
+            + instancer("i", "/library/a"),
+            ["prototype/library/live"],
+        ),
+    ],
+)
+def test_what_is_in_instances_is_drawn_with_one_of_them(
+    text: str, kept: list[str], tmp_path: Path
+) -> None:
+    left = INSTANCE.format("left", "cloud")
+    lib = (
+        f'{CLOUD}def "sky"\n{{\n{left}}}\n'
+        f'def "below_over"\n{{\nover "library"\n{{\n{left}}}\n}}\n'
+        f'def "below_class"\n{{\nclass "library"\n{{\n{left}}}\n}}\n'
+        f'def "flock"\n{{\n{instancer("swarm", "/flock/library/live")}'
+        f'over "library"\n{{\n{LIVE}}}\n}}\n'
+    )
+    assert walked(tmp_path, text, lib=lib)[1] == kept
+
+
+def test_what_an_over_takes_off_the_stage_in_instances(tmp_path: Path) -> None:
+    sky = f'def "sky"\n{{\n{INSTANCE.format("left", "cloud")}}}\n'
+    instances = "".join(INSTANCE.format(name, "sky") for name in "ab")
+    text = f'over "one"\n{{\n{instances}}}\nover "two"\n{{\n{INSTANCE.format("c", "sky")}}}\n'
+    text += f'class "library"\n{{\n{INSTANCE.format("d", "sky")}}}\n'
+    stage = Usd.Stage.Open(write_stage(tmp_path, text, lib=CLOUD + sky))
+    result = walk(stage, [], PrimKinds())
+    found = {
+        over.GetName(): [_path(prim) for prim in prims] for over, prims in result.undefined.items()
+    }
+    assert found == {"one": ["prototype/thick"], "two": ["prototype/thick"]}
+
+
 def test_payloads(tmp_path: Path) -> None:
     text = f'def "far" (\n    payload = @./lib.usda@</cloud>\n)\n{{\n}}\n{LIVE}'
     assert walked(tmp_path, text, lib=CLOUD) == (3, ["/far/thick", "/live"])
@@ -175,110 +243,3 @@ def test_more_prims_than_are_read_at_a_time(tmp_path: Path) -> None:
     names = [f"v{n}" for n in range(1000)]
     text = "".join(f'def Volume "{name}"\n{{\n}}\n' for name in names)
     assert walked(tmp_path, text) == (1000, sorted(f"/{name}" for name in names))
-
-
-def test_rules_get_what_they_asked_for(tmp_path: Path) -> None:
-    stage = Usd.Stage.Open(
-        write_stage(
-            tmp_path,
-            """
-def Volume "volume" (
-    prepend apiSchemas = ["CollectionAPI:lights", "MaterialBindingAPI"]
-)
-{
-}
-def OpenVDBAsset "vdb"
-{
-}
-def Field3DAsset "f3d"
-{
-}
-def FieldAsset "abstract"
-{
-}
-def Nonsense "unknown"
-{
-}
-def "untyped"
-{
-}
-def Sphere "ball"
-{
-}
-""",
-        )
-    )
-    asked = [
-        ("Volume", "volume"),
-        ("Gprim", "ball volume"),
-        ("Xformable", "ball f3d vdb volume"),
-        ("FieldAsset", "f3d vdb"),
-        ("FieldBase", "f3d vdb"),
-        ("VolumeFieldBase", "f3d vdb"),
-        ("OpenVDBAsset", "vdb"),
-        ("MaterialBindingAPI", "volume"),
-        (UNKNOWN_TYPE, "unknown"),
-        (ABSTRACT_TYPE, "abstract"),
-        (STAGE, ""),
-        ("Camera", ""),
-    ]
-    rules = [asks(name, name) for name, _ in asked]
-    rules.append(asks("TWO001", "Volume", "Gprim", "MaterialBindingAPI"))
-    found = walk(stage, rules, PrimKinds())
-    pairs = Counter((rule.code, prim.GetName()) for rule, prim in assigned(stage, found, rules))
-    assert pairs == Counter(
-        (code, name)
-        for code, names in [*asked, ("TWO001", "ball volume")]
-        for name in names.split()
-    )
-
-
-def test_a_prim_that_nothing_is_remarkable_about_is_handed_to_no_rule_with_a_condition(
-    tmp_path: Path, catalog: Catalog
-) -> None:
-    shutil.copy(ROOT / "rules" / "assets" / "cloud.vdb", tmp_path)
-    field = """
-    def OpenVDBAsset "density"
-    {
-        asset filePath = @./cloud.vdb@
-        token fieldName = "density"
-        token fieldDataType = "float"
-    }
-"""
-    cloud = """
-def Volume "cloud"
-{
-    float3[] extent = [(0, 0, 0), (1, 1, 1)]
-    rel field:density = </cloud/density>
-"""
-    stage = Usd.Stage.Open(write_stage(tmp_path, f"{cloud}{field}}}\n"))
-    rules = list(catalog.rules.values())
-    pairs = assigned(stage, walk(stage, rules, PrimKinds()), rules)
-    assert [rule.code for rule, _ in pairs if rule.when] == []
-
-
-def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
-    stage = Usd.Stage.Open(write_stage(tmp_path, 'def Sphere "ball"\n{\n}\n' + LIVE))
-    result = walk(stage, [], PrimKinds())
-    assert result.prims == 2
-    assert [str(prim.GetPath()) for prims in result.kept.values() for prim in prims] == ["/live"]
-
-
-def test_an_instanced_finding_says_where_and_how_often(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from usdvol_lint.packs.activation import ActiveRules
-    from usdvol_lint.rule import Problem
-
-    monkeypatch.chdir(tmp_path)
-    seen = Rule(
-        *("SEE001", "seen", ("Volume",), Severity.INFO, "1"),
-        lambda prim, facts: iter([Problem("seen", at=prim)]),
-        {},
-    )
-    text = "".join(INSTANCE.format(name, "cloud") for name in ("b", "a", "c"))
-    write_stage(tmp_path, text, lib=CLOUD)
-    engine = Engine({"SEE001": seen}, ActiveRules({"SEE001": Severity.INFO}, {}))
-    (finding,) = engine.lint("stage.usda").findings
-    assert finding.message == "seen (shown by 3 instances)"
-    assert (finding.site.prim, finding.site.layer, finding.site.line) == ("/a/thick", "lib.usda", 4)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from process import ASSETS
 
 from usdvol_lint.model import StageReport
 
@@ -93,13 +95,13 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
         (
             "ARR016",
             ('uniform token colorSpace:name = "srgb_rec709_scenes"',),
-            "USD knows no colour space 'srgb_rec709_scenes'",
+            "USD does not read the colour space 'srgb_rec709_scenes'",
             "did you mean 'srgb_rec709_scene'?",
         ),
         (
             "ARR016",
             ('uniform token colorSpace:name = "house"',),
-            "USD knows no colour space 'house'",
+            "USD does not read the colour space 'house'",
             "name one of GfColorSpaceNames",
         ),
         (
@@ -114,15 +116,6 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
             "'opacities' counts, so 'opacitiesh' is never read; they differ in size: ",
             "",
         ),
-        ("ARR007", ("float[] opacities = [1, nan]",), "NaN in 1 of 2 ", "remove these particles"),
-        ("ARR007", ("float[] opacities = [1, inf]",), "infinity in 1 of 2", "remove these"),
-        ("ARR007", ("half[] opacitiesh = [1, nan]",), "NaN in 1 of 2 ", "remove these particles"),
-        (
-            "ARR007",
-            ("half[] opacitiesh = [1, inf]",),
-            "infinity in 1 of 2 opacities (50 %), beyond the 65,504 that half goes up to",
-            "author the float array 'opacities', or smaller values",
-        ),
         (
             "ARR017",
             ("color3f[] primvars:displayColor = [(1, 0, 0)]",),
@@ -133,19 +126,19 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
         (
             "ARR004",
             (f"{COEFFICIENTS} = [(1, 1, 1), (1, 1, 1)]",),
-            ", what USD falls back to, takes 16 for each",
+            "1 for each particle; degree 3, what USD falls back to, takes 16",
             "author radiance:sphericalHarmonicsDegree = 0, which fits",
         ),
         (
             "ARR004",
             (f"{DEGREE} = 0", f"{COEFFICIENTS} = [(1, 1, 1)]"),
-            ", and degree 0 takes 1 for each",
+            "1 coefficient for 2 particles; degree 0 takes 1 for each",
             "author 1 coefficient for each position",
         ),
         (
             "ARR004",
             (f"{DEGREE} = 1", f"{COEFFICIENTS} = [(1, 1, 1)]"),
-            ", and degree 1 takes 4 for each",
+            "; degree 1 takes 4 for each",
             "author 4 coefficients for each position",
         ),
         (
@@ -193,7 +186,7 @@ def test_particles(
             "no file at",
             "1 file found: author filePath.timeSamples = { 7: @./one.0007.vdb@ }",
         ),
-        ("AST006", ("asset filePath = @./fog.f3d@",), "does not end in", ", or make the prim"),
+        ("AST006", ("asset filePath = @./fog.f3d@",), "does not end in", "end its name in '.vdb'"),
         ("AST006", ("asset filePath = @./fog.nvdb@",), "is a NanoVDB file", "renderers that read"),
         ("AST008", ("asset filePath = @.\\fog\\a.vdb@",), "has backslashes", "'./fog/a.vdb'"),
         ("AST008", ("asset filePath = @C:/a.vdb@",), "a drive letter", "name it in relation to"),
@@ -210,13 +203,14 @@ def test_particles(
 def test_fields(
     code: str, lines: tuple[str, ...], message: str, advice: str, lint_text: Lint, tmp_path: Path
 ) -> None:
-    for name in ("fog.1.vdb", "one.0007.vdb", "fog.f3d", "fog.nvdb"):
+    for name in ("fog.1.vdb", "one.0007.vdb"):
         (tmp_path / name).write_bytes(b"x")
+    shutil.copy(ASSETS / "cloud.vdb", tmp_path / "fog.f3d")
+    shutil.copy(ASSETS / "grids/nanovdb.vdb", tmp_path / "fog.nvdb")
     data_type = "" if code == "FLD002" else 'token fieldDataType = "float"'
     _, said, suggestion = told(lint_text("#usda 1.0" + field(*lines, data_type=data_type)), code)
     assert message in said
     assert advice in suggestion
-    assert ("or make the prim" in suggestion) == ("or make the prim" in advice)
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ Lint = Callable[..., StageReport]
 CLOUD = ASSETS / "cloud.vdb"
 FIELD3D = SAMPLES / "f3d_ogawa.f3d"
 UNIT = "float3[] extent = [(0, 0, 0), (1, 1, 1)]"
+TYPED = 'token fieldDataType = "float"'
 
 
 def density(files: str, kind: str = "OpenVDBAsset", name: str = "density", more: str = "") -> str:
@@ -149,6 +150,31 @@ def test_prims_without_extent_that_are_named(count: int, more: str, lint: FindIn
     [finding] = lint(volumes, "SCH007")
     assert finding.message.count("<") == 20
     assert finding.message.endswith(f"Volume </v19>{more}")
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (("",), "no fieldDataType"),
+        (('token fieldDataType = ""',), "fieldDataType is empty"),
+        ((TYPED, ""), "no fieldDataType"),
+        (
+            ("", TYPED, 'token fieldDataType = ""'),
+            "2 fields have no fieldDataType, the first is </f0>",
+        ),
+        (("",) * 1200, "1,200 fields have no fieldDataType, the first is </f0>"),
+    ],
+    ids=["one", "empty", "other", "mixed", "many"],
+)
+def test_fields_without_a_data_type_are_one_finding(
+    lines: tuple[str, ...], said: str, lint: FindIn
+) -> None:
+    fields = "".join(
+        f'def OpenVDBAsset "f{number}"\n{{\n{line}\n}}\n' for number, line in enumerate(lines)
+    )
+    [finding] = lint(fields, "FLD002")
+    assert finding.message == said
+    assert finding.site.prim == f"/f{lines.index('') if '' in lines else 0}"
 
 
 # --- contents ---

@@ -15,10 +15,12 @@ from usdvol_lint.packs.catalog import Catalog
 ROOT = Path(__file__).parents[2]
 OPENVDB = ROOT / "rules/assets/cloud.vdb"
 FIELD3D = ROOT / "tests/samples/f3d_ogawa.f3d"
+NANOVDB = ROOT / "tests/samples/type_all_z.nvdb"
+NOTE = ROOT / "rules/assets/grids/text.vdb"
 STAGE = """#usda 1.0
 def Volume "cloud"
 {{
-    float3[] extent = [(-9, -9, -9), (9, 9, 9)]
+    float3[] extent = [(-9, -9, -9), (99, 99, 99)]
     rel field:density = </cloud/density>
 
     def {type} "density"
@@ -44,6 +46,12 @@ def Volume "cloud"
         ("Field3DAsset", "cloud.vdb", OPENVDB, {("AST006", "error")}),
         ("Field3DAsset", "cloud.bin", OPENVDB, {("AST006", "error")}),
         ("Field3DAsset", "cloud.f3d", OPENVDB, {("GRD001", "error")}),
+        ("OpenVDBAsset", "cloud.bin", NANOVDB, {("AST006", "error")}),
+        ("OpenVDBAsset", "cloud.nvdb", NANOVDB, {("AST006", "warning")}),
+        ("OpenVDBAsset", "cloud.vdb", NANOVDB, {("GRD001", "error")}),
+        ("Field3DAsset", "cloud.nvdb", NANOVDB, {("AST006", "error")}),
+        ("OpenVDBAsset", "cloud.bin", NOTE, {("GRD001", "error")}),
+        ("OpenVDBAsset", "cloud.vdb", NOTE, {("GRD001", "error")}),
     ],
 )
 def test_the_format_of_the_other_type(
@@ -82,7 +90,7 @@ def test_a_file_that_is_not_looked_into_has_its_extension_alone(
 
 def _stage(folder: Path, type_name: str, name: str, data: Path) -> str:
     shutil.copy(data, folder / name)
-    grid = "density" if data is OPENVDB else "temperature"
+    grid = {OPENVDB: "density", FIELD3D: "temperature"}.get(data, "f")
     stage = folder / "stage.usda"
     stage.write_text(STAGE.format(type=type_name, name=name, grid=grid), encoding="utf-8")
     return str(stage)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from random import Random
 from typing import Any, NamedTuple
 
-from .arcs import ARCS, Arc, Placed, place, say_rates
+from .arcs import ARCS, say_rates
 from .defects import DEFECTS
 from .defects.declaration import Defect
 from .model import Expected, File, Layer, Prim, Scene
 from .neighbours import NEIGHBOURS
 from .particles import LOOKS, particles
+from .placing import Arc, Placed, place
 from .sequences import PATTERNS
 from .subjects import Subject
 from .volumes import FILES, MOVEMENTS, PLACES, volume

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .model import Attribute, File, Layer, Prim
-from .subjects import ParticleSubject
+from .model import Attribute, Layer, Prim, overs
+from .subjects import ParticleSubject, Subject
 
 _ARRAYS = (
     *("positions", "orientations", "scales", "opacities"),
@@ -14,13 +14,12 @@ _ARRAYS = (
 _HALF_TYPES = {"point3f[]": "point3h[]", "quatf[]": "quath[]", "float3[]": "half3[]"}
 
 
-def hide_below(subject: ParticleSubject, name: str, attribute: Attribute) -> Prim:
-    """Puts the subject below a stronger layer that authors this attribute of it; the over there."""
-    prim = over = Prim(subject.prim.name, specifier="over", properties={name: attribute})
-    for parent in reversed(subject.path[1:].split("/")[:-1]):
-        over = Prim(parent, specifier="over", children=[over])
-    layer = Layer(f"{subject.root.name}_over.usda", [over])
-    layer.metadata.append(("subLayers = [", File(subject.layer.path), "]"))
+def hide_below(subject: Subject, path: str, name: str, attribute: Attribute) -> Prim:
+    """Puts the subject below a stronger layer that authors this attribute at the path; its over."""
+    topmost, prim = overs(path)
+    prim.properties[name] = attribute
+    layer = Layer(f"{subject.root.name}_over.usda", [topmost])
+    layer.add_sublayer(subject.layer.path)
     subject.content.layers.append(layer)
     subject.layer = layer
     return prim
@@ -93,7 +92,7 @@ def static_extent_over_an_animated_one(subject: ParticleSubject) -> None:
     corners = subject.prim.attribute("extent").value
     smaller = [(-2, -2, -2), (2, 2, 1.5)]
     subject.prim.properties["extent"] = Attribute("float3[]", samples={1: corners, 2: smaller})
-    hide_below(subject, "extent", Attribute("float3[]", corners))
+    hide_below(subject, subject.path, "extent", Attribute("float3[]", corners))
 
 
 LOOKS: dict[str, Callable[[ParticleSubject], None]] = {

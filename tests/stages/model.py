@@ -17,6 +17,10 @@ class File(NamedTuple):
     path: str
 
 
+SCENE = "<scene>"
+"""The absolute path of the folder of a scene, in the text of its layers."""
+
+
 class Expression(NamedTuple):
     """A file that a variable expression names."""
 
@@ -78,6 +82,16 @@ class Prim:
         return found
 
 
+def overs(path: str) -> tuple[Prim, Prim]:
+    """Overs of a prim and of all above it: the topmost one, and that of the prim."""
+    topmost, *names = (Prim(name, specifier="over") for name in path.split("/")[1:])
+    last = topmost
+    for each in names:
+        last.children.append(each)
+        last = each
+    return topmost, last
+
+
 @dataclass
 class Layer:
     """The extension of `path`, from the scene's folder, decides on its format."""
@@ -85,6 +99,10 @@ class Layer:
     path: str
     prims: list[Prim] = field(default_factory=list)
     metadata: list[Line] = field(default_factory=list)
+
+    def add_sublayer(self, path: str, offset: str = "") -> None:
+        """The only one, so that this layer is stronger than the one at the path."""
+        self.metadata.append(("subLayers = [", File(path), offset, "]"))
 
 
 @dataclass

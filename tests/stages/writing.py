@@ -9,7 +9,7 @@ from pathlib import Path
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 from .files import SHARED
-from .model import Content, Layer, Scene
+from .model import SCENE, Content, Layer, Scene
 from .usda import layer_text
 
 ROOT = Path(__file__).parents[2]
@@ -49,7 +49,7 @@ def _contents(content: Content, folder: Path) -> dict[str, bytes]:
 
 def _stored(layer: Layer, folder: Path) -> bytes:
     """The bytes of a layer, in the format that its extension names."""
-    text = layer_text(layer)
+    text = layer_text(layer).replace(SCENE, folder.resolve().as_posix())
     if posixpath.splitext(layer.path)[1] == ".usda":
         return text.encode()
     from pxr import Sdf

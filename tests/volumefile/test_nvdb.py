@@ -7,97 +7,18 @@ import re
 import shutil
 import struct
 import subprocess
-import tracemalloc
 import zlib
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from attempts import Reader, memory_below, refusal, refusal_of_file, with_each_byte_changed
+from nvdbwriter import SAMPLE, VERSION, bare, buffers, entry, segment, turned
 from process import SAMPLES
 
-from usdvol_lint.volumefile import VolumeFile, VolumeFileError, read_volume_file
+from usdvol_lint.volumefile import VolumeFileError, read_volume_file
 
-SAMPLE = SAMPLES / "type_all_z.nvdb"
-VERSION = 32 << 21 | 4 << 10 | 2
 BOX = ((-4, 2, 0), (7, 4, 24))
-
-Reader = Callable[[bytes], VolumeFile]
-
-
-@pytest.fixture
-def read(tmp_path: Path) -> Reader:
-    path = tmp_path / "file.nvdb"
-
-    def read_bytes(content: bytes) -> VolumeFile:
-        path.write_bytes(content)
-        return read_volume_file(str(path))
-
-    return read_bytes
-
-
-def refusal(read: Reader, content: bytes) -> VolumeFileError:
-    with pytest.raises(VolumeFileError) as caught:
-        read(content)
-    return caught.value
-
-
-def entry(
-    name: bytes = b"density\0",
-    kind: int = 1,
-    grid_class: int = 2,
-    size: int = 0,
-    world: tuple[float, ...] = (-8, 4, 0, 16, 10, 50),
-    box: tuple[int, ...] = (-4, 2, 0, 7, 4, 24),
-    voxel: tuple[float, ...] = (2, 2, 2),
-    codec: int = 2,
-    name_size: int | None = None,
-) -> bytes:
-    length = len(name) if name_size is None else name_size
-    head = struct.pack("<4Q2I", 9999, size, 0, 36, kind, grid_class)
-    boxes = struct.pack("<6d6i3d", *world, *box, *voxel)
-    return head + boxes + struct.pack("<I7IHHI", length, *range(7), codec, 0, VERSION) + name
-
-
-def segment(
-    *entries: bytes,
-    data: bytes = b"",
-    version: int = VERSION,
-    signature: bytes = b"NanoVDB2",
-    count: int | None = None,
-) -> bytes:
-    count = len(entries) if count is None else count
-    return struct.pack("<8sIHH", signature, version, count, 2) + b"".join(entries) + data
-
-
-def buffers() -> list[bytes]:
-    """The grids of the sample as they lie in memory."""
-    content = SAMPLE.read_bytes()
-    found = []
-    for match in re.finditer(rb"NanoVDB0", content):
-        name_size = struct.unpack_from("<I", content, match.start() + 16 + 136)[0]
-        at = match.start() + 16 + 176 + name_size
-        (size,) = struct.unpack_from("<Q", content, at)
-        found.append(zlib.decompress(content[at + 8 : at + 8 + size]))
-    return found
-
-
-def bare(grids: list[bytes]) -> bytes:
-    """Grids as a file of buffers, each of which says how many they are."""
-    return b"".join(
-        b"NanoVDB1" + grid[8:24] + struct.pack("<II", index, len(grids)) + grid[32:]
-        for index, grid in enumerate(grids)
-    )
-
-
-def turned(grid: bytes, matrix: tuple[float, ...], translation: tuple[float, ...]) -> bytes:
-    """A grid with another map."""
-    return (
-        grid[:384]
-        + struct.pack("<9d", *matrix)
-        + grid[456:528]
-        + struct.pack("<3d", *translation)
-        + grid[552:]
-    )
 
 
 def test_sample() -> None:
@@ -290,12 +211,8 @@ LIES: dict[str, tuple[bytes, str]] = {
 
 @pytest.mark.parametrize(("content", "code"), LIES.values(), ids=LIES)
 def test_lies_are_told(read: Reader, content: bytes, code: str) -> None:
-    tracemalloc.start()
-    try:
+    with memory_below(4 << 20):
         error = refusal(read, content)
-        assert tracemalloc.get_traced_memory()[1] < 4 << 20
-    finally:
-        tracemalloc.stop()
     assert error.code == code
     assert error.offset is not None
     assert error.partial is not None
@@ -313,11 +230,10 @@ def test_every_cut_is_noticed() -> None:
     for cut in range(1, len(content), 7):
         if cut in starts:
             continue
-        with pytest.raises(VolumeFileError) as caught:
-            read_volume_file(str(SAMPLE), 0, cut)
-        assert caught.value.code == "truncated", cut
-        if caught.value.partial:
-            names = [grid.name for grid in caught.value.partial.grids]
+        error = refusal_of_file(SAMPLE, 0, cut)
+        assert error.code == "truncated", cut
+        if error.partial:
+            names = [grid.name for grid in error.partial.grids]
             assert names == [grid.name for grid in whole.grids[: len(names)]]
     for cut in starts - {0}:  # as much is a whole file of fewer grids
         assert read_volume_file(str(SAMPLE), 0, cut).complete
@@ -326,15 +242,13 @@ def test_every_cut_is_noticed() -> None:
 @pytest.mark.parametrize("make", [SAMPLE.read_bytes, lambda: bare([FLOAT])[:1500]])
 def test_every_byte_of_a_head_may_be_anything(tmp_path: Path, make: Callable[[], bytes]) -> None:
     whole, path = make()[:1500], tmp_path / "bytes"
-    for byte in (b"\0", b"\x7f", b"\xff"):
-        path.write_bytes(b"".join(whole[:at] + byte + whole[at + 1 :] for at in range(len(whole))))
-        for at in range(len(whole)):
-            try:
-                file = read_volume_file(str(path), at * len(whole), len(whole))
-            except VolumeFileError as error:
-                str(error).encode()
-            else:
-                assert [grid.world_bounds(0.5) for grid in file.grids]
+    for start in with_each_byte_changed(whole, path):
+        try:
+            file = read_volume_file(str(path), start, len(whole))
+        except VolumeFileError as error:
+            str(error).encode()
+        else:
+            assert [grid.world_bounds(0.5) for grid in file.grids]
 
 
 @pytest.mark.parametrize("codec", ["none", "zip", "blosc"])

@@ -1,4 +1,4 @@
-"""Which reader a file gets, which files get none, and what is said in UsdVol's words."""
+"""Which reader a file gets, which files get none, and how little of a file is read."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from pathlib import Path
 
 import pytest
 import vdbwriter as w
+from attempts import refusal_of_file
 from process import SAMPLES
 
-from usdvol_lint.volumefile import VolumeFileError, read_volume_file, tokens, vdb, window
+from usdvol_lint.volumefile import VolumeFileError, read_volume_file, window
 
 
 def code_of(path: Path | str, offset: int = 0, size: int | None = None) -> str:
-    with pytest.raises(VolumeFileError) as caught:
-        read_volume_file(str(path), offset, size)
-    assert caught.value.message == caught.value.message.strip(".")
-    return caught.value.code
+    error = refusal_of_file(path, offset, size)
+    assert error.message == error.message.strip(".")
+    return error.code
 
 
 def test_the_signature_decides_and_not_the_extension(tmp_path: Path) -> None:
@@ -120,11 +120,10 @@ def test_a_file_that_fails_while_it_is_read(
 
     genuine = os.read
     monkeypatch.setattr(window.os, "read", fail)
-    with pytest.raises(VolumeFileError) as caught:
-        read_volume_file(str(path))
-    assert (caught.value.code, caught.value.message) == ("not-a-file", "input/output error")
-    assert caught.value.partial is not None
-    assert [grid.name for grid in caught.value.partial.grids] == ["density", "b"]
+    error = refusal_of_file(path)
+    assert (error.code, error.message) == ("not-a-file", "input/output error")
+    assert error.partial is not None
+    assert [grid.name for grid in error.partial.grids] == ["density", "b"]
 
 
 def test_a_file_that_shrinks_while_it_is_read(
@@ -140,11 +139,10 @@ def test_a_file_that_shrinks_while_it_is_read(
         return content
 
     monkeypatch.setattr(window.os, "read", shrink)
-    with pytest.raises(VolumeFileError) as caught:
-        read_volume_file(str(path))
-    assert caught.value.code == "truncated"
-    assert caught.value.partial is not None
-    assert [grid.name for grid in caught.value.partial.grids] == ["density", "b"]
+    error = refusal_of_file(path)
+    assert error.code == "truncated"
+    assert error.partial is not None
+    assert [grid.name for grid in error.partial.grids] == ["density", "b"]
 
 
 def test_short_reads_are_completed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -197,13 +195,12 @@ def test_results_and_errors_cross_processes(tmp_path: Path) -> None:
     assert pickle.loads(pickle.dumps(file)) == file
     content = (SAMPLES / "instances.vdb").read_bytes()
     (tmp_path / "cut.vdb").write_bytes(content[:-1])
-    with pytest.raises(VolumeFileError) as caught:
-        read_volume_file(str(tmp_path / "cut.vdb"))
-    copy = pickle.loads(pickle.dumps(caught.value))
+    error = refusal_of_file(tmp_path / "cut.vdb")
+    copy = pickle.loads(pickle.dumps(error))
     assert (str(copy), copy.code, copy.partial) == (
-        str(caught.value),
-        caught.value.code,
-        caught.value.partial,
+        str(error),
+        error.code,
+        error.partial,
     )
 
 
@@ -222,94 +219,3 @@ def test_reading_asks_for_little(monkeypatch: pytest.MonkeyPatch) -> None:
     assert sum(asked) <= 16_384
     read_volume_file(str(SAMPLES / "dup_names.vdb"))
     assert len(asked) == 1 + 5
-
-
-# In the words of UsdVol.
-
-
-@pytest.mark.parametrize(
-    ("value_type", "half", "fitting"),
-    [
-        ("half", False, ("half",)),
-        ("float", False, ("float",)),
-        ("float", True, ("float", "half")),
-        ("double", True, ("double", "half")),
-        ("int32", True, ("int",)),
-        ("uint32", False, ("uint",)),
-        ("int64", False, ("int64",)),
-        ("vec2s", True, ("float2", "half2")),
-        ("vec2d", False, ("double2",)),
-        ("vec2i", False, ("int2",)),
-        ("vec3s", False, ("float3",)),
-        ("vec3s", True, ("float3", "half3")),
-        ("vec3d", True, ("double3", "half3")),
-        ("vec3i", True, ("int3",)),
-        ("vec3h", False, ("half3",)),
-        ("mat3d", False, ("matrix3d",)),
-        ("mat4d", False, ("matrix4d",)),
-        ("quatd", False, ("quatd",)),
-        ("bool", False, ("bool",)),
-        ("mask", False, ("mask",)),
-        ("string", False, ("string",)),
-        *(
-            (name, True, ())
-            for name in (
-                *("ptdataidx32", "ptidx32", "int8", "uint8", "int16", "uint16", "vec3u8"),
-                *("vec3u16", "vec4s", "vec4d", "mat3s", "mat4s", "quats", "unknown", ""),
-            )
-        ),
-    ],
-)
-def test_data_types(value_type: str, half: bool, fitting: tuple[str, ...]) -> None:
-    assert tokens.data_types(value_type, half) == fitting
-
-
-@pytest.mark.parametrize(
-    ("grid_class", "token"),
-    [
-        ("level set", "levelSet"),
-        ("fog volume", "fogVolume"),
-        ("staggered", "staggered"),
-        ("unknown", "unknown"),
-        ("other", "unknown"),
-    ],
-)
-def test_field_classes(grid_class: str, token: str) -> None:
-    assert tokens.field_class(grid_class) == token
-
-
-@pytest.mark.parametrize(
-    ("vector_type", "fitting", "strength"),
-    [
-        ("invariant", {"None", "Color"}, "weak"),
-        ("covariant", {"Normal", "Vector"}, "weak"),
-        ("covariant normalize", {"Normal"}, "strong"),
-        ("contravariant relative", {"Vector"}, "strong"),
-        ("contravariant absolute", {"Point"}, "strong"),
-    ],
-)
-def test_role_hints(vector_type: str, fitting: set[str], strength: str) -> None:
-    hints = tokens.role_hints(vector_type)
-    assert (set(hints.fitting), hints.strength) == (fitting, strength)
-
-
-def test_every_token_is_one_of_the_schema() -> None:
-    from pxr import Usd
-
-    registry = Usd.SchemaRegistry()
-
-    def allowed(schema: str, name: str) -> set[str]:
-        definition = registry.FindConcretePrimDefinition(schema)
-        return set(definition.GetSchemaAttributeSpec(name).allowedTokens)
-
-    data_types = {*tokens.DATA_TYPES.values(), *tokens.HALF_TYPES.values()}
-    assert data_types == allowed("OpenVDBAsset", "fieldDataType")
-    assert data_types > allowed("Field3DAsset", "fieldDataType")
-    assert {*tokens.FIELD_CLASSES.values(), "unknown"} == allowed("OpenVDBAsset", "fieldClass")
-    hints = {word for hint in tokens.ROLE_HINTS.values() for word in hint.fitting}
-    assert hints == allowed("OpenVDBAsset", "vectorDataRoleHint")
-
-
-def test_vector_types_have_hints() -> None:
-    assert set(tokens.ROLE_HINTS) == {"invariant", *vdb.VECTOR_TYPES}
-    assert set(tokens.FIELD_CLASSES) == set(vdb.CLASSES)

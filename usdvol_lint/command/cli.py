@@ -59,10 +59,13 @@ def _complete_from(constant: str) -> Any:
               help="full (default), concise or json; may be repeated, each with its --output.")
 @click.option("--output", multiple=True, type=click.Path(), metavar="FILE",
               help="Write the report to a file instead of standard output.")
+@click.option("--show", multiple=True, metavar="info",
+              shell_complete=_complete_from("SHOWABLE"),
+              help="Show infos too, which are counted only unless --fail-on is info.")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto",
               help="Colour the report; auto asks the terminal, NO_COLOR and FORCE_COLOR.")
-@click.option("--quiet", "-q", is_flag=True, help="Print findings only; nothing when clean.")
-@click.option("--verbose", "-v", is_flag=True, help="Add timings, counts and tracebacks.")
+@click.option("--quiet", "-q", is_flag=True, help="Print findings only; nothing when healthy.")
+@click.option("--verbose", "-v", is_flag=True, help="Add infos, timings, counts and tracebacks.")
 @click.option("--config", "config_file", type=click.Path(), metavar="FILE",
               help="Use this configuration file.")
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")
@@ -166,7 +169,7 @@ def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
     with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
         report = lint(paths, settle, progress, click.get_current_context().obj)
     config, destinations = settled[0]
-    output.write(report, destinations, _options(given))
+    output.write(report, destinations, _options(given, config))
     return _exit_code(report, config.fail_on)
 
 
@@ -183,10 +186,11 @@ def _exit_code(report: Report, fail_on: str) -> int:
     return FINDINGS if any(finding.severity >= threshold for finding in findings) else CLEAN
 
 
-def _options(given: dict[str, Any]) -> Options:
+def _options(given: dict[str, Any], config: Config | None = None) -> Options:
     from usdvol_lint.command import output
 
-    return output.options_for(given["color"], given["quiet"], given["verbose"])
+    options = output.options_for(given["color"], given["quiet"], given["verbose"])
+    return options._replace(least=config.least_shown) if config else options
 
 
 def _explain(given: dict[str, Any]) -> int:

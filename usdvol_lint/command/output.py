@@ -69,7 +69,9 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
         if destination.file is None:
             print_text(render(report, destination.format, options))
             continue
-        text = render(report, destination.format, Options(verbose=options.verbose))
+        text = render(
+            report, destination.format, Options(verbose=options.verbose, least=options.least)
+        )
         try:
             _replace(Path(destination.file), text)
         except OSError as error:

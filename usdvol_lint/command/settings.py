@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from usdvol_lint.config import CHECKS, Config, find_config_file, level, read_config
+from usdvol_lint.config import CHECKS, Config, find_config_file, level, read_config, shown
 from usdvol_lint.model import UsageError
 
 _REPLACING = ("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics")
@@ -23,7 +23,10 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
     """
     file = _config_file(given["config_file"], given["isolated"])
     base = read_config(file) if file else Config()
-    changes: dict[str, Any] = {"packs": base.packs + given["pack"]}
+    changes: dict[str, Any] = {
+        "packs": base.packs + given["pack"],
+        "show": base.show + shown("--show", list(given["show"])),
+    }
     for key in _REPLACING:
         name = key.replace("-", "_")
         value = given[name]

@@ -9,8 +9,7 @@ from typing import Any, TypeAlias
 
 from usdvol_lint import schema
 from usdvol_lint.engine.failures import PACK_FAILURES
-from usdvol_lint.engine.walk import Walk
-from usdvol_lint.facts import Facts
+from usdvol_lint.facts import Facts, Walked
 from usdvol_lint.facts.prims.tables import Chunk, Table
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.kinds import KindKey
@@ -23,7 +22,7 @@ Failed: TypeAlias = Callable[[Sequence[Rule], BaseException], None]
 
 
 def assign(
-    walked: Walk, rules: Iterable[Rule], facts: Facts, options: Options, failed: Failed
+    walked: Walked, rules: Iterable[Rule], facts: Facts, options: Options, failed: Failed
 ) -> Iterator[tuple[Rule, Any]]:
     """Each rule with each kept prim of its schemas that passes its precondition.
 
@@ -134,7 +133,7 @@ class _RulesByKey:
             return True
 
 
-def _fields_first(walked: Walk, facts: Facts) -> Iterator[tuple[KindKey, Chunk]]:
+def _fields_first(walked: Walked, facts: Facts) -> Iterator[tuple[KindKey, Chunk]]:
     """The kept prims in chunks of one kind, roughly in the order of the walk.
 
     Facts about Volumes need facts about their fields: of prims that the walk met together, fields

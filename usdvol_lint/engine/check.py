@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from pxr import Tf
@@ -16,8 +15,8 @@ from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.usd_version import usd_version
 from usdvol_lint.engine.variants import OtherSelections
-from usdvol_lint.engine.walk import Walk, walk
-from usdvol_lint.facts import Context, Facts
+from usdvol_lint.engine.walk import walk
+from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
 from usdvol_lint.rule import STAGE, Problem, Rule
 
@@ -33,13 +32,13 @@ class StageCheck:
         self._options = options
         self._stamp = stamp
 
-    def walk(self) -> Walk:
+    def walk(self) -> Walked:
         """The prims that the rules ask for, under the variant selection composed now."""
         return walk(self._context.stage, self._rules, self._context.kinds)
 
-    def facts(self, walked: Walk) -> Facts:
+    def facts(self, walked: Walked) -> Facts:
         """The facts under the variant selection composed now."""
-        return Facts(self._context, walked.kept, walked.clipped, walked.undefined)
+        return Facts(self._context, walked)
 
     def usd_version(self, facts: Facts) -> Iterator[Stamped]:
         """Reports a stage with particle fields under a USD that does not know them."""
@@ -57,10 +56,10 @@ class StageCheck:
         """Reports the rules that ask for types which nobody knows; of a run, only the first do."""
         for rule, idle in never_run(self._rules, facts.stage.GetPseudoRoot()):
             for stamped in self._stamp.stamp(rule, idle):
-                finding = replace(stamped.finding, faulty_rule=rule.code)
+                finding = stamped.finding._replace(faulty_rule=rule.code)
                 yield stamped._replace(finding=finding)
 
-    def selection(self, walked: Walk, facts: Facts) -> Iterator[Stamped]:
+    def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:
         """What the rules find under the selection composed now, and where they failed."""
         failures = Failures()
         for rule, prim in self._assigned(walked, facts, failures):
@@ -80,8 +79,8 @@ class StageCheck:
             for stamped in self._other(error):
                 if stamped.identity not in known:
                     known.add(stamped.identity)
-                    site = replace(stamped.finding.site, variant=selection)
-                    yield stamped._replace(finding=replace(stamped.finding, site=site))
+                    site = stamped.finding.site._replace(variant=selection)
+                    yield stamped._replace(finding=stamped.finding._replace(site=site))
         for left_out in selections.not_checked():
             yield from self._stamp.stamp(NOT_CHECKED, left_out)
 
@@ -100,7 +99,7 @@ class StageCheck:
             yield from failures.findings(self._stamp.sites)
 
     def _assigned(
-        self, walked: Walk, facts: Facts, failures: Failures
+        self, walked: Walked, facts: Facts, failures: Failures
     ) -> Iterator[tuple[Rule, Any]]:
         """Each rule with each prim that it is handed; rules on the stage get the pseudo-root."""
         root = facts.stage.GetPseudoRoot()

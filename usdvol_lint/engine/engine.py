@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from itertools import chain
 
 from pxr import Sdf
@@ -12,13 +11,13 @@ from pxr import Sdf
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
 from usdvol_lint.engine.check import StageCheck
+from usdvol_lint.engine.completions import completion
 from usdvol_lint.engine.failures import still_holding
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
-from usdvol_lint.engine.walk import Walk
-from usdvol_lint.facts import Context, Facts
+from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.model import Finding, StageReport, Status, with_fingerprints
 from usdvol_lint.packs.activation import ActiveRules
@@ -81,6 +80,7 @@ class Engine:
         facts = check.facts(walked)
         found = list(self._sent(chain(check.usd_version(facts), check.never_run(facts))))
         found += self._sent(check.selection(walked, facts))
+        completes = completion(facts)
         stats = _stats(walked, facts, context.disk.checked)
         particle_fields = facts.particles.statistics() if depth.statistics else None
         if depth.selections:
@@ -92,7 +92,13 @@ class Engine:
         findings = with_fingerprints(chain.from_iterable(map(still_holding, found)))
         clock.lap("check")
         return StageReport(
-            display(path), Status.CHECKED, stats, findings, clock.seconds, particle_fields
+            display(path),
+            Status.CHECKED,
+            stats,
+            findings,
+            clock.seconds,
+            particle_fields,
+            completes,
         )
 
     def _sent(self, found: Iterable[Stamped]) -> Iterator[Stamped]:
@@ -111,12 +117,12 @@ class Engine:
             self._send(unsent)
 
 
-@dataclass(slots=True)
 class _Stopwatch:
     """Wall-clock seconds by phase."""
 
-    seconds: dict[str, float] = field(default_factory=dict)
-    _since: float = field(default_factory=time.perf_counter)
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._since = time.perf_counter()
 
     def lap(self, phase: str) -> None:
         now = time.perf_counter()
@@ -124,7 +130,7 @@ class _Stopwatch:
         self._since = now
 
 
-def _stats(walked: Walk, facts: Facts, files_checked: int) -> dict[str, int]:
+def _stats(walked: Walked, facts: Facts, files_checked: int) -> dict[str, int]:
     return {
         "prims": walked.prims,
         "volumes": len(facts.prims.of(schema.VOLUME)),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from typing import Any
 
 from pxr import Tf
@@ -23,16 +22,23 @@ _LONGEST_MESSAGE = 300
 _OF_THE_RULE = "a bug of the rule, not of the stage; --verbose shows the traceback"
 
 
-@dataclass(slots=True)
 class _Failure:
     """One kind of failure: the rule and the prim that met it first, and how many prims met it."""
 
-    rule: Rule
-    prim: Any
-    error: BaseException
-    traceback: str
-    count: int = 0
-    of_precondition: bool = False
+    def __init__(
+        self,
+        rule: Rule,
+        prim: Any,
+        error: BaseException,
+        traceback: str,
+        of_precondition: bool = False,
+    ) -> None:
+        self.rule = rule
+        self.prim = prim
+        self.error = error
+        self.traceback = traceback
+        self.of_precondition = of_precondition
+        self.count = 0
 
     @property
     def is_by_usd(self) -> bool:
@@ -111,8 +117,7 @@ def still_holding(stamped: Stamped) -> Iterator[Finding]:
         found = stamped.finding
         said = " ".join(f"{type(error).__name__}: {error}".split())
         yield found
-        yield replace(
-            found,
+        yield found._replace(
             code=RULE_FAILED.code,
             name=RULE_FAILED.name,
             severity=Severity.ERROR,

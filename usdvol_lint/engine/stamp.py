@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.model import Finding, Severity
+from usdvol_lint.model import Finding, Lack, Severity
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
@@ -52,6 +52,7 @@ class Stamp:
             site=site,
             suggestion=problem.suggestion,
             help=help_for(reported_as),
+            absent=_absent(problem) if isinstance(problem, Problem) else (),
         )
         same = identity(rule, problem, spec) if self._several_selections else ()
         yield Stamped(finding, same, problem.holds if isinstance(problem, Problem) else None)
@@ -62,3 +63,15 @@ class Stamp:
         if milder is None or code in self._active.chosen:
             return severity
         return min(severity, milder)
+
+
+def _absent(problem: Problem) -> tuple[frozenset[Lack], ...]:
+    """What is absent, in terms of the specs of the prims that lack it."""
+    return tuple(
+        frozenset(
+            (spec.layer.realPath, str(spec.path), name)
+            for prim, name in part
+            for spec in prim.GetPrimStack()
+        )
+        for part in problem.absent
+    )

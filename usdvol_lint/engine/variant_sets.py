@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Sdf, Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import DRAWN_BELOW
-from usdvol_lint.facts.usd.instancers import undefined_prototypes
+from usdvol_lint.facts.usd.calls import DRAWN_BELOW, get_path
+from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
 _CHECKED = frozenset(
@@ -53,20 +53,20 @@ class Variant(NamedTuple):
 
 def survey(stage: Any, start: Any, kinds: PrimKinds) -> Survey:
     """Looks at `start` and all prims below it, into all prototypes, and at what instancers draw."""
-    switches, checked = [], []
-    instancers: list[Any] = []
-    starts = (*([start] if start else []), *stage.GetPrototypes())
-    below = (Usd.PrimRange(each, DRAWN_BELOW) for each in starts)
-    # A generator, which looks at the instancers only once those are known.
-    undefined = undefined_prototypes(instancers, kinds)
-    for prim in chain.from_iterable(chain(below, undefined)):
-        names = kinds.names(kinds.key(prim))
-        if not _CHECKED.isdisjoint(names):
-            checked.append(prim)
-        if schema.POINT_INSTANCER in names:
-            instancers.append(prim)
-        if prim.HasVariantSets():
-            switches.append(prim)
+    switches, checked, instancers = [], [], []
+    starts = [*([start] if start else []), *stage.GetPrototypes()]
+    surveyed: set[Any] = set()
+    while starts:
+        surveyed.update(starts)
+        for prim in chain.from_iterable(Usd.PrimRange(each, DRAWN_BELOW) for each in starts):
+            names = kinds.names(kinds.key(prim))
+            if not _CHECKED.isdisjoint(names):
+                checked.append(prim)
+            if schema.POINT_INSTANCER in names:
+                instancers.append(prim)
+            if prim.HasVariantSets():
+                switches.append(prim)
+        starts = sorted(Drawn(instancers).roots - surveyed, key=get_path)
     return Survey(switches, _holders(checked))
 
 

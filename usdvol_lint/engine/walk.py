@@ -1,20 +1,27 @@
-"""Traverses a stage once, and keeps every live prim that a rule or fact asks for, by kind."""
+"""Traverses a stage once, and keeps every drawn prim that some rule asks for, by kind."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from itertools import chain, compress, islice, repeat
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain, compress, filterfalse, islice, repeat
 from typing import Any
 
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import COMPOSED, has_metadata, is_defined
-from usdvol_lint.facts.usd.instancers import undefined_prototypes
-from usdvol_lint.facts.usd.instances import appears
+from usdvol_lint.facts import Walked
+from usdvol_lint.facts.usd.calls import (
+    COMPOSED,
+    get_parent,
+    has_metadata,
+    has_specifier,
+    is_defined,
+)
+from usdvol_lint.facts.usd.drawn import Drawn
+from usdvol_lint.facts.usd.instances import Standing, standing_of
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
+from usdvol_lint.facts.usd.untyped import GROUP_TYPES, with_our_data
 from usdvol_lint.rule import Rule
 
 _BATCH = 256
@@ -22,80 +29,107 @@ _BATCH = 256
 
 From 64 to 4,096 the time is the same.
 """
+_GROUPS = 20_000
+"""How many prims without a type, Xforms and Scopes are looked into, the first ones.
+
+To ask a prim for what is authored on it takes as long as all else that the walk asks.
+"""
 
 
-@dataclass(slots=True)
-class Walk:
-    """The number of prims on the stage, and those that rules or facts ask for, by kind.
+def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walked:
+    """Walks the stage and each prototype once; skips abstract, inactive and unloaded prims."""
+    asked_for = schema.OURS.union(*(rule.on for rule in rules))
+    standings = {prototype: standing_of(prototype) for prototype in stage.GetPrototypes()}
+    met = _Met(asked_for | {schema.POINT_INSTANCER}, kinds)
+    for prims in _batches(stage, standings):
+        met.add(prims)
+    instancers = met.of_kinds(frozenset({schema.POINT_INSTANCER}))
+    drawn = Drawn(prim for _, prims in instancers for prim in prims)
+    unsure = [each for each, standing in standings.items() if standing is Standing.UNDEFINED]
+    shows_all = all(map(drawn.appears, unsure))
+    kept: dict[KindKey, list[Any]] = {}
+    undefined: dict[Any, list[Any]] = defaultdict(list)
+    for key, prims in met.of_kinds(asked_for):
+        if shows_all and all(map(is_defined, prims)):
+            kept[key] = prims
+            continue
+        if not schema.OURS.isdisjoint(kinds.names(key)):
+            for prim in filter(has_specifier, filterfalse(drawn.__contains__, prims)):
+                for over in _overs_above(prim, drawn):
+                    undefined[over].append(prim)
+        if shown := list(filter(drawn.__contains__, prims)):
+            kept[key] = shown
+    untyped = list(filter(drawn.__contains__, met.untyped))
+    return Walked(met.count, kept, met.clipped, untyped, undefined, drawn)
 
-    `prims` counts what is composed, `kept` are the prims that are drawn: those that are defined, up
-    to the root or up to a PointInstancer's prototype.
-    `undefined` are prims of our types with a `def` that are not drawn, by the `over` that nothing
-    defines above them.
-    `clipped` are prims on which value clips are authored: all those among the kept prims and their
-    ancestors, and maybe others.
-    """
 
-    prims: int = 0
-    clipped: list[Any] = field(default_factory=list)
-    kept: dict[KindKey, list[Any]] = field(default_factory=dict)
-    undefined: dict[Any, list[Any]] = field(default_factory=lambda: defaultdict(list))
+class _Met:
+    """What the walk met: how many prims, those of the kinds that are wanted, and some others.
 
-
-def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walk:
-    """Walks the stage and each prototype once; skips abstract, inactive and unloaded prims.
-
-    Whether a prim is kept is decided once for each combination of type and applied schemas, so
+    Whether a kind is wanted is decided once for each combination of type and applied schemas, so
     the cost does not grow with the number of rules.
     """
-    wanted = schema.OURS.union({schema.POINT_INSTANCER}, *(rule.on for rule in rules))
-    kept_of_kind: dict[KindKey, list[Any] | None] = {}
-    result = Walk()
-    for prims in _batches(stage):
-        result.prims += len(prims)
-        keeps_any = False
-        for prim, key in zip(prims, kinds.keys(prims), strict=True):
-            if key not in kept_of_kind:
-                kept_of_kind[key] = None if wanted.isdisjoint(kinds.names(key)) else []
-            kept = kept_of_kind[key]
-            if kept is not None:
-                kept.append(prim)
-                keeps_any = True
-        if keeps_any:
-            # Depth first: an ancestor of one of these is among them, or an ancestor of the first.
-            around = [*_ancestors(prims[0]), *prims]
-            result.clipped += compress(around, map(has_metadata, around, repeat("clips")))
-    _sort(result, {key: kept for key, kept in kept_of_kind.items() if kept}, kinds)
-    return result
+
+    def __init__(self, wanted: frozenset[str], kinds: PrimKinds) -> None:
+        self.count = 0
+        self.clipped: list[Any] = []
+        self.untyped: list[Any] = []
+        self._wanted = wanted
+        self._kinds = kinds
+        self._known: set[KindKey] = set()
+        self._of_kind: dict[KindKey, list[Any]] = {}
+        self._groups: set[KindKey] = set()
+        self._groups_left = _GROUPS
+
+    def add(self, prims: Sequence[Any]) -> None:
+        """Adds prims that the walk met one after the other."""
+        self.count += len(prims)
+        keys = self._kinds.keys(prims)
+        here = set(keys)
+        if not here <= self._known:
+            self._learn(keys)
+        if not here.isdisjoint(self._of_kind):
+            self._keep(prims, keys)
+        if self._groups_left > 0 and not here.isdisjoint(self._groups):
+            groups = list(compress(prims, map(self._groups.__contains__, keys)))
+            self._groups_left -= len(groups)
+            self.untyped += with_our_data(groups)
+
+    def _learn(self, keys: Iterable[KindKey]) -> None:
+        for key in dict.fromkeys(keys):
+            if key not in self._known:
+                self._known.add(key)
+                if not self._wanted.isdisjoint(self._kinds.names(key)):
+                    self._of_kind[key] = []
+                if key[0] in GROUP_TYPES:
+                    self._groups.add(key)
+
+    def _keep(self, prims: Sequence[Any], keys: Iterable[KindKey]) -> None:
+        of_kind = self._of_kind
+        for prim, key in zip(prims, keys, strict=True):
+            if key in of_kind:
+                of_kind[key].append(prim)
+        # Depth first: an ancestor of one of these is among them, or an ancestor of the first.
+        around = [*_ancestors(prims[0]), *prims]
+        self.clipped += compress(around, map(has_metadata, around, repeat("clips")))
+
+    def of_kinds(self, wanted: frozenset[str]) -> Iterator[tuple[KindKey, list[Any]]]:
+        """The prims of each kind that answers to one of these schemas."""
+        for key, prims in self._of_kind.items():
+            if prims and not wanted.isdisjoint(self._kinds.names(key)):
+                yield key, prims
 
 
-def _sort(result: Walk, found: Mapping[KindKey, list[Any]], kinds: PrimKinds) -> None:
-    """Keeps the prims that are drawn; of the others, notes those of ours."""
-    partly = [key for key, prims in found.items() if not all(map(is_defined, prims))]
-    drawn = _prototypes(found, kinds) if partly else set()
-    for key, prims in found.items():
-        if key in partly:
-            others = [prim for prim in prims if not is_defined(prim) and prim not in drawn]
-            if not schema.OURS.isdisjoint(kinds.names(key)):
-                for prim in filter(Usd.Prim.HasDefiningSpecifier, others):
-                    result.undefined[_topmost_undefined(prim, drawn)].append(prim)
-            prims = [prim for prim in prims if is_defined(prim) or prim in drawn]
-        if prims:
-            result.kept[key] = prims
-
-
-def _prototypes(found: Mapping[KindKey, list[Any]], kinds: PrimKinds) -> set[Any]:
-    """The prims that nothing defines and that are drawn all the same, as PointInstancers do it."""
-    of_instancers = (key for key in found if schema.POINT_INSTANCER in kinds.names(key))
-    defined = (prim for key in of_instancers for prim in found[key] if is_defined(prim))
-    return set(chain.from_iterable(undefined_prototypes(defined, kinds)))
-
-
-def _topmost_undefined(prim: Any, drawn: Collection[Any]) -> Any:
-    """The prim right below the first ancestor that is drawn."""
-    while not is_defined(above := prim.GetParent()) and above not in drawn:
+def _overs_above(prim: Any, drawn: Drawn) -> Iterator[Any]:
+    """The prims right below the first that is drawn, above each instance that has the prim."""
+    while not prim.IsPrototype():
+        above = get_parent(prim)
+        if above in drawn:
+            yield prim
+            return
         prim = above
-    return prim
+    composed = (each for each in prim.GetInstances() if COMPOSED(each))
+    yield from dict.fromkeys(chain.from_iterable(_overs_above(each, drawn) for each in composed))
 
 
 def _ancestors(prim: Any) -> Iterator[Any]:
@@ -103,10 +137,13 @@ def _ancestors(prim: Any) -> Iterator[Any]:
         yield prim
 
 
-def _batches(stage: Any) -> Iterator[list[Any]]:
-    appearing = filter(appears, stage.GetPrototypes())
-    prototypes = (Usd.PrimRange(root, COMPOSED) for root in appearing)
-    for prims in (Usd.PrimRange.Stage(stage, COMPOSED), *prototypes):
+def _batches(stage: Any, prototypes: Mapping[Any, Standing]) -> Iterator[list[Any]]:
+    ranges = (
+        Usd.PrimRange(root, COMPOSED)
+        for root, standing in prototypes.items()
+        if standing is not Standing.ABSTRACT
+    )
+    for prims in (Usd.PrimRange.Stage(stage, COMPOSED), *ranges):
         iterator = iter(prims)
         while batch := list(islice(iterator, _BATCH)):
             yield batch

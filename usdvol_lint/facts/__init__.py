@@ -17,6 +17,7 @@ from usdvol_lint.facts.volumes import Volumes
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.disk import Disk
     from usdvol_lint.facts.files.folders import Folders
+    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
     from usdvol_lint.facts.volumes.usage import UsedFields
     from usdvol_lint.volumefile.cache import VolumeFiles
@@ -60,6 +61,27 @@ class Context(NamedTuple):
         return cls(stage, kinds, depth, Disk(folders), files, UsedFields(), advance)
 
 
+class Walked(NamedTuple):
+    """What one walk over the stage met, under one variant selection.
+
+    `prims` counts what is composed; `kept` are the prims that are drawn and that some rule asks
+    for, by kind.
+    `clipped` are prims on which value clips are authored: all those among the kept prims and their
+    ancestors, and maybe others.
+    `untyped` are drawn prims without a type, Xforms and Scopes that have properties which only
+    Volumes and splats need: those among the first 20,000 of such types.
+    `undefined` are prims of our types with a `def` that are not drawn, by the `over` that nothing
+    defines above them.
+    """
+
+    prims: int
+    kept: Mapping[KindKey, Sequence[Any]]
+    clipped: Sequence[Any]
+    untyped: Sequence[Any]
+    undefined: Mapping[Any, Sequence[Any]]
+    drawn: Drawn
+
+
 class Facts:
     """The facts of one stage under one variant selection: read-only for rules.
 
@@ -67,32 +89,31 @@ class Facts:
     Modules that need pxr are imported in functions, so that rules can be loaded without pxr.
     """
 
-    def __init__(
-        self,
-        context: Context,
-        kept: Mapping[KindKey, Sequence[Any]],
-        clipped: Sequence[Any],
-        undefined: Mapping[Any, Sequence[Any]],
-    ) -> None:
-        """`kept`: the prims that rules ask for, by kind; `clipped`: all that author clip sets;
-        `undefined`: by an `over`, the prims of our types that it takes off the stage.
-        """
+    def __init__(self, context: Context, walked: Walked) -> None:
         from usdvol_lint.facts.prims.attributes import AuthoredReader
         from usdvol_lint.facts.prims.tables import Tables
         from usdvol_lint.facts.usd.clips import Clips
 
         stage, kinds, depth, disk, volume_files, used, advance = context
-        clips = Clips(clipped)
-        tables = Tables(kept, kinds, AuthoredReader(kinds, clips))
+        clips = Clips(walked.clipped)
+        tables = Tables(walked.kept, kinds, AuthoredReader(kinds, clips))
         self.stage = stage
         self.kinds = kinds
         self.tables = tables
-        self.prims = Prims(tables, kinds, clips)
+        self.prims = Prims(tables, kinds, clips, walked.drawn)
         self.files = Files(tables, stage, clips, disk, advance)
-        self.layers = Layers(tables, stage, clips, kinds, undefined)
+        self.layers = Layers(tables, stage, clips, kinds, walked.undefined, walked.drawn)
         self.grids = Grids(tables, self.files, depth.content, volume_files, advance)
         self.volumes = Volumes(
-            tables, stage, kinds, self.prims, self.files, self.layers, self.grids, used
+            tables,
+            stage,
+            kinds,
+            walked.untyped,
+            self.prims,
+            self.files,
+            self.layers,
+            self.grids,
+            used,
         )
         self.particles = Particles(tables, kinds, self.prims, depth, advance)
 

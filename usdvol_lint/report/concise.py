@@ -19,7 +19,7 @@ def render(report: Report, options: Options) -> str:
     return "".join(
         " ".join(_parts(finding, stage, options)) + "\n"
         for stage in report.stages
-        for finding in stage.findings
+        for finding in filter(options.shows, stage.findings)
     )
 
 

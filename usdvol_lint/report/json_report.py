@@ -10,7 +10,8 @@ from collections.abc import Set as AbstractSet
 from enum import Enum
 from pathlib import PurePath
 
-from usdvol_lint.model import Finding, Report, Severity, StageReport
+from usdvol_lint.model import Completion, Finding, Report, Severity, StageReport
+from usdvol_lint.paths import display
 from usdvol_lint.report import Options
 
 SCHEMA_VERSION = "1.0"
@@ -56,8 +57,23 @@ def _stage(stage: StageReport) -> dict[str, object]:
         "status": stage.status.value,
         "stats": stage.stats,
         **({} if figures is None else {"particle_fields": [one._asdict() for one in figures]}),
+        "completes": stage.completes and _completion(stage.completes),
         "seconds": round(sum(stage.seconds.values(), 0.0), 6),
         "findings": [_finding(finding) for finding in stage.findings],
+    }
+
+
+def _completion(completion: Completion) -> dict[str, object]:
+    return {
+        "layers": list(map(display, completion.layers)),
+        "specs": [
+            {
+                "layers": list(map(display, spec.layers)),
+                "path": spec.path,
+                "lacking": list(spec.lacking),
+            }
+            for spec in completion.specs
+        ],
     }
 
 

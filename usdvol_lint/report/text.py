@@ -27,28 +27,41 @@ _WORD = re.compile(r"""(?<!\S)\(?(['"@]).*?\1\S*|\S+""")
 
 
 def render(report: Report, options: Options) -> str:
-    blocks = [_stage(stage, options) for stage in report.stages if _is_shown(stage, options)]
+    told = _told(report, options)
+    blocks = [_stage(stage, options) for stage in told.stages if _is_shown(stage, options)]
     if not options.quiet:
-        blocks.append(paint(verdict(report), _verdict_style(report), options.color) + "\n")
+        blocks.append(paint(verdict(report, options), _verdict_style(told), options.color) + "\n")
     return "\n".join(blocks)
 
 
-def verdict(report: Report) -> str:
+def _told(report: Report, options: Options) -> Report:
+    """The report without the findings that are only counted."""
+    stages = (
+        stage._replace(findings=tuple(filter(options.shows, stage.findings)))
+        for stage in report.stages
+    )
+    return report._replace(stages=tuple(stages))
+
+
+def verdict(report: Report, options: Options) -> str:
     """The result of the run in one line."""
-    summary = report.summary
+    summary = _told(report, options).summary
     if not summary.stages:
         return "no stages checked"
-    checked = _checked_counts(summary.stats)
-    parts = [_finding_counts(summary), f"{checked} in {_duration(report.seconds)}"]
+    hidden = report.summary.infos - summary.infos
+    parts = [_finding_counts(summary, "errors or warnings" if hidden else "findings")]
+    if hidden:
+        parts.append(f"{_count(hidden, 'info')}, shown with --show info")
+    parts.append(f"{_checked_counts(summary.stats)} in {_duration(report.seconds)}")
     unchecked = summary.stages - summary.by_status.get(Status.CHECKED, 0)
     if unchecked:
         parts.append(f"{_count(unchecked, 'stage')} could not be checked")
     return "; ".join(parts)
 
 
-def _finding_counts(summary: Summary) -> str:
+def _finding_counts(summary: Summary, sought: str) -> str:
     if not summary.findings:
-        return f"no findings in {_count(summary.stages, 'stage')}"
+        return f"no {sought} in {_count(summary.stages, 'stage')}"
     counts = _counts(
         (summary.errors, "error"), (summary.warnings, "warning"), (summary.infos, "info")
     )

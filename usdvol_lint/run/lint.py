@@ -13,6 +13,7 @@ from usdvol_lint.model import Report, StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.run.discovery import discover
+from usdvol_lint.run.parts import without_completed
 from usdvol_lint.run.pool import Pool
 from usdvol_lint.run.protocol import Setup
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 _SHAPING = (
-    *("options", "packs", "fail_on"),
+    *("options", "packs", "fail_on", "show"),
     *("load", "content", "variants", "variant_limit", "times", "timeout"),
 )
 
@@ -80,7 +81,8 @@ def _run(
     progress.begin(len(futures))
     setup = Setup(active, config.packs, config.depth)
     pool.run(setup, config.jobs or os.cpu_count() or 1, config.timeout, progress.advance)
-    return tuple(_without_repeated_faults(future.result() for future in futures))
+    stages = list(_without_repeated_faults(future.result() for future in futures))
+    return tuple(without_completed(stages))
 
 
 def _without_repeated_faults(stages: Iterable[StageReport]) -> Iterator[StageReport]:

@@ -7,7 +7,6 @@ import shutil
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import chdir
-from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -37,16 +36,21 @@ from usdvol_lint.run.lint import lint
 _PACKED = "cloud.vdb"
 """The asset of a pack that is put into each package of an example."""
 
+_HERE = "<folder>"
+"""What the folder of an example is called in it, and in what is said of it."""
+
 
 def write_example(case: Case, folder: Path, assets: Path) -> None:
     """The example, its named files and all of a pack's assets, in one folder.
 
+    `<folder>` in a text stands for the absolute path of that folder.
     A file whose name ends in .usdz is a package: the text is its root layer, beside cloud.vdb.
     """
     folder.mkdir(parents=True, exist_ok=True)
     if assets.is_dir():
         shutil.copytree(assets, folder, copy_function=_link, dirs_exist_ok=True)
     for name, text in case.texts.items():
+        text = text.replace(_HERE, folder.as_posix())
         file = folder / name
         file.parent.mkdir(parents=True, exist_ok=True)
         file.unlink(missing_ok=True)  # it may be a link to one of the assets
@@ -99,15 +103,14 @@ def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
 
     def anywhere(text: str) -> str:
         for absolute in (str(folder), folder.as_posix()):
-            text = text.replace(absolute, "<folder>")
+            text = text.replace(absolute, _HERE)
         return text.replace(f"{folder.name}/", "")
 
     return tuple(
-        replace(
-            finding,
+        finding._replace(
             message=anywhere(finding.message),
             suggestion=finding.suggestion and anywhere(finding.suggestion),
-            site=replace(finding.site, layer=anywhere(finding.site.layer)),
+            site=finding.site._replace(layer=anywhere(finding.site.layer)),
         )
         for finding in findings
         if finding.code != USD_TOO_OLD.code

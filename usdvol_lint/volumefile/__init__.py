@@ -77,5 +77,5 @@ def read_window(window: Window) -> VolumeFile:
     if any(signature.startswith(head) for signature in _SIGNATURES):
         raise VolumeFileError("truncated", f"the file ends after {len(head)} bytes", len(head))
     raise VolumeFileError(
-        "not-a-volume-file", "it begins like no OpenVDB, NanoVDB or Field3D file", 0
+        "not-a-volume-file", "its first bytes are not those of OpenVDB, NanoVDB or Field3D"
     )

@@ -22,6 +22,8 @@ from usdvol_lint.facts.files.frame_names import FrameName, read_frame_name, read
         ("smoke_V004.vdb", None),
         ("smokeVer004.vdb", None),
         ("take.0004.vdb", None),
+        ("smokeModel_0004.vdb", None),
+        ("img_0004.vdb", None),
         ("cloudLOD0004.vdb", None),
         ("smoke_256x256.vdb", None),
         ("smoke_20240115.vdb", None),

@@ -9,6 +9,7 @@ from usdvol_lint.facts.particles.colour_spaces import colour_space
 
 NAME = 'token colorSpace:name = "{0}"'
 DEFINED = 'token colorSpaceDefinition:own:name = "mine"'
+APIS = '(prepend apiSchemas = ["ColorSpaceAPI", "ColorSpaceDefinitionAPI:own"])'
 NOTE = 'custom token colorSpaceDefinition:own:note = "mine"'
 
 
@@ -32,7 +33,8 @@ def test_a_name_and_its_definition(
     """The nearest name counts, and what is defined on its prim or above."""
     stage = Usd.Stage.CreateInMemory()
     stage.GetRootLayer().ImportFromString(
-        f'#usda 1.0\ndef "a" {{\n{above}\ndef "b" {{\n{between}\ndef "c" {{\n{own}\n}}\n}}\n}}\n'
+        f'#usda 1.0\ndef "a" {APIS} {{\n{above}\ndef "b" {APIS} {{\n{between}\n'
+        f'def "c" {APIS} {{\n{own}\n}}\n}}\n}}\n'
     )
     found = colour_space(stage.GetPrimAtPath("/a/b/c"))
     told = found and (str(found.attribute.GetPrimPath()), found.name, found.is_known)

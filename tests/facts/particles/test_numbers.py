@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from math import inf, nan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from particlefields import SH, Array, Field, codes, lint, splats, write
 from pxr import Usd
-from test_arrays import SH, Array, Field, codes, lint, splats, write
 
 from usdvol_lint.engine.engine import Engine
+from usdvol_lint.facts.particles import scales as scales_module
 from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
 from usdvol_lint.facts.particles.numbers import are_whole, mean_of, range_within, spacing
 
@@ -49,7 +52,7 @@ def array_of(tmp_path: Path) -> Callable[[str, Field], ParticleArray]:
 @pytest.mark.parametrize(
     ("count", "low", "high", "expected"),
     [
-        (COUNT, 1.9, 2.3, ["ARR019 info"]),
+        (COUNT, 1.9, 2.3, ["ARR024 info"]),
         (COUNT, 1.7, 2.1, []),
         (COUNT - 1, 1.9, 2.3, []),
     ],
@@ -63,9 +66,60 @@ def test_mean_scale_above_a_tenth_of_the_extent(
 
 
 @pytest.mark.parametrize(
+    ("scale", "expected"),
+    [
+        (-2.0, ["ARR009 warning"]),
+        (nan, ["ARR007 error"]),
+        (inf, ["ARR007 error"]),
+    ],
+    ids=["negative", "nan", "infinity"],
+)
+def test_scales_of_which_one_is_amiss_have_no_mean(
+    engine: Engine, tmp_path: Path, scale: float, expected: list[str]
+) -> None:
+    scales = uniform(1.9, 2.3)
+    scales[7, 1] = scale
+    found = lint(engine, scan(scales=scales), tmp_path / "splats.usdc")
+    assert [code for code in codes(found) if "ARR022" not in code] == expected
+
+
+@pytest.mark.parametrize("opacity", [nan, inf], ids=["nan", "infinity"])
+def test_squeezed_opacities_that_are_not_finite_are_told_once(
+    engine: Engine, tmp_path: Path, opacity: float
+) -> None:
+    opacities = np.linspace(0.505, 0.73, COUNT)
+    assert codes(lint(engine, scan(opacities=opacities), tmp_path / "splats.usdc")) == [
+        "ARR019 warning"
+    ]
+    opacities[7] = opacity
+    assert codes(lint(engine, scan(opacities=opacities), tmp_path / "splats.usdc")) == [
+        "ARR007 error"
+    ]
+
+
+def test_exp_of_exp_is_told_once(
+    engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It makes scales larger than a tenth of a small extent too; their mean is found once."""
+    means: list[float] = []
+
+    def counted(array: ParticleArray) -> float:
+        means.append(mean_of(array))
+        return means[-1]
+
+    monkeypatch.setattr(scales_module, "mean_of", counted)
+    field = scan(scales=np.exp(np.exp(uniform(-6, -2.5))))
+    field.frames[0]["positions"][:] /= 8
+    field = replace(field, extent=((-4.0,) * 3, (4.0,) * 3))
+    found = lint(engine, field, tmp_path / "splats.usdc")
+    assert codes(found) == ["ARR019 warning"]
+    assert len(means) == 1
+
+
+@pytest.mark.parametrize(
     ("count", "values", "expected"),
     [
-        (COUNT, uniform(0, 1), ["ARR019 info"]),
+        (COUNT, uniform(0, 1), ["ARR023 info"]),
         (COUNT - 1, uniform(0, 1, COUNT - 1), []),
         (COUNT, uniform(0, 1.01), []),
         (COUNT, uniform(-0.01, 1), []),

@@ -212,7 +212,7 @@ def Volume "cloud" {{
 """
     stage = Usd.Stage.Open(write(tmp_path / "stage.usda", text))
     walked = walk(stage, [], PrimKinds())
-    facts = Facts(Context.of(stage), walked.kept, walked.clipped, walked.undefined)
+    facts = Facts(Context.of(stage), walked)
     cloud, density = stage.GetPrimAtPath("/cloud"), stage.GetPrimAtPath("/cloud/density")
     assert not facts.volumes.is_shared(cloud, density)
 

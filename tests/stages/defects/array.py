@@ -131,10 +131,11 @@ def many_invisible(subject: ParticleSubject, rng: Random) -> None:
         values[:4] = [0] * 4
 
 
-@on_particles("ARR014", needs=_ALL)
-def many_at_one_place(subject: ParticleSubject, rng: Random) -> None:
-    for values in subject.lists("positions"):
-        values[:5] = [values[0]] * 5
+@on_particles("ARR014", needs={**_ALL, "degree": 0})
+def many_that_are_one(subject: ParticleSubject, rng: Random) -> None:
+    for name in ("positions", "orientations", "scales", "opacities", COEFFICIENTS):
+        for values in subject.lists(name):
+            values[:5] = [values[0]] * 5
 
 
 @on_particles("ARR015", needs=_ALL, is_info=True)

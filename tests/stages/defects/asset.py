@@ -7,7 +7,7 @@ from random import Random
 from typing import Any
 
 from ..files import FRAME, original, shared
-from ..model import Attribute, File, Prim
+from ..model import SCENE, Attribute, File, Prim
 from ..subjects import FieldPart
 from .declaration import A_RUN, ONE_FILE, VolumeSubject, any_field, extent_for_all, on_volume
 
@@ -135,27 +135,33 @@ def nanovdb(subject: VolumeSubject, rng: Random) -> Prim:
     return prim
 
 
-@on_volume("AST007", needs=ONE_FILE, also=("AST002",), without=("package",), is_info=True)
-def absolute(subject: VolumeSubject, rng: Random) -> Prim:
+@on_volume("AST002", needs=ONE_FILE, without=("package",))
+def absolute_and_missing(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "/mnt/there/is/no/such/folder/cloud.vdb")
 
 
-@on_volume("AST008", needs=ONE_FILE, also=("AST002",))
+@on_volume("AST007", needs={"files": "static", "fields": 1}, without=("package",), is_info=True)
+def absolute(subject: VolumeSubject, rng: Random) -> Prim:
+    named = any_field(subject, rng).prim.attribute("filePath").value
+    return _named(subject, rng, f"{SCENE}/{named.path}")
+
+
+@on_volume("AST008", needs=ONE_FILE)
 def drive_letter(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "Q:/sim/cloud.vdb")
 
 
-@on_volume("AST008", needs=ONE_FILE, also=("AST002",))
+@on_volume("AST008", needs=ONE_FILE)
 def backslashes(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, ".\\sim\\cloud.vdb")
 
 
-@on_volume("AST008", needs=ONE_FILE, also=("AST002",))
+@on_volume("AST008", needs=ONE_FILE)
 def home(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "~/sim/cloud.vdb")
 
 
-@on_volume("AST009", needs=A_RUN, perhaps=("AST002",), without=("package",))
+@on_volume("AST009", needs=A_RUN, without=("package",))
 def case_of_another(subject: VolumeSubject, rng: Random) -> Prim:
     part = any_field(subject, rng)
     samples = part.prim.attribute("filePath").samples
@@ -209,7 +215,7 @@ def manifest_without_path(subject: VolumeSubject, rng: Random) -> Prim:
     return part.prim
 
 
-@on_volume("AST015", needs={**ONE_FILE, "fields": 1}, within="package", also=("AST002",))
+@on_volume("AST015", needs={**ONE_FILE, "fields": 1}, within="package")
 def outside_package(subject: VolumeSubject, rng: Random) -> Prim:
     return _named(subject, rng, "../../../../elsewhere/cloud.vdb")
 

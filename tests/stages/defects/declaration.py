@@ -24,7 +24,7 @@ class Defect:
     `without` are arcs that would hide the defect or add to it, and `within`
     names one that it needs.  `also` are codes that it leads to
     by its nature, `perhaps` those that it leads to on some platforms, and `is_info` says that the
-    finding is no warning.
+    finding is no warning.  `title` is what it is called in its module.
     """
 
     code: str
@@ -36,10 +36,11 @@ class Defect:
     without: tuple[str, ...] = ()
     within: str | None = None
     is_info: bool = False
+    title: str = ""
 
     @property
     def name(self) -> str:
-        return f"{self.code} {self.make.__name__.replace('_', ' ')}"
+        return f"{self.code} {self.title.replace('_', ' ')}"
 
 
 def on_volume(code: str, **declared: Any) -> Callable[[Make], Defect]:
@@ -83,6 +84,15 @@ def field_of(subject: VolumeSubject, rng: Random, path: str, **said: Any) -> Pri
     return prim
 
 
+def naming(code: str, path: str, is_info: bool = False, **said: Any) -> Defect:
+    """A field that names this shared file, and says this of its grid."""
+
+    def make(subject: VolumeSubject, rng: Random) -> Prim:
+        return field_of(subject, rng, path, **said)
+
+    return on_volume(code, needs=ONE_FILE, is_info=is_info)(make)
+
+
 __all__ = [
     "A_RUN",
     "ONE_FILE",
@@ -95,6 +105,7 @@ __all__ = [
     "any_field",
     "extent_for_all",
     "field_of",
+    "naming",
     "on_particles",
     "on_scene",
     "on_volume",

@@ -4,19 +4,13 @@ from __future__ import annotations
 
 from random import Random
 
-from ..model import Attribute, File, Layer, Prim
-from .declaration import A_RUN, ONE_FILE, VolumeSubject, any_field, field_of, on_volume
+from ..looks import hide_below
+from ..model import Attribute, Prim
+from .declaration import A_RUN, VolumeSubject, any_field, field_of, naming, on_volume
 
-
-@on_volume("FLD001", needs=ONE_FILE)
-def no_name(subject: VolumeSubject, rng: Random) -> Prim:
-    """Of one of several grids: where a file has but one, it is clear which is meant."""
-    return field_of(subject, rng, "cloud.vdb", fieldDataType="float")
-
-
-@on_volume("FLD001", needs=ONE_FILE)
-def name_empty(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "cloud.vdb", fieldName="", fieldDataType="float")
+no_name = naming("FLD001", "cloud.vdb", fieldDataType="float")
+"""Of one of several grids: where a file has but one, it is clear which is meant."""
+name_empty = naming("FLD001", "cloud.vdb", fieldName="", fieldDataType="float")
 
 
 @on_volume("FLD002", is_info=True)
@@ -50,16 +44,8 @@ def index_of_the_second(subject: VolumeSubject, rng: Random) -> Prim:
 def default_over_samples(subject: VolumeSubject, rng: Random) -> Prim:
     """A stronger layer names one file for all times."""
     part = any_field(subject, rng)
-    prim = over = Prim(part.prim.name, specifier="over")
     first = next(iter(part.prim.attribute("filePath").samples.values()))
-    prim.properties["filePath"] = Attribute("asset", first)
-    for name in reversed(part.path[1:].split("/")[:-1]):
-        over = Prim(name, specifier="over", children=[over])
-    layer = Layer(f"{subject.root.name}_over.usda", [over])
-    layer.metadata.append(("subLayers = [", File(subject.layer.path), "]"))
-    subject.content.layers.append(layer)
-    subject.layer = layer
-    return prim
+    return hide_below(subject, part.path, "filePath", Attribute("asset", first))
 
 
 @on_volume("FLD007", needs={"files": "field3d"}, is_info=True)

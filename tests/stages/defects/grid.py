@@ -6,30 +6,15 @@ from random import Random
 
 from ..files import original, shared
 from ..model import Attribute, Prim
-from .declaration import A_RUN, ONE_FILE, VolumeSubject, any_field, field_of, on_volume
+from .declaration import A_RUN, ONE_FILE, VolumeSubject, any_field, field_of, naming, on_volume
 
 _DENSITY = {"fieldName": "density", "fieldDataType": "float"}
 _VELOCITY = {"fieldName": "velocity", "fieldDataType": "float3"}
 
-
-@on_volume("GRD001", needs=ONE_FILE)
-def text_file(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/text.vdb", **_DENSITY)
-
-
-@on_volume("GRD001", needs=ONE_FILE)
-def offsets_broken(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/broken.vdb", **_DENSITY)
-
-
-@on_volume("GRD001", needs=ONE_FILE)
-def nanovdb_called_vdb(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/nanovdb.vdb", **_DENSITY)
-
-
-@on_volume("GRD002", needs=ONE_FILE)
-def cut_off(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/truncated.vdb", **_DENSITY)
+text_file = naming("GRD001", "grids/text.vdb", **_DENSITY)
+offsets_broken = naming("GRD001", "grids/broken.vdb", **_DENSITY)
+nanovdb_called_vdb = naming("GRD001", "grids/nanovdb.vdb", **_DENSITY)
+cut_off = naming("GRD002", "grids/truncated.vdb", **_DENSITY)
 
 
 @on_volume("GRD003")
@@ -39,15 +24,8 @@ def grid_missing(subject: VolumeSubject, rng: Random) -> Prim:
     return prim
 
 
-@on_volume("GRD003", needs=ONE_FILE)
-def no_grids(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/no_grids.vdb", **_DENSITY)
-
-
-@on_volume("GRD003", needs=ONE_FILE)
-def vector_split(subject: VolumeSubject, rng: Random) -> Prim:
-    said = {"fieldName": "vel", "fieldDataType": "float3"}
-    return field_of(subject, rng, "grids/split_velocity.vdb", **said)
+no_grids = naming("GRD003", "grids/no_grids.vdb", **_DENSITY)
+vector_split = naming("GRD003", "grids/split_velocity.vdb", fieldName="vel", fieldDataType="float3")
 
 
 @on_volume("GRD004", needs=ONE_FILE)
@@ -65,40 +43,15 @@ def vector_for_scalar(subject: VolumeSubject, rng: Random) -> Prim:
     return attribute
 
 
-@on_volume("GRD005", needs=ONE_FILE)
-def float_for_double(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/double.vdb", **_DENSITY)
-
-
-@on_volume("GRD006", needs=ONE_FILE)
-def fog_for_level_set(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/level_set.vdb", **_DENSITY, fieldClass="fogVolume")
-
-
-@on_volume("GRD006", needs=ONE_FILE, is_info=True)
-def class_of_the_unclassed(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/unclassed.vdb", **_DENSITY, fieldClass="fogVolume")
-
-
-@on_volume("GRD007", needs=ONE_FILE)
-def normal_for_vector(subject: VolumeSubject, rng: Random) -> Prim:
-    said = {**_VELOCITY, "vectorDataRoleHint": "Normal"}
-    return field_of(subject, rng, "grids/velocity.vdb", **said)
-
-
-@on_volume("GRD008", needs=ONE_FILE, is_info=True)
-def no_voxels(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/no_voxels.vdb", **_DENSITY)
-
-
-@on_volume("GRD009", needs=ONE_FILE)
-def two_of_one_name(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/same_name.vdb", **_DENSITY)
-
-
-@on_volume("GRD009", needs=ONE_FILE)
-def another_name_in_metadata(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/two_names.vdb", **_DENSITY)
+float_for_double = naming("GRD005", "grids/double.vdb", **_DENSITY)
+fog_for_level_set = naming("GRD006", "grids/level_set.vdb", **_DENSITY, fieldClass="fogVolume")
+class_of_the_unclassed = naming(
+    "GRD006", "grids/unclassed.vdb", is_info=True, **_DENSITY, fieldClass="fogVolume"
+)
+normal_for_vector = naming("GRD007", "grids/velocity.vdb", **_VELOCITY, vectorDataRoleHint="Normal")
+no_voxels = naming("GRD008", "grids/no_voxels.vdb", is_info=True, **_DENSITY)
+two_of_one_name = naming("GRD009", "grids/same_name.vdb", **_DENSITY)
+another_name_in_metadata = naming("GRD009", "grids/two_names.vdb", **_DENSITY)
 
 
 @on_volume("GRD010", needs=ONE_FILE)
@@ -107,9 +60,7 @@ def version_unsupported(subject: VolumeSubject, rng: Random) -> Prim:
     return field_of(subject, rng, f"grids/version_{version}.vdb", **_DENSITY)
 
 
-@on_volume("GRD011", needs=ONE_FILE)
-def type_unregistered(subject: VolumeSubject, rng: Random) -> Prim:
-    return field_of(subject, rng, "grids/unregistered.vdb", **_DENSITY)
+type_unregistered = naming("GRD011", "grids/unregistered.vdb", **_DENSITY)
 
 
 @on_volume("GRD012", needs=ONE_FILE)

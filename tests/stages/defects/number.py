@@ -54,11 +54,21 @@ def sigmoid_of_ones(subject: ParticleSubject, rng: Random) -> None:
         values[:] = [0.7310586] * len(values)
 
 
-@on_particles("ARR019", needs=_ALL)
+@on_particles("ARR023", needs=_ALL)
 def bytes_of_colours(subject: ParticleSubject, rng: Random) -> None:
     for values in subject.lists(COEFFICIENTS):
         values[:] = [tuple(rng.randint(0, 255) for _ in range(3)) for _ in values]
         values[0] = (200, 100, 0)
+
+
+@on_particles("ARR024", needs={**_ALL, "count": 1000, "degree": 0}, is_info=True)
+def scales_of_another_unit(subject: ParticleSubject, rng: Random) -> None:
+    for values in subject.lists("positions"):
+        values[:] = [(index / 500 - 1, index % 10 / 10, 0) for index in range(len(values))]
+    for values in subject.lists("scales"):
+        values[:] = [tuple(rng.uniform(0.9, 1) for _ in range(3)) for _ in values]
+    corners = [(-4, -4, -4), (4, 4, 4)]
+    subject.prim.properties["extent"] = Attribute("float3[]", corners)
 
 
 @on_particles("ARR020", needs=_HALF)
@@ -86,27 +96,31 @@ def _move(subject: ParticleSubject, origin: float, scale: float) -> None:
     subject.prim.properties["extent"] = Attribute("float3[]", corners)
 
 
-@on_particles("FLD006", needs={**_ALL, "animated": True, "changing": False})
+@on_particles("ARR025", needs={**_ALL, "animated": True, "changing": False})
 def positions_held(subject: ParticleSubject, rng: Random) -> Prim:
     positions = subject.array("positions")
     first = next(iter(positions.samples.values()))
-    return hide_below(subject, subject.name_of("positions"), Attribute(positions.type, first))
+    return hide_below(
+        subject, subject.path, subject.name_of("positions"), Attribute(positions.type, first)
+    )
 
 
-@on_particles("FLD006", needs=_ALL, is_info=True)
+@on_particles("ARR025", needs=_ALL, is_info=True)
 def opacities_held(subject: ParticleSubject, rng: Random) -> Prim:
     opacities = subject.array("opacities")
     value = subject.lists("opacities")[0]
     opacities.samples = {1: value, 2: [0.25 for _ in value]}
-    return hide_below(subject, subject.name_of("opacities"), Attribute(opacities.type, value))
+    return hide_below(
+        subject, subject.path, subject.name_of("opacities"), Attribute(opacities.type, value)
+    )
 
 
-@on_particles("FLD006", needs=_ALL, is_info=True)
+@on_particles("SCH017", needs=_ALL, is_info=True)
 def extent_held(subject: ParticleSubject, rng: Random) -> Prim:
     extent = subject.prim.attribute("extent")
     corners = extent.value
     extent.samples = {1: corners, 2: [(-2, -2, -2), (2, 2, 2.5)]}
-    return hide_below(subject, "extent", Attribute("float3[]", corners))
+    return hide_below(subject, subject.path, "extent", Attribute("float3[]", corners))
 
 
 @on_particles("ARR021", needs={**_ALL, "type": "ParticleField", "kernel": "flat"}, is_info=True)

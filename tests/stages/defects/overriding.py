@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from random import Random
 
-from ..model import Attribute, File, Layer, Prim, Relationship
+from ..model import Attribute, Layer, Prim, Relationship, overs
 from ..subjects import ParticleSubject, Subject
 from .declaration import ONE_FILE, VolumeSubject, any_field, on_particles, on_volume
 
@@ -18,11 +17,7 @@ def _hide(subject: Subject, prim: Prim, rng: Random) -> None:
     prim.type = rng.choice(("Xform", "Scope"))
 
 
-OVERS = ("prototype below over",)
-"""What several layers make up is not looked for where nothing defines a prototype."""
-
-
-@on_volume("SCH012", without=OVERS)
+@on_volume("SCH012")
 def volume_hidden(subject: VolumeSubject, rng: Random) -> None:
     subject.root.children = [
         child for child in subject.root.children if not child.name.endswith("_twin")
@@ -30,14 +25,14 @@ def volume_hidden(subject: VolumeSubject, rng: Random) -> None:
     _hide(subject, subject.prim, rng)
 
 
-@on_volume("SCH012", needs=ONE_FILE, without=OVERS)
+@on_volume("SCH012", needs=ONE_FILE)
 def field_hidden(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
     _hide(subject, prim, rng)
     return prim
 
 
-@on_particles("SCH012", without=OVERS)
+@on_particles("SCH012")
 def splat_hidden(subject: ParticleSubject, rng: Random) -> None:
     _hide(subject, subject.prim, rng)
 
@@ -46,13 +41,10 @@ def _over(subject: Subject, path: str) -> Prim:
     """A stronger over of a prim: all prims move into a sublayer of the subject's layer."""
     base = Layer(subject.layer.path.replace(".", "_base."), subject.layer.prims)
     subject.content.layers.append(base)
-    subject.layer.metadata.append(("subLayers = [", File(base.path), "]"))
-    names = path.split("/")[1:]
-    overs = [Prim(name, specifier="over") for name in names]
-    for parent, child in pairwise(overs):
-        parent.children.append(child)
-    subject.layer.prims = overs[:1]
-    return overs[-1]
+    subject.layer.add_sublayer(base.path)
+    topmost, over = overs(path)
+    subject.layer.prims = [topmost]
+    return over
 
 
 @on_volume("SCH004", needs=ONE_FILE)
@@ -89,16 +81,14 @@ def _override_an_instance(subject: Subject, rng: Random) -> Prim:
     return over
 
 
-@on_volume(
-    "STG006", needs={**ONE_FILE, "place": "below", "twin": False}, without=("inherited", *OVERS)
-)
+@on_volume("STG006", needs={**ONE_FILE, "place": "below", "twin": False}, without=("inherited",))
 def extent_below_an_instance(subject: VolumeSubject, rng: Random) -> Prim:
     over = _override_an_instance(subject, rng)
     over.properties["extent"] = Attribute("float3[]", [(-2e6, -2e6, -2e6), (2e6, 2e6, 2e6)])
     return over
 
 
-@on_particles("STG006", needs={"arrays": True}, without=("inherited", *OVERS))
+@on_particles("STG006", needs={"arrays": True}, without=("inherited",))
 def opacities_below_an_instance(subject: ParticleSubject, rng: Random) -> Prim:
     over = _override_an_instance(subject, rng)
     name = subject.name_of("opacities")

@@ -62,7 +62,7 @@ def index_misspelt(subject: VolumeSubject, rng: Random) -> Prim:
     return prim
 
 
-@on_volume("SCH004", needs=ONE_FILE, also=("AST001",))
+@on_volume("SCH004", needs=ONE_FILE)
 def path_misspelt(subject: VolumeSubject, rng: Random) -> Prim:
     prim = any_field(subject, rng).prim
     name = rng.choice(("filepath", "file_path", "fileName"))

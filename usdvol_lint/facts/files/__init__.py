@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -13,14 +13,17 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.files.animation import UnlistedClips
+    from usdvol_lint.facts.files.alike import Alike, Namesakes
+    from usdvol_lint.facts.files.animation import EmptyClip, UnlistedClips
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
     from usdvol_lint.facts.files.classify import AssetReader
     from usdvol_lint.facts.files.corrections import Absence
     from usdvol_lint.facts.files.disk import Disk
     from usdvol_lint.facts.files.gaps import Missing
     from usdvol_lint.facts.files.holes import Holes
+    from usdvol_lint.facts.files.in_variants import VariantPath
     from usdvol_lint.facts.files.letter_case import Recased
+    from usdvol_lint.facts.files.malformed import Malformed
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
@@ -82,11 +85,22 @@ class Files(Wing):
         sequence = self.sequence(field)
         return find_holes(sequence, self._clips.reaching(field)) if sequence else None
 
-    def absence(self, path: str, authored: str) -> Absence:
-        """Why nothing is at an absolute path; `authored` is the text that it comes from."""
+    def absence(self, path: str, authored: str, by: Any | None = None) -> Absence:
+        """Why nothing is at an absolute path; `authored` is the text that it comes from.
+
+        `by` is the layer that names it as a layer, which is neither itself nor the stage's.
+        """
         from usdvol_lint.facts.files.corrections import find_absence
 
-        return find_absence(self._disk, path, authored)
+        not_meant = (by.realPath, self._stage.GetRootLayer().realPath) if by else ()
+        return find_absence(self._disk, path, authored, not_meant)
+
+    @fact
+    def missing(self, field: Any) -> Affected | None:
+        """The missing files of `filePath` but those whose paths tell why they are not found."""
+        from usdvol_lint.facts.files.absences import unexplained
+
+        return unexplained(self.paths(field), self._disk, has_packages=self._has_packages)
 
     def sharing_missing_folder(self, field: Any) -> list[Any]:
         """The fields whose missing files all lie below the same missing folder, this one too.
@@ -96,11 +110,39 @@ class Files(Wing):
         folder = self._missing_folders.get(field)
         return [] if folder is None else self._below_missing_folder[folder]
 
+    def alike(self, field: Any) -> Alike:
+        """What is known of other fields of the same prim that name the same files."""
+        return self._namesakes.of(field)
+
+    def malformed(self, field: Any) -> Iterator[Malformed]:
+        """The samples of `filePath` that not every platform reads alike."""
+        from usdvol_lint.facts.files.malformed import malformed
+
+        return malformed(self.paths(field))
+
     def frames(self, found: Affected) -> list[tuple[int, str]]:
         """The frame numbers and paths of the files that a path with a placeholder stands for."""
         from usdvol_lint.facts.files.corrections import find_frames
 
         return find_frames(self._disk, found.anchored(), found.first.path)
+
+    def is_only_declared(self, field: Any) -> bool:
+        """Whether the stage's own layer declares `filePath`, and no layer gives it a value."""
+        paths, root = self.paths(field), self._stage.GetRootLayer()
+        specs = paths.attribute.GetPropertyStack()
+        return not paths.samples and any(spec.layer == root for spec in specs)
+
+    def as_expression(self, found: Affected) -> str | None:
+        """The first path as an expression with the environment variables that it has; or None."""
+        from usdvol_lint.facts.files.patterns import as_expression
+
+        return as_expression(found.first.path)
+
+    def has_frame(self, found: Affected) -> bool:
+        """Whether the first path has a placeholder for a frame."""
+        from usdvol_lint.facts.files.patterns import has_frame
+
+        return has_frame(found.first.path)
 
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
@@ -120,11 +162,23 @@ class Files(Wing):
 
         return below_layer(found)
 
+    def unselected_path(self, field: Any) -> VariantPath | None:
+        """A variant that is not selected, and that names a file for the field."""
+        from usdvol_lint.facts.files.in_variants import unselected_path
+
+        return unselected_path(field)
+
     def unlisted_clips(self, field: Any) -> UnlistedClips | None:
         """The clips that hold samples of `filePath` that their manifest does not declare."""
         from usdvol_lint.facts.files.animation import unlisted_clips
 
         return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
+
+    def empty_clip(self, field: Any) -> EmptyClip | None:
+        """A clip that has the prim that it is asked for, but no samples of `filePath`."""
+        from usdvol_lint.facts.files.animation import empty_clip
+
+        return empty_clip(self.paths(field).attribute, self._clips.reaching(field))
 
     def still(self, field: Any, time_range: tuple[float, float] | None) -> Still | None:
         """The file of a sequence on disk that `filePath` names at all times.
@@ -163,10 +217,15 @@ class Files(Wing):
         """By field, the one folder that is missing above all of its missing files."""
         from usdvol_lint.facts.files.absences import common_missing_folder
 
-        found = (
-            (field, common_missing_folder(paths, self._disk))
+        fields = (
+            (field, self.missing(field))
             for field, paths in self.paths.readable(schema.FIELD_ASSET)
             if AssetState.MISSING in paths.states
+        )
+        found = (
+            (field, common_missing_folder(missing, self._disk))
+            for field, missing in fields
+            if missing
         )
         return {field: folder for field, folder in found if folder}
 
@@ -179,6 +238,12 @@ class Files(Wing):
         for field in as_shown(self._missing_folders):
             fields[self._missing_folders[field]].append(field)
         return fields
+
+    @cached_property
+    def _namesakes(self) -> Namesakes:
+        from usdvol_lint.facts.files.alike import Namesakes
+
+        return Namesakes(self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
     def _reader(self) -> AssetReader:

@@ -1,18 +1,37 @@
-"""The folder that is missing above all missing files of a field."""
+"""The missing files of a field, and the folder that is missing above all of them."""
 
 from __future__ import annotations
 
-from usdvol_lint.facts.files.assets import AssetSamples
+from itertools import chain
+
+from usdvol_lint.facts.files.assets import Affected, AssetSamples
 from usdvol_lint.facts.files.corrections import missing_folder
 from usdvol_lint.facts.files.disk import Disk
+from usdvol_lint.facts.files.letter_case import recased
+from usdvol_lint.facts.files.malformed import hides_file
+from usdvol_lint.facts.files.origins import outside_package
 from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.states import AssetState
 
 
-def common_missing_folder(paths: AssetSamples, disk: Disk) -> str | None:
-    """The topmost missing folder above all missing files, if their paths have one folder."""
+def unexplained(paths: AssetSamples, disk: Disk, *, has_packages: bool) -> Affected | None:
+    """The missing files but those whose paths tell why they are not found.
+
+    Such a path is malformed, has another case than the disk, or leads out of its package.
+    """
     missing = paths.of(AssetState.MISSING)
     if missing is None:
         return None
+    in_other_case = recased(paths, disk)
+    outside = outside_package(paths) if has_packages else None
+    others = (in_other_case and in_other_case.affected, outside)
+    explained = set(chain.from_iterable(each.samples for each in others if each))
+    return paths.affected(
+        sample for sample in missing.samples if sample not in explained and not hides_file(sample)
+    )
+
+
+def common_missing_folder(missing: Affected, disk: Disk) -> str | None:
+    """The topmost missing folder above all missing files, if their paths have one folder."""
     folders = {split_path(sample.path)[0] for sample in missing.samples}
     return missing_folder(disk, missing.anchored()) if len(folders) == 1 else None

@@ -1,16 +1,17 @@
-"""Clips with samples of an asset attribute that their manifest does not declare."""
+"""Clips with samples of an asset attribute that their manifest does not declare, or with none."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.model import quoted
+
+_ARCS = ("references", "payload", "inheritPaths", "specializes", "variantSetNames")
 
 
-@dataclass(frozen=True, slots=True)
-class UnlistedClips:
+class UnlistedClips(NamedTuple):
     """Clips that hold samples of an attribute that their manifest does not declare.
 
     `clip` and `manifest` are display names of layers; `spec` is the prim spec that authors
@@ -44,3 +45,43 @@ def unlisted_clips(attribute: Any, clips: tuple[ClipSet, ...]) -> UnlistedClips 
                 clip_set.spec_with("manifestAssetPath"),
             )
     return None
+
+
+class EmptyClip(NamedTuple):
+    """A clip that has the prim it is asked for, but no samples of an attribute.
+
+    `clip` is the display name of its layer; `spec` is the prim spec that names it.
+    """
+
+    clip: str
+    prim_path: str
+    spec: Any
+
+    @property
+    def words(self) -> str:
+        """What a message about the values that the field lacks says of it."""
+        return f"the clip {quoted(self.clip)} has <{self.prim_path}>, and no value for this field"
+
+
+def empty_clip(attribute: Any, clips: tuple[ClipSet, ...]) -> EmptyClip | None:
+    """The first clip that should hold samples of an attribute, where none of the first ones does.
+
+    That it should, the manifest says, or an arc in the clip, behind which USD does not look.
+    """
+    for clip_set in clips:
+        path = clip_set.path_in_layers(attribute)
+        declared = open_layer(clip_set.manifest) if clip_set.manifest else None
+        is_declared = bool(declared and declared.GetAttributeAtPath(path))
+        for layer in () if clip_set.layer_with_samples(attribute) else clip_set.opened():
+            if layer.GetPrimAtPath(clip_set.prim_path) and (is_declared or _composes(layer, path)):
+                spec = clip_set.spec_with(clip_set.key)
+                return EmptyClip(layer.GetDisplayName(), clip_set.prim_path, spec)
+    return None
+
+
+def _composes(layer: Any, path: Any) -> bool:
+    """Whether a layer would have further opinions on a property if it were a stage."""
+    if layer.subLayerPaths:
+        return True
+    specs = filter(None, map(layer.GetPrimAtPath, path.GetPrimPath().GetPrefixes()))
+    return any(spec.HasInfo(arc) for spec in specs for arc in _ARCS)

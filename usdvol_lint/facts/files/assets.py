@@ -113,6 +113,11 @@ class Affected(Occurrences):
         return self.samples[0]
 
     @property
+    def has_missing(self) -> bool:
+        """Whether nothing is at one of the paths."""
+        return any(sample.state is AssetState.MISSING for sample in self.samples)
+
+    @property
     def asset(self) -> str:
         """The first path as authored, which the line of the finding points to."""
         return self.first.authored

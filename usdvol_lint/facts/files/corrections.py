@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from pxr import Ar, Sdf
@@ -39,15 +39,18 @@ class Absence(NamedTuple):
         return f"there are files of that name at {shown}" if shown else None
 
 
-def find_absence(disk: Disk, path: str, authored: str) -> Absence:
+def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str] = ()) -> Absence:
     """Why nothing is at an absolute path; `authored` is the text that it comes from.
 
+    `not_meant`: absolute paths of files that it certainly does not mean.
     Of what is no path on disk, such as a URI for an installed resolver, nothing is known.
     """
     if not os.path.isabs(path):
         return Absence("", None)
     authored, _ = Sdf.Layer.SplitIdentifier(authored)
     corrected = correct_case(disk, path, authored)
+    if corrected and disk.in_case(path, count_names(authored)) in not_meant:
+        corrected = None
     if Ar.IsPackageRelativePath(path):
         package, inner = Ar.SplitPackageRelativePathOuter(path)
         if not os.path.isfile(package):
@@ -61,7 +64,7 @@ def find_absence(disk: Disk, path: str, authored: str) -> Absence:
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
     shown = _with_end(authored, below, "") if below else authored
-    similar = None if corrected else _closest_name(disk, folder, name)
+    similar = None if corrected else _closest_name(disk, folder, name, not_meant)
     has_file = bool(similar) and os.path.exists(f"{folder}/{similar}{below}")
     moved = () if corrected or has_file else tuple(_moved(disk, path, missing, authored))
     if len(moved) == 1:
@@ -122,9 +125,12 @@ def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
     return Absence(reason or f": no package {quoted(shown)}", corrected, inside)
 
 
-def _closest_name(disk: Disk, folder: str, name: str) -> str | None:
+def _closest_name(
+    disk: Disk, folder: str, name: str, not_meant: Collection[str] = ()
+) -> str | None:
     """The closest other name in a folder; a name with other numbers is no misspelling."""
-    others = [other for other in disk.listing(folder).numbered_like(name) if other != name]
+    excluded = {name, *(path.removeprefix(f"{folder}/") for path in not_meant)}
+    others = [other for other in disk.listing(folder).numbered_like(name) if other not in excluded]
     swapped = {
         f"{name[:at]}{name[at + 1]}{name[at]}{name[at + 2 :]}" for at in range(len(name) - 1)
     }

@@ -79,18 +79,22 @@ class Disk:
 
         None where nothing of that name is there in any case.
         """
-        folder, name = os.path.split(path)
-        if count == 0 or not name:
-            return path
-        key = (folder, count - 1)
-        if key not in self._in_case:
-            self._in_case[key] = self.in_case(*key)
-        actual_folder = self._in_case[key]
-        if actual_folder is None:
+        unknown = []
+        while count and (path, count) not in self._in_case and os.path.basename(path):
+            unknown.append((path, count))
+            path, count = os.path.dirname(path), count - 1
+        actual = self._in_case.get((path, count), path)
+        for key in reversed(unknown):
+            actual = self._in_case[key] = self._with_name_in_case(actual, key[0])
+        return actual
+
+    def _with_name_in_case(self, folder: str | None, path: str) -> str | None:
+        """The name of a path as a folder spells it, behind that of the folder."""
+        if folder is None:
             return None
-        names = self.listing(actual_folder).by_case
-        actual_name = names.get(name) or names.get(name.lower())
-        return f"{actual_folder.rstrip('/')}/{actual_name}" if actual_name else None
+        names, name = self.listing(folder).by_case, os.path.basename(path)
+        actual = names.get(name) or names.get(name.lower())
+        return f"{folder.rstrip('/')}/{actual}" if actual else None
 
     def ignores_case(self, path: str) -> bool:
         """Whether the file system finds an existing file under another case of its name."""

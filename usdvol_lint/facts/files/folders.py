@@ -21,7 +21,7 @@ _NAMES_TRIED = 10_000
 _SETTLED = 2_000_000_000
 """In so many nanoseconds a folder may change twice, and its time of change once."""
 
-_Numbers: TypeAlias = tuple[int, ...]
+_Numbers: TypeAlias = tuple[str, ...]
 _State: TypeAlias = tuple[int, int, int]
 
 
@@ -108,4 +108,4 @@ def _with_file(folder: str, names: Iterable[str], below: str) -> Iterator[str]:
 
 
 def _numbers(name: str) -> _Numbers:
-    return tuple(map(int, _NUMBER.findall(name)))
+    return tuple(number.lstrip("0") for number in _NUMBER.findall(name))

@@ -12,7 +12,7 @@ _WORD = re.compile(r"([A-Z]?[a-z]+|[A-Z]+)[^A-Za-z0-9]*$")
 _NO_FRAMES = re.compile(
     r"v|vers?|version|r|rev|revision|release|lod|level|lvl|mip|x|res|resolution|take|wedge|seed"
     r"|iter|iteration|var|variant|variation|alt|option|tile|udim|part|piece|chunk|cluster|id|idx"
-    r"|index|type|kind|asset|shot|cam",
+    r"|index|type|kind|asset|shot|cam|model|style|preset|sample|opt|num|img",
     re.IGNORECASE,
 )
 """Words before a number that is no frame's."""

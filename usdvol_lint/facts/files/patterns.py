@@ -19,8 +19,14 @@ _FRAME = re.compile(
     re.VERBOSE | re.IGNORECASE,
 )
 _OTHER = re.compile(
-    r"<(?:UDIM|UVTILE)>|%\(UDIM\)d|\$\{[A-Za-z_]\w*\}|\$[A-Za-z_]\w*|[*]|`[^`]*`", re.IGNORECASE
+    r"<(?:UDIM|UVTILE)>|%\(UDIM\)d|\$\{[A-Za-z_]\w*\}|\$[A-Za-z_]\w*|%[A-Za-z_]\w*%|[*]|`[^`]*`",
+    re.IGNORECASE,
 )
+_VARIABLE = re.compile(r"\$\{([A-Za-z_]\w*)\}|\$([A-Za-z_]\w*)|%([A-Za-z_]\w*)%")
+
+
+_DIGITS_OF_WIDTH = 3
+"""The name of a file has at most 255 bytes."""
 
 
 class Frame(NamedTuple):
@@ -31,11 +37,37 @@ class Frame(NamedTuple):
 
 
 def find_pattern(path: str) -> str | None:
-    """The first placeholder in a path, as written; None if it has none."""
+    """The placeholders in a path, as written, with `' and '` between; None if it has none."""
     if not _MARK.search(path):
         return None
-    found = _FRAME.search(path) or _OTHER.search(path)
-    return found.group() if found else None
+    frames = {each.start(): each for each in _FRAME.finditer(path)}
+    found = {each.start(): each for each in _OTHER.finditer(path)} | frames
+    written, end = [], 0
+    for start in sorted(found):
+        if start >= end:
+            written.append(found[start].group())
+            end = found[start].end()
+    return "' and '".join(dict.fromkeys(written)) or None
+
+
+def has_frame(path: str) -> bool:
+    """Whether a path has a placeholder for a frame."""
+    return bool(_FRAME.search(path))
+
+
+def as_expression(path: str) -> str | None:
+    """A path with environment variables as an expression; None if it has none, or can be none."""
+    if '"' in path or "`" in path:
+        return None
+    frames = {each.start() for each in _FRAME.finditer(path)}
+
+    def variable(found: re.Match[str]) -> str:
+        name = next(filter(None, found.groups()))
+        return found.group() if found.start() in frames else f"${{{name}}}"
+
+    expression = _VARIABLE.sub(variable, path)
+    variables = (each for each in _VARIABLE.finditer(path) if each.start() not in frames)
+    return f'`"{expression}"`' if any(variables) else None
 
 
 def matching_frames(pattern: str, names: Iterable[str]) -> list[Frame]:
@@ -43,8 +75,11 @@ def matching_frames(pattern: str, names: Iterable[str]) -> list[Frame]:
     found = _FRAME.search(pattern)
     if found is None:
         return []
-    width = int(next((digits for digits in found.groups() if digits), 0))
-    width = width or (len(found.group()) if found.group()[0] in "#@" else 1)
+    width = next((digits for digits in found.groups() if digits), "").lstrip("0") or "1"
+    if found.group()[0] in "#@":
+        width = str(len(found.group()))
+    if len(width) > _DIGITS_OF_WIDTH:
+        return []
     before, after = map(re.escape, (pattern[: found.start()], pattern[found.end() :]))
     name_of = re.compile(rf"{before}(-?\d{{{width},}}){after}")
     matches = map(name_of.fullmatch, names)

@@ -36,6 +36,16 @@ class SampleSequence:
         first = self.samples[0].path
         return any(sample.path != first for sample in self.samples)
 
+    @property
+    def holds_last(self) -> bool:
+        """Whether the last sample names something, which is held after it; a block is not."""
+        return self.samples[-1].state not in (AssetState.BLOCKED, AssetState.EMPTY)
+
+    @property
+    def holds_first(self) -> bool:
+        """Whether the first sample names something, which is held before it; a block is not."""
+        return self.samples[0].state not in (AssetState.BLOCKED, AssetState.EMPTY)
+
     @cached_property
     def numbering(self) -> Numbering | None:
         """The frame numbers in the paths, or None if no number varies."""

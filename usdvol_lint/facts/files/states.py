@@ -69,3 +69,12 @@ class FileFault(StrEnum):
     BROKEN_LINK = "a symbolic link that leads nowhere"
     PACKED = "compressed or encrypted in its package, where USD can't read it"
     LFS_POINTER = "a Git-LFS pointer, not the file itself"
+
+
+class PathDefect(StrEnum):
+    """Why not every platform, or none, finds the file at a path, in words that follow it."""
+
+    DRIVE = "begins with a drive letter, which only Windows has"
+    HOME = "begins with '~', which USD does not expand"
+    BACKSLASHES = "has backslashes, which separate names on Windows alone"
+    BLANK = "begins or ends with a blank"

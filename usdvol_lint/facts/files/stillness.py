@@ -122,15 +122,20 @@ def find_still(
         return None
     if packs().are_shown(frames, paths.attribute.GetPrim()):
         return None
+    inverse = _to_layer(paths, sample)
+    in_layer = (inverse * time_range[0], inverse * time_range[1])
+    are_layer_times = _fills(frames, in_layer)
     is_animated = _is_animated_below(paths, frames, clips)
-    is_forgotten = _fills(frames, time_range) and not _may_be_held(paths, frames, packs())
-    low, high = time_range
+    is_filled = are_layer_times or _fills(frames, time_range)
+    is_forgotten = is_filled and not _may_be_held(paths, frames, packs())
+    low, high = in_layer if are_layer_times else time_range
     numbers = [number for number in sorted(frames.on_disk) if low <= number <= high]
+    times = [float(n) if are_layer_times else inverse * n for n in numbers]
     return _still(
         paths,
         sample,
         frames,
-        numbers,
+        dict(zip(numbers, times, strict=True)),
         is_certain=is_animated or is_forgotten,
         by_range=not is_animated,
     )
@@ -149,19 +154,20 @@ def _animated_in_name_only(
         is_still = are_numbers or frames.name.has_dots
     else:
         is_still = are_numbers and not packs().are_shown(frames, paths.attribute.GetPrim())
-    numbers = [int(time) for time in times] if are_numbers else []
-    return _still(paths, sample, frames, numbers, is_certain=True) if is_still else None
+    played = [n for n in sorted(frames.on_disk) if are_numbers and times[0] <= n <= times[-1]]
+    # Samples that are there already stay at their times.
+    return _still(paths, sample, frames, {n: float(n) for n in played}, True) if is_still else None
 
 
 def _still(
     paths: AssetSamples,
     sample: AssetSample,
     frames: _Frames,
-    numbers: Sequence[int],
-    *,
+    times: Mapping[int, float],
     is_certain: bool,
     by_range: bool = False,
 ) -> Still | None:
+    """What is said of it; `times` are those in the layer at which the numbers belong."""
     timed = _timed(paths)
     affected = paths.affected(timed or (sample,))
     if affected is None:
@@ -173,7 +179,7 @@ def _still(
         not frames.name.digits,
         is_certain,
         by_range,
-        _advice(paths, sample, frames, numbers),
+        _advice(paths, sample, frames, times),
     )
 
 
@@ -203,6 +209,12 @@ def _times(paths: AssetSamples) -> list[float]:
         return times
     inverse = opinion.offset.GetInverse()
     return [round(inverse * time, 6) for time in times]
+
+
+def _to_layer(paths: AssetSamples, sample: AssetSample) -> Any:
+    """The offset from the time of the stage to that of the layer which names the file."""
+    opinion = strongest_opinion(paths.attribute, sample.time)
+    return opinion.offset.GetInverse() if opinion else Sdf.LayerOffset()
 
 
 def _fills(frames: _Frames, time_range: tuple[float, float]) -> bool:
@@ -265,21 +277,17 @@ def _numbers(spec: Any, value: Any, family: Family) -> set[int]:
 
 
 def _advice(
-    paths: AssetSamples, sample: AssetSample, frames: _Frames, numbers: Sequence[int]
+    paths: AssetSamples, sample: AssetSample, frames: _Frames, times: Mapping[int, float]
 ) -> str:
     """The time samples to author, in the time of the layer."""
     opinion = strongest_opinion(paths.attribute, sample.time)
-    if len(numbers) < 2 or opinion is None or sample.authored != sample.path:
+    if len(times) < 2 or opinion is None or sample.authored != sample.path:
         return "author a time sample for each frame"
     if is_from_clips(paths.attribute, sample.time):
         return "name in each clip the file of its frame"
     stem = sample.path.removesuffix(split_path(sample.resolved)[1])
-    inverse = opinion.offset.GetInverse()
-    # Samples that are there already stay at their times.
-    times = [float(n) if len(_timed(paths)) > 1 else inverse * n for n in numbers]
-    names = map(frames.on_disk.__getitem__, numbers)
     pairs = [
-        f"{format_time(time)}: @{stem}{name}@" for time, name in zip(times, names, strict=True)
+        f"{format_time(time)}: @{stem}{frames.on_disk[number]}@" for number, time in times.items()
     ]
     if len(pairs) > _SHOWN:
         pairs[_SHOWN - 1 : -1] = ["…"]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from usdvol_lint.facts.files.assets import Affected
 from usdvol_lint.facts.grids.contents import Content
@@ -16,12 +15,15 @@ Grids: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 """The names of grids, in their order, each with the value types of the grids of that name."""
 
 
-@dataclass(frozen=True, slots=True)
-class GridChanges:
-    """The samples whose files differ from most, and how the first one does, in words."""
+class GridChanges(NamedTuple):
+    """The samples whose files differ from most, and how the first one does, in words.
+
+    `is_asked_for`: whether a field names one of the grids that differ.
+    """
 
     affected: Affected
     difference: str
+    is_asked_for: bool
 
 
 def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
@@ -46,7 +48,10 @@ def find_grid_changes(fields: Sequence[FieldContents]) -> GridChanges | None:
     differing = [(sample, grids) for sample, grids in frames if grids != usual]
     samples = tuple(sample for sample, _ in differing)
     affected = Affected(first.attribute, samples, first.timeline.total)
-    return GridChanges(affected, _difference(dict(differing[0][1]), dict(usual)))
+    selected = {name for field in fields for name in field.timeline.selected}
+    changed = {name for _, grids in differing for name, _ in set(grids) ^ set(usual)}
+    is_asked_for = not selected.isdisjoint(changed)
+    return GridChanges(affected, _difference(dict(differing[0][1]), dict(usual)), is_asked_for)
 
 
 def _fits(content: Content) -> bool:

@@ -61,14 +61,24 @@ class Content(NamedTuple):
 
     @property
     def swapped_format(self) -> Format | None:
-        """The file's format, if it is OpenVDB for a Field3D field or the reverse; else None.
+        """The file's format, if the field wants another one and the extension shows that it might.
 
-        None also where the extension is that of the wanted format, so that only the content tells.
+        None where the extension is that of the wanted format, so that only the content tells, and
+        for a NanoVDB file called `.nvdb` where OpenVDB is wanted.
         """
-        file = self.reading.file
-        if file is None or {file.format, self.wanted} != {"openvdb", "field3d"}:
+        file, announced = self.reading.file, _ANNOUNCED.get(self._extension)
+        if file is None or self.wanted in (file.format, announced):
             return None
-        return None if _ANNOUNCED.get(self._extension) == self.wanted else file.format
+        is_known = file.format == announced == "nanovdb" and self.wanted == "openvdb"
+        return None if is_known else file.format
+
+    @property
+    def is_no_volume(self) -> bool:
+        """Whether the file is none of a known format."""
+        fault = self.fault
+        if fault is None or self.reading.file is not None:
+            return False
+        return fault.code == "not-a-volume-file"
 
     @property
     def _extension(self) -> str:

@@ -60,6 +60,18 @@ class Timeline:
         )
 
     @property
+    def selected(self) -> frozenset[str]:
+        """The names of the grids that the field selects."""
+        grids = (content_class.content.grid for content_class, _ in self.classes)
+        return frozenset(grid.unique_name for grid in grids if grid)
+
+    @property
+    def formats(self) -> frozenset[str]:
+        """The formats of the files that were looked into."""
+        readings = (content_class.content.reading.file for content_class, _ in self.classes)
+        return frozenset(file.format for file in readings if file)
+
+    @property
     def single_grid(self) -> bool:
         """Whether files were read, and each holds exactly one grid."""
         files = [content_class.content.file for content_class, _ in self.classes]

@@ -17,12 +17,14 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.lost_clips import LostClips
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.retyping import Retyped
+    from usdvol_lint.facts.layers.stopped_clips import StoppedClips
     from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
     from usdvol_lint.facts.prims.tables import Tables
-    from usdvol_lint.facts.usd.arcs import Layered
-    from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.arcs import Arcs, Layered
+    from usdvol_lint.facts.usd.clips import Clips, ClipSet
+    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import PrimKinds
 
 
@@ -36,6 +38,7 @@ class Layers(Wing):
         clips: Clips,
         kinds: PrimKinds,
         undefined: Mapping[Any, Sequence[Any]],
+        drawn: Drawn,
     ) -> None:
         """`undefined`: by an `over`, the prims of our types that it takes off the stage."""
         super().__init__(tables)
@@ -43,6 +46,7 @@ class Layers(Wing):
         self._clips = clips
         self._kinds = kinds
         self._undefined = undefined
+        self._drawn = drawn
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
@@ -93,6 +97,8 @@ class Layers(Wing):
 
         Those are left out that a layer which failed to open may set right.
         """
+        if not self._clips.are_authored:
+            return ()
         from usdvol_lint.facts.layers.lost_clips import find_lost_clips
 
         lost = find_lost_clips(self.tables, self._clips)
@@ -101,16 +107,50 @@ class Layers(Wing):
     @cached_property
     def clips_left_behind(self) -> tuple[LeftBehind, ...]:
         """The value clips of other layers that an arc leaves behind."""
+        if not self._arcs.prims:
+            return ()
         from usdvol_lint.facts.layers.left_behind import find_left_behind
 
         left = find_left_behind(self._stage, self.tables, self._clips)
         return tuple(each for each in left if not self._composition.may_lack_values(each.prim))
 
     @cached_property
+    def stopped_clips(self) -> tuple[StoppedClips, ...]:
+        """The value clips on instances and above them, which do not reach into them."""
+        if not self._stage.GetPrototypes():
+            return ()
+        from usdvol_lint.facts.layers.stopped_clips import find_stopped
+
+        stopped = find_stopped(self._stage, self.tables)
+        return tuple(each for each in stopped if not self._composition.may_lack_values(each.prim))
+
+    @cached_property
     def _losing(self) -> frozenset[Any]:
-        lost = [attribute for each in self.lost_clips for attribute in each.attributes]
-        left = [attribute for each in self.clips_left_behind for attribute in each.attributes]
-        return frozenset(attribute.GetPrim() for attribute in (*lost, *left))
+        return frozenset(
+            attribute.GetPrim()
+            for losses in (self.lost_clips, self.clips_left_behind, self.stopped_clips)
+            for each in losses
+            for attribute in each.attributes
+        )
+
+    @property
+    def are_several(self) -> bool:
+        """Whether anything but the root layer says something, value clips included."""
+        return self._clips.are_authored or not self._arcs.is_one_layer
+
+    @property
+    def clip_bearers(self) -> frozenset[Any]:
+        """The prims on which value clips are authored, above prims of ours or on them."""
+        return self._clips.bearing
+
+    def clip_sets_of(self, prim: Any) -> tuple[ClipSet, ...]:
+        """The clip sets that apply to a prim."""
+        return self._clips.reaching(prim)
+
+    @property
+    def layered(self) -> tuple[Layered, ...]:
+        """The drawn prims that several specs make up."""
+        return self._arcs.layered
 
     @property
     def retyped(self) -> tuple[Retyped, ...]:
@@ -129,20 +169,16 @@ class Layers(Wing):
         if self._stage.GetPrototypes():
             from usdvol_lint.facts.layers.instancing import lost_overrides
 
-            ours = chain.from_iterable(map(self.tables.prims, sorted(schema.OURS)))
-            yield from lost_overrides(self._stage, self._layered, self._kinds, ours)
-
-    @cached_property
-    def _layered(self) -> tuple[Layered, ...]:
-        from usdvol_lint.facts.usd.arcs import layered_prims
-
-        return tuple(layered_prims(self._stage))
+            layered = self._arcs.layered
+            yield from lost_overrides(self._stage, layered, self._kinds, self._ours())
 
     @cached_property
     def _retyped(self) -> dict[Any, Retyped]:
+        if not self._arcs.layered:
+            return {}
         from usdvol_lint.facts.layers.retyping import retyped_prims
 
-        return retyped_prims(self._layered, self._kinds)
+        return retyped_prims(self._arcs.layered, self._kinds)
 
     @property
     def undefined(self) -> Iterator[Undefined]:
@@ -151,14 +187,21 @@ class Layers(Wing):
             return iter(())
         from usdvol_lint.facts.layers.undefined import find_undefined
 
-        return find_undefined(self._stage, self._undefined, self._drawn, self.may_lack)
+        return find_undefined(self._stage, self._undefined, self._ours, self.may_lack)
 
     @property
-    def undefined_prims(self) -> Iterator[Any]:
-        """The prims of ours that an `over` takes off the stage, also of libraries."""
-        return chain.from_iterable(self._undefined.values())
+    def undrawn(self) -> Iterator[Any]:
+        """The prims of ours that an `over` takes off the stage, also of libraries, and all that
+        PointInstancers target in a `class`.
+        """
+        return chain(*self._undefined.values(), self._drawn.passed_over)
 
-    def _drawn(self) -> Iterator[Any]:
+    @property
+    def out_of_reach(self) -> Iterator[Any]:
+        """The prims that PointInstancers target and no traversal reaches, and those below them."""
+        return self._drawn.out_of_reach
+
+    def _ours(self) -> Iterator[Any]:
         return chain.from_iterable(map(self.tables.prims, schema.OURS))
 
     @cached_property
@@ -175,15 +218,9 @@ class Layers(Wing):
         return self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
 
     @cached_property
-    def _is_one_layer(self) -> bool:
-        """Whether nothing but the root layer says anything, for which others need no looking."""
-        session = self._stage.GetSessionLayer()
-        return {*self._stage.GetUsedLayers(), session} <= {self._stage.GetRootLayer(), session}
-
-    @cached_property
     def unsaid_rates(self) -> tuple[UnsaidRate, ...]:
         """The layers that say no rate and whose samples the stage therefore has at other times."""
-        if self._is_one_layer:
+        if self._arcs.is_one_layer:
             return ()
         from usdvol_lint.facts.layers.rates import unsaid_rates
 
@@ -200,19 +237,30 @@ class Layers(Wing):
     @cached_property
     def unlike_stage(self) -> tuple[UnlikeStage, ...]:
         """The layers that say another up axis or other units, and bring what nothing corrects."""
-        if self._is_one_layer:
+        if self._arcs.is_one_layer:
             return ()
         from usdvol_lint.facts.layers.units import layers_unlike_stage
 
         return layers_unlike_stage(self._stage, self.tables)
 
     @cached_property
+    def _arcs(self) -> Arcs:
+        from usdvol_lint.facts.usd.arcs import Arcs
+
+        return Arcs(self._stage, self._drawn)
+
+    @cached_property
     def _composition(self) -> Composition:
-        from usdvol_lint.facts.layers.composition import read_composition
+        from usdvol_lint.facts.layers.composition import Composition, unloaded_prims
 
         clipped: list[Any] = []
         for prims, authored in self.tables.authored(*schema.OURS):
             if authored.is_clipped:
                 clipped += prims
-        clip_sets = chain.from_iterable(map(self._clips.reaching, clipped))
-        return read_composition(self._stage, dict.fromkeys(clip_sets))
+        clip_sets = dict.fromkeys(chain.from_iterable(map(self._clips.reaching, clipped)))
+        errors = self._stage.GetCompositionErrors()
+        if not errors and not clip_sets:
+            return Composition((), (), (), unloaded_prims(self._stage))
+        from usdvol_lint.facts.layers.errors import read_composition
+
+        return read_composition(self._stage, errors, clip_sets)

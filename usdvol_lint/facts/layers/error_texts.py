@@ -8,10 +8,8 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf
 
+from usdvol_lint.facts.layers.composition import ARCS
 from usdvol_lint.paths import display
-
-ARCS = ("sublayer", "reference", "payload")
-"""The composition arcs that name a layer, in the words of these texts."""
 
 _QUOTED = re.compile(r"@(.+?)@(?:<([^>]*)>)?")
 _INTRODUCED = re.compile(r"introduced by @(.+?)@<([^>]*)>")

@@ -5,17 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
+from pxr import Sdf, Usd
+
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.arcs import Layered
-from usdvol_lint.facts.usd.calls import get_prim_stack
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.sameness import says_the_same
 
 
 class LostOverride(NamedTuple):
-    """A property below an instance, and a spec that would change it if USD looked there."""
+    """A spec below an instance, for what is at `path`, that would count if USD looked there.
 
-    property: Any
+    `at` is the property or prim that is there; for a prim that is not, the one above it.
+    """
+
+    path: Any
+    at: Any
     spec: Any
 
 
@@ -29,17 +35,18 @@ class LostOverrides(NamedTuple):
 def lost_overrides(
     stage: Any, layered: Iterable[Layered], kinds: PrimKinds, ours: Iterable[Any]
 ) -> Iterator[LostOverrides]:
-    """The overrides below instances that show some of our prims, by the instances' paths.
+    """The overrides below instances of prims of ours, by the instances' paths.
 
+    These are properties that differ, prims made inactive, and prims that the prototype lacks.
     Only specs count that are at least as strong as the one that makes the prim an instance: who
     wrote them could know that it is one.
     """
     holders = _prototypes_of(stage, ours)
     found = []
     for instance, specs, parents in layered:
-        is_overridden = len(parents) > 1 and instance.IsInstance()
-        if is_overridden and instance.GetPrototype().GetPath() in holders:
-            overrides = tuple(_below(instance, _strong_specs(specs), kinds))
+        if len(parents) > 1 and instance.IsInstance():
+            shows_ours = instance.GetPrototype().GetPath() in holders
+            overrides = tuple(_below(instance, _strong_specs(specs), kinds, shows_ours))
             if overrides:
                 found.append(LostOverrides(instance, overrides))
     yield from sorted(found, key=lambda each: each.instance.GetPath())
@@ -61,7 +68,10 @@ def _root(prim: Any) -> Any:
     return prim.GetPath().GetPrefixes()[0]
 
 
-def _below(instance: Any, specs: list[Any], kinds: PrimKinds) -> Iterator[LostOverride]:
+def _below(
+    instance: Any, specs: list[Any], kinds: PrimKinds, shows_ours: bool
+) -> Iterator[LostOverride]:
+    """What the specs say below an instance; `shows_ours`: whether it has prims of ours."""
     stage = instance.GetStage()
     pending = [
         (child, instance.GetPath().AppendChild(child.name))
@@ -71,10 +81,27 @@ def _below(instance: Any, specs: list[Any], kinds: PrimKinds) -> Iterator[LostOv
     while pending:
         spec, path = pending.pop()
         prim = stage.GetPrimAtPath(path)
-        if not prim or spec in get_prim_stack(prim):
+        if prim and spec in get_prim_stack(prim):
+            continue
+        if not prim and (spec.specifier != Sdf.SpecifierDef or not spec.active):
+            continue
+        if not prim and _are_ours(kinds.names((spec.typeName,))):
+            yield LostOverride(path, _nearest(stage, path), spec)
             continue
         pending += [(child, path.AppendChild(child.name)) for child in spec.nameChildren]
-        yield from _changed(spec, prim, kinds)
+        if prim and shows_ours:
+            yield from _changed(spec, prim, kinds)
+
+
+def _nearest(stage: Any, path: Any) -> Any:
+    """The prim at the longest part of a path that has one."""
+    while not (prim := stage.GetPrimAtPath(path)):
+        path = path.GetParentPath()
+    return prim
+
+
+def _are_ours(schemas: Iterable[str]) -> bool:
+    return not schema.OURS.isdisjoint(schemas)
 
 
 def _strong_specs(stack: Iterable[Any]) -> list[Any]:
@@ -93,20 +120,29 @@ def _strong_specs(stack: Iterable[Any]) -> list[Any]:
 
 def _changed(prim_spec: Any, prim: Any, kinds: PrimKinds) -> Iterator[LostOverride]:
     schemas = kinds.names(kinds.key(prim))
-    if schema.OURS.isdisjoint(schemas):
+    if not prim_spec.active and _shows_ours(prim, kinds):
+        yield LostOverride(prim.GetPath(), prim, prim_spec)
+        return
+    if not _are_ours(schemas):
         return
     declared = schema.attributes_of(schemas)
     for spec in prim_spec.properties:
         if spec.name in declared:
             attribute = prim.GetAttribute(spec.name)
             if attribute and not says_the_same(spec, attribute):
-                yield LostOverride(attribute, spec)
+                yield LostOverride(attribute.GetPath(), attribute, spec)
         elif schema.VOLUME in schemas and spec.name.startswith(schema.FIELD_NAMESPACE):
             relationship = prim.GetRelationship(spec.name)
             if relationship and _names(spec.targetPathList.GetAddedOrExplicitItems()) != _names(
                 relationship.GetTargets()
             ):
-                yield LostOverride(relationship, spec)
+                yield LostOverride(relationship.GetPath(), relationship, spec)
+
+
+def _shows_ours(prim: Any, kinds: PrimKinds) -> bool:
+    """Whether a prim, or one below it, is of ours and drawn."""
+    below = Usd.PrimRange(prim, WITH_INSTANCES)
+    return any(_are_ours(kinds.names(kinds.key(each))) for each in below)
 
 
 def _names(paths: Iterable[Any]) -> list[str]:

@@ -4,26 +4,24 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Tables
-from usdvol_lint.facts.usd.clips import Clips
-from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.clips import Clips, is_from_clips
+from usdvol_lint.facts.usd.instances import instances_of, prototype_of, shown
+from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 
 _ARCS = ("references", "payload", "inheritPaths", "specializes")
 
 
-@dataclass(frozen=True, slots=True)
-class LeftBehind:
+class LeftBehind(NamedTuple):
     """The clips of a prim in `layer` at `path`, which do not reach `attributes`, at least one.
 
-    `prim` is that with the arc, or the instance that carries the clips itself; `spec` is the one to
-    blame.
+    `prim` is that with the arc, which `spec` authors.
     """
 
     prim: Any
@@ -31,7 +29,6 @@ class LeftBehind:
     layer: Any
     path: Any
     attributes: tuple[Any, ...]
-    by_instance: bool
 
     @property
     def without_value(self) -> tuple[Any, ...]:
@@ -51,17 +48,17 @@ def find_left_behind(stage: Any, tables: Tables, clips: Clips) -> Iterator[LeftB
     if not clips.are_authored and set(stage.GetUsedLayers()) <= set(stage.GetLayerStack()):
         return  # as on most stages: whatever carries clips is on the stage
     carriers = _Carriers(stage)
-    found: dict[tuple[Any, Any, bool, _Carrier], list[Any]] = defaultdict(list)
+    found: dict[tuple[Any, Any, _Carrier], list[Any]] = defaultdict(list)
     for table in tables.of(*schema.OURS):
         for prim, stack in zip(table.prims, table.batch.stacks, strict=True):
             for spec in stack:
                 carrier = carriers.above(spec.layer, spec.path)
-                if carrier and not _arrives(carrier, clips.bearers(prim)):
+                if carrier and not _arrives(carrier, _reaching(prim, clips)):
                     attributes = carriers.lost(carrier, prim, spec)
                     if attributes:
-                        found[(*_blamed(prim, spec, carrier), carrier)] += attributes
-    for (prim, spec, by_instance, carrier), lost in found.items():
-        yield LeftBehind(prim, spec, *carrier, tuple(dict.fromkeys(lost)), by_instance)
+                        found[(*_blamed(prim, spec), carrier)] += attributes
+    for (prim, spec, carrier), lost in found.items():
+        yield LeftBehind(prim, spec, *carrier, tuple(dict.fromkeys(lost)))
 
 
 class _Carriers:
@@ -101,7 +98,7 @@ class _Carriers:
         return [
             prim.GetAttribute(attribute.GetName())
             for attribute in (source.GetAttributes() if source else ())
-            if _is_from_clips(attribute)
+            if is_from_clips(attribute)
             and prim.HasAttribute(attribute.GetName())
             and _is_without_own(prim.GetAttribute(attribute.GetName()), prim, spec)
         ]
@@ -127,22 +124,11 @@ def _users(layers: Iterable[Any]) -> dict[Any, list[Any]]:
 def _root_behind(prim: Any, spec: Any, carrier: _Carrier) -> Any | None:
     """The root layer of those that a spec and a carrier are composed of; None if they differ."""
     on_stage = prim.GetStage().GetPrimAtPath(shown(prim).path)
-    waiting = [on_stage.GetPrimIndex().rootNode]
-    while waiting:
-        node = waiting.pop()
-        waiting += node.children
+    for node in nodes_of(on_stage.GetPrimIndex()):
         layers = node.layerStack.layers
         if node.path == spec.path and spec.layer in layers and carrier.layer in layers:
             return node.layerStack.identifier.rootLayer
     return None
-
-
-def _is_from_clips(attribute: Any) -> bool:
-    times = attribute.GetTimeSamples()
-    if not times:
-        return False
-    source = attribute.GetResolveInfo(times[0]).GetSource()
-    return bool(source == Usd.ResolveInfoSourceValueClips)
 
 
 def _is_without_own(attribute: Any, prim: Any, spec: Any) -> bool:
@@ -162,6 +148,16 @@ def _is_without_own(attribute: Any, prim: Any, spec: Any) -> bool:
     return bool(next(ranks, 0) >= stack.index(spec))
 
 
+def _reaching(prim: Any, clips: Clips) -> Iterator[Any]:
+    """The prims with clips that reach a prim, and all that are above an instance that it is in."""
+    yield from clips.bearers(prim)
+    while prim.IsInPrototype():
+        prim = _first_instance(prototype_of(prim))
+        while not prim.IsPseudoRoot() and not prim.IsPrototype():
+            yield prim
+            prim = prim.GetParent()
+
+
 def _arrives(carrier: _Carrier, bearers: Iterable[Any]) -> bool:
     """Whether the clips are also on a prim of the stage that reaches what is below."""
     return any(_composes(bearer, carrier) for bearer in bearers)
@@ -173,24 +169,24 @@ def _composes(prim: Any, carrier: _Carrier) -> bool:
     )
 
 
-def _blamed(prim: Any, spec: Any, carrier: _Carrier) -> tuple[Any, Any, bool]:
-    """The prim with the arc, the spec of that, and whether it is an instance with the clips."""
+def _blamed(prim: Any, spec: Any) -> tuple[Any, Any]:
+    """The prim with the arc, and the spec of that."""
     path = spec.path
     while path.GetParentPath() and not prim.GetParent().IsPseudoRoot():
         path = path.GetParentPath()
         parent = prim.GetParent()
-        # A prototype has no specs; those of its instances are alike.
-        parent = min(parent.GetInstances(), key=_path) if parent.IsPrototype() else parent
+        parent = _first_instance(parent) if parent.IsPrototype() else parent
         if not _composes(parent, _Carrier(spec.layer, path)):
             break
-        if parent.IsInstance():
-            return parent, _with_arc(parent), _composes(parent, carrier)
         prim = parent
-    return prim, _with_arc(prim), False
+        if prim.IsInstance():
+            break
+    return prim, _with_arc(prim)
 
 
-def _path(prim: Any) -> Any:
-    return prim.GetPath()
+def _first_instance(prototype: Any) -> Any:
+    """A prototype has no specs; those of its instances are alike."""
+    return min(instances_of(prototype), key=Usd.Prim.GetPath)
 
 
 def _with_arc(prim: Any) -> Any:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -30,8 +29,7 @@ _OPENED = 4
 _FILE_PATH = "filePath"
 
 
-@dataclass(frozen=True, slots=True)
-class LostClips:
+class LostClips(NamedTuple):
     """A clip set on `prim` that USD does not use; `name` is "" where clips stand outside of one.
 
     `attributes` are those, at least one, that lack the values of the clips; `spec` is the prim spec
@@ -75,7 +73,7 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
             attributes = tuple(
                 attribute
                 for prim in ours
-                for attribute in _without_samples(tables, prim)
+                for attribute in without_samples(tables, prim)
                 if _is_lost(unused, attribute)
             )
             if attributes:
@@ -89,7 +87,7 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
                 )
 
 
-def _without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
+def without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
     """The attributes of ours that may be animated, and are not."""
     table, _ = tables.find(prim)
     for name in schema.attributes_of(table.authored.schemas):

@@ -6,13 +6,14 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar, NamedTuple
 
 from pxr import Tf
 
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.instances import as_shown
+from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import sample_times
 from usdvol_lint.schema import OURS
@@ -26,7 +27,7 @@ _FEW = 4
 
 @dataclass(frozen=True, slots=True)
 class Displaced:
-    """Time samples that land elsewhere because their layer says no rate.
+    """Time samples that land elsewhere because their layer says no rate: an `Occurrence`.
 
     `times`: those that land between frames, or else outside of the stage's time range.
     `total`: the number of the attribute's samples.
@@ -36,10 +37,11 @@ class Displaced:
     times: tuple[float, ...]
     are_between: bool
     total: int
+    at_default: ClassVar[bool] = False
+    asset: ClassVar[None] = None
 
 
-@dataclass(frozen=True, slots=True)
-class UnsaidRate:
+class UnsaidRate(NamedTuple):
     """A layer that says neither timeCodesPerSecond nor framesPerSecond.
 
     `rate`: the stage's; `scale`: that by which USD therefore scales times in the layer.
@@ -134,10 +136,7 @@ def _is_undone(prim: Any, layer: Any, scale: float, own: float) -> bool:
 
 def _scales_of_rated_arcs(prim: Any, layer: Any) -> Iterator[float]:
     """The scales, authored and added, of the arcs that bring a layer to a prim at another rate."""
-    waiting = [prim.GetPrimIndex().rootNode]
-    while waiting:
-        node = waiting.pop()
-        waiting += node.children
+    for node in nodes_of(prim.GetPrimIndex()):
         if layer in node.layerStack.layers:
             while node.parent and _rate(node.parent) == _rate(node):
                 node = node.parent

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any
+from os.path import splitext
+from typing import Any, NamedTuple
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.arcs import Layered
 from usdvol_lint.facts.usd.calls import get_type
 from usdvol_lint.facts.usd.kinds import PrimKinds
+from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.paths import display
 
 
-@dataclass(frozen=True, slots=True)
-class Retyped:
+class Retyped(NamedTuple):
     """A prim with a type that hides one of ours.
 
     `hidden` is the spec with our type; `stronger` are those with another, strongest first.
@@ -40,12 +40,15 @@ class Retyped:
 def retyped_prims(layered: Iterable[Layered], kinds: PrimKinds) -> dict[Any, Retyped]:
     """By path: the prims that would be a Volume, field or particle field but for a stronger type.
 
-    What USD takes a prim for counts, so a type with a fallback of ours hides nothing.
+    What USD takes a prim for counts, so a type with a fallback of ours hides nothing.  One of ours
+    hides that the prim is a field of another type, if it names a file as that one does.
     """
     found = []
     for prim, specs, _ in layered:
         type_name = get_type(prim)
-        if type_name and not _is_ours(kinds, (type_name,)):
+        if type_name in schema.FILE_EXTENSIONS:
+            found.append(_retyped_field(prim, specs, type_name))
+        elif type_name and not _is_ours(kinds, (type_name,)):
             found.append(_retyped(prim, specs, kinds))
     by_path = {each.prim.GetPath(): each for each in found if each}
     return dict(sorted(by_path.items()))
@@ -58,6 +61,26 @@ def _retyped(prim: Any, specs: list[Any], kinds: PrimKinds) -> Retyped | None:
             is_field = schema.FIELD in kinds.names((spec.typeName,))
             return Retyped(prim, spec, tuple(typed[:number]), is_field)
     return None
+
+
+def _retyped_field(prim: Any, specs: list[Any], type_name: str) -> Retyped | None:
+    for number, spec in enumerate(specs):
+        if spec.typeName in schema.FILE_EXTENSIONS and spec.typeName != type_name:
+            extension = schema.FILE_EXTENSIONS[spec.typeName]
+            stronger = tuple(each for each in specs[:number] if each.typeName)
+            is_meant = _names_file(prim, specs[number:], extension)
+            return Retyped(prim, spec, stronger, is_field=True) if is_meant else None
+    return None
+
+
+def _names_file(prim: Any, specs: list[Any], extension: str) -> bool:
+    """Whether these specs give a field its file, and that has the extension."""
+    attribute = prim.GetAttribute("filePath")
+    time = next(iter(attribute.GetTimeSamples()), None)
+    opinion = strongest_opinion(attribute, time)
+    value = attribute.Get() if time is None else attribute.Get(time)
+    is_given = opinion is not None and opinion.spec.owner in specs
+    return is_given and splitext(getattr(value, "path", ""))[1].lower() == extension
 
 
 def _is_ours(kinds: PrimKinds, key: tuple[str, ...]) -> bool:

@@ -11,11 +11,12 @@ from typing import Any, NamedTuple
 from pxr import Sdf
 
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_path, get_prim_stack
-from usdvol_lint.facts.usd.instances import in_prototype, shown
+from usdvol_lint.facts.usd.instances import as_shown, in_prototype, shown
+from usdvol_lint.facts.usd.nodes import nodes_of
+from usdvol_lint.facts.usd.unselected import may_be_said
 from usdvol_lint.nearest import is_one_slip_from
 
 _PROTOTYPES = "prototypes"
-_ARCS = ("references", "payload", "inheritPaths", "specializes", "variantSetNames")
 
 
 class Undefined(NamedTuple):
@@ -55,7 +56,7 @@ def find_undefined(
         if not similar and over.GetParent().IsPseudoRoot():
             continue
         is_composed = not may_lack(over) and faulty.isdisjoint(over.GetPath().GetPrefixes())
-        if not is_composed or _may_be_defined_in_variant(over):
+        if not is_composed or may_be_said(over, _defines):
             continue
         prims = undefined[over]
         if not arcs.lead_below(over) and not arcs.draw_one_of(prims):
@@ -79,44 +80,14 @@ def _similar_sibling(over: Any) -> str | None:
     return shown(siblings[0]).path if len(siblings) == 1 else None
 
 
-def _may_be_defined_in_variant(prim: Any) -> bool:
-    """Whether a variant, of the prim or of one above it, that is not selected might define it."""
-    path = prim.GetPath()
-    return any(
-        _may_define(variant, path.MakeRelativePath(above.GetPath()).GetPrefixes())
-        for above in (prim, *_ancestors(prim))
-        for variant in _unselected(above)
-    )
-
-
-def _ancestors(prim: Any) -> Iterator[Any]:
-    while not (prim := prim.GetParent()).IsPseudoRoot():
-        yield prim
-
-
-def _unselected(prim: Any) -> Iterator[Any]:
-    """The specs of a prim's variants that are not selected."""
-    sets = prim.GetVariantSets()
-    for spec in get_prim_stack(prim) if sets.GetNames() else ():
-        for name, variant_set in spec.variantSets.items():
-            selected = sets.GetVariantSelection(name)
-            yield from (
-                each.primSpec for each in variant_set.variants.values() if each.name != selected
-            )
-
-
-def _may_define(variant: Any, prefixes: Iterable[Any]) -> bool:
-    """Whether a variant defines a prim at the last of these relative paths, or has arcs above."""
-    specs = [variant, *(variant.GetPrimAtPath(path) for path in prefixes if path.name != ".")]
-    return any(spec and any(map(spec.HasInfo, _ARCS)) for spec in specs) or bool(
-        specs[-1] and specs[-1].specifier != Sdf.SpecifierOver
-    )
+def _defines(spec: Any) -> bool:
+    return bool(spec.specifier != Sdf.SpecifierOver)
 
 
 def _topmost(prims: Iterable[Any]) -> Iterator[Any]:
-    """Those of the prims that are not below another of them, by path."""
+    """Those of the prims that are not below another of them, by the paths that show them."""
     last = Sdf.Path.emptyPath
-    for prim in sorted(prims, key=get_path):
+    for prim in as_shown(prims):
         if last.isEmpty or not prim.GetPath().HasPrefix(last):
             last = prim.GetPath()
             yield prim
@@ -137,8 +108,8 @@ class _Arcs:
 
     def lead_below(self, over: Any) -> bool:
         """Whether an arc leads to an `over` or below it, by one of its paths."""
-        index = over.ComputeExpandedPrimIndex()  # its nodes do not keep it alive
-        return not self._targets.isdisjoint(_paths(index.rootNode))
+        nodes = nodes_of(over.ComputeExpandedPrimIndex())
+        return not self._targets.isdisjoint(node.path.StripAllVariantSelections() for node in nodes)
 
     def draw_one_of(self, prims: Iterable[Any]) -> bool:
         """Whether a spec of these undefined prims is also that of a prim which is drawn."""
@@ -163,13 +134,6 @@ class _Arcs:
             )
         bare = (target.StripAllVariantSelections() for target in targets)
         return frozenset(prefix for target in bare for prefix in target.GetPrefixes())
-
-
-def _paths(node: Any) -> Iterator[Any]:
-    """The paths of a prim in all layers that it is composed of."""
-    yield node.path.StripAllVariantSelections()
-    for child in node.children:
-        yield from _paths(child)
 
 
 def _targets_at(layer: Any, path: Any) -> Iterator[Any]:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import UsdGeom
 
@@ -13,6 +12,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.layers.turns import Corrections, resetting
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.instances import as_shown
+from usdvol_lint.facts.usd.nodes import nodes_of
 
 UP_AXIS = "upAxis"
 UNITS = "metersPerUnit"
@@ -24,8 +24,7 @@ _PLACED = frozenset({"extent", "filePath", *schema.attributes_of(schema.API_ATTR
 """The attributes whose values have a place or a size."""
 
 
-@dataclass(frozen=True, slots=True)
-class UnlikeStage:
+class UnlikeStage(NamedTuple):
     """A layer that says another up axis or other units than the stage.
 
     `key`: the name of that metadata, with the value in the `layer` and that of the `stage`.
@@ -144,7 +143,9 @@ def _bringing(
     What the root layer of a referenced layer stack says goes for its sublayers that say nothing.
     """
     own = stage.GetRootLayer()
-    for node in _nodes(prim.GetPrimIndex().rootNode):
+    for node in nodes_of(prim.GetPrimIndex()):
+        if node.isInert or not node.hasSpecs:
+            continue
         top = node.layerStack.identifier.rootLayer
         for layer in node.layerStack.layers:
             if not _brings_a_place(layer.GetPrimAtPath(node.path)):
@@ -153,13 +154,6 @@ def _bringing(
                 yield layer, top == own or (layer != top and top not in unlike)
             elif top in unlike and _said(layer, key) is None:
                 yield top, False
-
-
-def _nodes(node: Any) -> Iterator[Any]:
-    if node.hasSpecs and not node.isInert:
-        yield node
-    for child in node.children:
-        yield from _nodes(child)
 
 
 def _brings_a_place(spec: Any | None) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf, Tf, Usd
@@ -23,8 +22,7 @@ _CLOSE = 0.78
 """Of five letters one may be another."""
 
 
-@dataclass(frozen=True, slots=True)
-class EmptyArc:
+class EmptyArc(NamedTuple):
     """A reference or payload to a prim that its layer does not hold.
 
     `arc`, `asset` and `spec` are as in `LayerArc`; `asset` is "" for an arc inside a layer stack.

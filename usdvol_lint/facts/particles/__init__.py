@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
@@ -16,8 +16,13 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.chunks import Row
     from usdvol_lint.facts.particles.coarseness import CoarsePositions
     from usdvol_lint.facts.particles.colour_spaces import ColourSpace
+    from usdvol_lint.facts.particles.copies import Copies
+    from usdvol_lint.facts.particles.elements import Elements
     from usdvol_lint.facts.particles.extent import OutsideExtent
     from usdvol_lint.facts.particles.reach import KernelsOutside
+    from usdvol_lint.facts.particles.scales import Scales
+    from usdvol_lint.facts.particles.surplus import Surplus
+    from usdvol_lint.facts.particles.unseen import Unseen
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -52,6 +57,16 @@ class Particles(Wing):
 
         return read_particle_apis(prim, self._kinds)
 
+    def without_api(self, prim: Any) -> Iterator[tuple[str, list[Any]]]:
+        """The APIs that are not applied though attributes of theirs are authored, with these."""
+        from usdvol_lint.facts.particles.apis import attributes_without_api
+
+        return attributes_without_api(prim, self.apis(prim))
+
+    def is_told_as_misspelt(self, prim: Any, base: str) -> bool:
+        """Whether PRT006 says why a base API is missing: the name of one that includes it."""
+        return self.apis(prim).is_lost(base) and not self._prims.encoding(prim)
+
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:
         """The arrays of a particle field: none on a prim in an older encoding (SCH011)."""
@@ -69,17 +84,55 @@ class Particles(Wing):
             self._advance,
         )
 
-    def positions_outside_extent(
-        self, prim: Any, slack: float, clamp: float
-    ) -> OutsideExtent | None:
-        """The positions outside the authored extent, if there are any."""
-        from usdvol_lint.facts.particles.extent import positions_outside_extent
+    def misfitting_default(self, prim: Any, array: ParticleArray) -> str | None:
+        """The default that hides what would fit, in words, where an array does not fit."""
+        from usdvol_lint.facts.particles.hiding import misfitting_default
 
+        return misfitting_default(array, self.arrays(prim), self._prims.hidden_animation)
+
+    def unseen(self, prim: Any) -> Unseen | None:
+        """The particles that can't be seen at any time, if there are some."""
+        arrays = self.arrays(prim)
+        if not any(arrays.used("opacities", "scales")):
+            return None  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.unseen import unseen_particles
+
+        return unseen_particles(arrays)
+
+    def copies(self, prim: Any, unseen: Unseen | None) -> Copies | None:
+        """The particles that equal the next one in every array at all times, but `unseen` ones."""
+        arrays = self.arrays(prim)
+        if not arrays.most_particles:
+            return None  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.copies import copied_particles
+
+        return copied_particles(prim, arrays, unseen.selected if unseen else None)
+
+    def surpluses(self, prim: Any) -> tuple[Surplus, ...]:
+        """The arrays that hold the elements of more particles than there are."""
+        arrays = self.arrays(prim)
+        if not arrays.most_particles:
+            return ()  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.surplus import surpluses
+
+        return surpluses(arrays)
+
+    def is_misspelt(self, prim: Any, name: str) -> bool:
+        """Whether an attribute is probably meant for the float or half array of this float name."""
+        return any(slip.intended in (name, f"{name}h") for slip in self._prims.misspelt(prim))
+
+    def positions_outside_extent(
+        self, prim: Any, slack: float, half_slack: float, clamp: float
+    ) -> OutsideExtent | None:
+        """The positions outside the authored extent, if any; `half_slack` is that of halfs."""
         extent = prim.GetAttribute("extent")
         positions = next(self.arrays(prim).used("positions"), None)
         if not positions or not extent.HasAuthoredValue():
-            return None
-        return positions_outside_extent(positions, extent, slack, clamp)
+            return None  # and NumPy need not be imported
+        from usdvol_lint.facts.particles.extent import positions_outside_extent
+
+        relative_slack = half_slack if positions.is_half else slack
+        return positions_outside_extent(self.arrays(prim), extent, relative_slack, clamp)
 
     def kernels_outside_extent(
         self, prim: Any, share: float, clamp: float
@@ -103,11 +156,17 @@ class Particles(Wing):
 
         return coarse_positions(arrays, factor)
 
-    def mean(self, array: ParticleArray) -> float:
-        """The mean of all numbers in all samples of an array."""
-        from usdvol_lint.facts.particles.numbers import mean_of
+    @fact
+    def scales(self, prim: Any) -> Scales | None:
+        """The scales that count, beside the places of particles; None if not all are finite."""
+        arrays = self.arrays(prim)
+        array = arrays.finite("scales")
+        span = array.span if array else None
+        if not array or not span:
+            return None
+        from usdvol_lint.facts.particles.scales import Scales
 
-        return mean_of(array)
+        return Scales(array, *span, arrays)
 
     def range_within(self, array: ParticleArray, low: float, high: float) -> tuple[Row, Row] | None:
         """The least and greatest number in each column, if all lie within the limits."""
@@ -121,12 +180,17 @@ class Particles(Wing):
 
         return are_whole(array)
 
-    def spacing(self, prim: Any) -> float:
-        """How far particles lie apart if they are spread evenly over the positions' bounds."""
-        from usdvol_lint.facts.particles.numbers import spacing
+    def are_logits(self, array: ParticleArray, outside: Elements | None) -> bool:
+        """Whether opacities, of which some are outside of 0 to 1, look like logits."""
+        from usdvol_lint.facts.particles.raw import are_logits
 
-        arrays = self.arrays(prim)
-        return spacing(arrays.positions, arrays.most_particles) if arrays.positions else 0.0
+        return are_logits(array, outside)
+
+    def are_logarithms(self, array: ParticleArray, negative: Elements | None) -> bool:
+        """Whether scales, of which some are negative, look like logarithms."""
+        from usdvol_lint.facts.particles.raw import are_logarithms
+
+        return are_logarithms(array, negative)
 
     def longest_side(self, prim: Any) -> float:
         """That of the first authored extent; 0 without one."""
@@ -135,10 +199,11 @@ class Particles(Wing):
         return max(end - begin for begin, end in zip(*box, strict=True)) if box else 0.0
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
-        """The colour space that a prim or its nearest ancestor with one names."""
+        """The colour space of the coefficients: their own, or the nearest name above them."""
         from usdvol_lint.facts.particles.colour_spaces import colour_space
 
-        return colour_space(prim)
+        used = self.arrays(prim).coefficients
+        return colour_space(prim, used.attribute if used else None)
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""

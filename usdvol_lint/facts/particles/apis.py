@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 from pxr import Usd
 
@@ -11,8 +11,7 @@ from usdvol_lint import schema, spelling
 from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
 
-@dataclass(frozen=True, slots=True)
-class ParticleApis:
+class ParticleApis(NamedTuple):
     """The API schemas of one prim.
 
     `applied` are the registered ones and those that they include, in order.
@@ -36,6 +35,12 @@ class ParticleApis:
         providers = [api for api in self.applied if api != base and base in _includes(api)]
         included = {api for provider in providers for api in _includes(provider) if api != provider}
         return tuple(api for api in providers if api not in included)
+
+    def is_lost(self, base: str) -> bool:
+        """Whether a base API is missing because the name of one that includes it is misspelt."""
+        return base not in self.applied and base in schema.expand_apis(
+            tuple(self.misspelt.values())
+        )
 
     def remedy(self, base: str, otherwise: str) -> str:
         """The advice for a missing base API: to correct a misspelt name, or else `otherwise`."""
@@ -66,6 +71,17 @@ def read_particle_apis(prim: Any, kinds: PrimKinds) -> ParticleApis:
         misspelt={name: api for name, api in intended.items() if api},
         built_in_type=prim.GetTypeName() in schema.CONCRETE_TYPES,
     )
+
+
+def attributes_without_api(prim: Any, apis: ParticleApis) -> Iterator[tuple[str, list[Any]]]:
+    """The attributes that are authored on a prim though no schema of it declares them, by API."""
+    declared = frozenset(prim.GetPrimDefinition().GetPropertyNames())
+    for api, names in schema.API_ATTRIBUTES.items():
+        if not apis.has(api):
+            attributes = [prim.GetAttribute(name) for name in names if name not in declared]
+            authored = [attribute for attribute in attributes if attribute.HasAuthoredValue()]
+            if authored:
+                yield api, authored
 
 
 def material_is_bound(prim: Any) -> bool:

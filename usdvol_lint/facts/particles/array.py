@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
 from functools import cached_property
 from math import inf
 from typing import Any, NamedTuple
 
+import numpy as np
 from pxr import Usd
 
 from usdvol_lint.facts.particles import matches
@@ -35,10 +35,14 @@ _COUNTED = frozenset({"scales", "opacities"})
 
 
 class ArraySample(NamedTuple):
-    """One value of an array: its time, None for the default, and its size, 0 where it is None."""
+    """One value of an array: its time, None for the default, and its size, 0 where it is None.
+
+    `is_blocked`: whether it is None, so that nothing is authored at that time.
+    """
 
     time: Time
     size: int
+    is_blocked: bool = False
 
 
 class ParticleArray:
@@ -46,7 +50,7 @@ class ParticleArray:
 
     `float_name` is the name of the float array of its pair, `noun` what its elements are called.
     `most` is the greatest number of elements of a sample; it `is_populated` if that is not 0.
-    `total` is how many time samples USD has.
+    `total` is how many time samples USD has; `is_read_whole` says that these are all of them.
     Values are read anew for each question about all of them, so that one at a time is in memory.
     `with_counts` makes a histogram of scales and of opacities while their ranges are found.
     """
@@ -68,7 +72,9 @@ class ParticleArray:
         self.most = max((sample.size for sample in samples), default=0)
         self.is_populated = self.most > 0
         self.total = total
-        self.sizes = StepSamples(samples)
+        self.is_read_whole = total == sum(sample.time is not None for sample in samples)
+        sizes = ((each.time, None if each.is_blocked else each.size) for each in samples)
+        self.sizes = StepSamples(sizes)
         self._with_counts = with_counts
         self._advance = advance
 
@@ -101,7 +107,7 @@ class ParticleArray:
             measured = measure(rows)
             if measured.counts is not None:  # half a megabyte, too much to keep for each sample
                 counts = counts + measured.counts
-                measured = replace(measured, counts=None)
+                measured = measured._replace(counts=None)
             ranges.append((sample, measured))
         return tuple(ranges), counts
 
@@ -114,6 +120,12 @@ class ParticleArray:
     def high(self) -> Row | None:
         """The greatest finite number in each column."""
         return joined(max, (measured.high for _, measured in self.ranges))
+
+    @property
+    def span(self) -> tuple[float, float] | None:
+        """The least and the greatest finite number in all columns."""
+        low, high = self.low, self.high
+        return (min(low), max(high)) if low and high else None
 
     @property
     def has_nan(self) -> bool:
@@ -152,24 +164,25 @@ class ParticleArray:
 
         return self._search(lambda least, greatest: least[0] < low or greatest[0] > high, mask)
 
-    def zeros(self, axes: int = 1) -> Elements | None:
-        """The elements in which at least so many numbers are zero."""
-        return self._search(
-            lambda least, _: sum(number <= 0 for number in least) >= axes,
-            lambda chunk, _: (chunk == 0).sum(axis=1) >= axes,
+    def faint(self, limit: float, wanted: Callable[[ArraySample], bool]) -> Rows:
+        """Which elements are as close to 0 as `limit` in all wanted samples."""
+        return self._always(
+            lambda least: least[0] <= limit, lambda chunk, _: np.abs(chunk[:, 0]) <= limit, wanted
         )
 
-    def repetitions(self) -> Elements | None:
-        """The elements that equal the one after them, bit by bit."""
-        return self._elements(
-            (sample, matches.repetitions(rows)) for sample, rows in self.read() if sample.size > 1
+    def without_size(self, wanted: Callable[[ArraySample], bool]) -> Rows:
+        """Which elements have two numbers that are zero, in all wanted samples."""
+        return self._always(
+            lambda least: sum(number <= 0 for number in least) > 1,
+            lambda chunk, _: (chunk == 0).sum(axis=1) > 1,
+            wanted,
         )
 
-    def selected(self, masks: Mapping[Time, Mask]) -> Elements | None:
-        """The elements that masks select; samples without a mask are not read."""
+    def selected(self, makers: Mapping[Time, Callable[[ArraySample], Mask]]) -> Elements | None:
+        """The elements that masks select, each made for its sample; others are not read."""
         return self._elements(
-            (sample, matches.find_matches(rows, masks[sample.time]))
-            for sample, rows in self.read(lambda sample: sample.time in masks)
+            (sample, matches.find_matches(rows, makers[sample.time](sample)))
+            for sample, rows in self.read(lambda sample: sample.time in makers)
         )
 
     def read(
@@ -183,6 +196,26 @@ class ParticleArray:
                 yield sample, rows_of(value)
                 self._advance(1)
 
+    def _always(
+        self,
+        is_suspect: Callable[[Row], bool],
+        mask: Mask,
+        wanted: Callable[[ArraySample], bool],
+    ) -> Rows:
+        """Which elements a mask selects in all wanted samples that have them: a boolean for each.
+
+        Only samples whose least numbers are suspicious are read, and only while some elements are
+        left.
+        """
+        most = max((sample.size for sample in self.samples if wanted(sample)), default=0)
+        left: Rows = np.ones(most, np.bool_)
+        for sample, measured in self.ranges:
+            if wanted(sample) and not (measured.low and is_suspect(measured.low)):
+                left[: sample.size] = False
+        for _, rows in self.read(lambda own: wanted(own) and bool(left[: own.size].any())):
+            matches.keep(left, rows, mask)
+        return left
+
     def _search(self, is_suspect: Callable[[Row, Row], bool], mask: Mask) -> Elements | None:
         """The elements that a mask selects; reads only the samples whose range is suspicious."""
         times = {
@@ -190,7 +223,7 @@ class ParticleArray:
             for sample, measured in self.ranges
             if measured.low and measured.high and is_suspect(measured.low, measured.high)
         }
-        return self.selected(dict.fromkeys(times, mask)) if times else None
+        return self.selected(dict.fromkeys(times, lambda sample: mask)) if times else None
 
     def _elements(self, matched: Iterable[tuple[ArraySample, Matches | None]]) -> Elements | None:
         present = [(sample, rows) for sample, rows in matched if rows]

@@ -34,9 +34,16 @@ class Misfits(Values):
         elements, owners = _counted(size, self.noun), _counted(particles, "particles")
         return f"{elements} for {owners}{self.count}"
 
+    @property
+    def shares(self) -> str:
+        """`2,000 coefficients, 4 for each particle`, or `words` if they can't be shared out."""
+        size, particles = next(iter(self))
+        if not size or size % particles:
+            return self.words
+        return f"{_counted(size, self.noun)}, {size // particles:,} for each particle{self.count}"
 
-@dataclass(frozen=True, slots=True)
-class Degree:
+
+class Degree(NamedTuple):
     """The degree of the spherical harmonics; `value` is None if the attribute is mistyped."""
 
     attribute: Any
@@ -57,8 +64,7 @@ class LateArray(NamedTuple):
     filled: float
 
 
-@dataclass(frozen=True, slots=True)
-class Pair:
+class Pair(NamedTuple):
     """The float and the half array of one attribute, such as `scales` and `scalesh`.
 
     `arrays` are the authored ones of the schema's type; `is_known` is False if one is mistyped.
@@ -124,6 +130,11 @@ class ParticleArrays:
             if array and array.is_populated and (not nouns or array.noun in nouns):
                 yield array
 
+    def finite(self, noun: str) -> ParticleArray | None:
+        """The array with this noun that renderers read elements of, if all numbers are finite."""
+        array = next(self.used(noun), None)
+        return None if array is None or array.has_nan or array.has_infinity else array
+
     @property
     def late_positions(self) -> LateArray | None:
         """Float positions that begin empty, so that OpenUSD draws no particle at any time."""
@@ -133,11 +144,7 @@ class ParticleArrays:
         """The other float arrays that begin empty, and that fit the particles at all times."""
         for array in self.used():
             late = self.pairs[array.float_name].late
-            if (
-                late
-                and array is not self.positions
-                and not self.too_short(array, self._each(array))
-            ):
+            if late and array is not self.positions and not self.too_short(array, self.each(array)):
                 yield late
 
     def authored(self, noun: str) -> Iterator[ParticleArray]:
@@ -187,10 +194,15 @@ class ParticleArrays:
     def fit(self, array: ParticleArray) -> bool:
         """Whether an array has as many elements as the particles take; of positions, all others."""
         others = [array] if array is not self.positions else self.used()
-        sizes = [(other, self._each(other)) for other in others if other is not self.positions]
+        sizes = [(other, self.each(other)) for other in others if other is not self.positions]
         return not any(self.too_short(*size) or self.too_long(*size) for size in sizes)
 
-    def _each(self, array: ParticleArray) -> int:
+    def others_fit(self, array: ParticleArray) -> bool:
+        """Whether there are other arrays beside the positions, and all of them fit these."""
+        others = [other for other in self.used() if other not in (array, self.positions)]
+        return bool(others) and all(map(self.fit, others))
+
+    def each(self, array: ParticleArray) -> int:
         """How many elements of an array a particle takes."""
         return self.degree.coefficients or 1 if array is self.coefficients else 1
 

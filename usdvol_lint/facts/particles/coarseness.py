@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import add
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from pxr import Usd
 from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
 from usdvol_lint.facts.particles.arrays import ParticleArrays
 from usdvol_lint.facts.particles.chunks import Row, Rows, fold, rows_of
+from usdvol_lint.facts.particles.matches import rows_below
 from usdvol_lint.facts.particles.ranges import joined
 from usdvol_lint.facts.particles.statistics import INVISIBLE
 from usdvol_lint.facts.usd.values import Value, Values
@@ -127,23 +129,35 @@ def rows_at(array: ParticleArray | None, sample: ArraySample, count: int) -> Row
 def _count(
     positions: Rows, scales: Rows | None, opacities: Rows | None, step: float, factor: float
 ) -> Counts:
-    """The counts of one sample, in one pass; steps differ only where some particle is small."""
+    """The counts of one sample; particles that can be seen are counted only if one is coarse."""
 
-    def measure(chunk: Rows, start: int) -> Counts:
-        stop = start + len(chunk)
-        sizes = largest_scales(scales[start:stop] if scales is not None else np.ones_like(chunk))
-        seen = (sizes > 0) & (sizes < np.inf)
-        if opacities is not None:
-            seen &= opacities[start:stop, 0] >= INVISIBLE
-        small = np.flatnonzero(seen & (sizes < step))
-        far = coarse = 0
-        if len(small):
-            steps = np.spacing(np.abs(chunk[small]).max(axis=1)).astype(np.float32)
-            coarse = int(np.count_nonzero(steps > sizes[small]))
-            far = int(np.count_nonzero(steps > factor * sizes[small]))
-        return Counts(int(np.count_nonzero(seen)), coarse, far)
+    def lost(chunk: Rows, start: int) -> tuple[int, int]:
+        sizes = np.ones_like(chunk) if scales is None else scales[start : start + len(chunk)]
+        small = rows_below(sizes, step)
+        steps = np.spacing(np.abs(chunk[small]).max(axis=1)).astype(np.float32)
+        largest = largest_scales(sizes[small])
+        seen = _are_seen(largest, None if opacities is None else opacities[start + small])
+        coarse, far = (seen & (steps > times * largest) for times in (1.0, factor))
+        return int(np.count_nonzero(coarse)), int(np.count_nonzero(far))
 
-    return fold(positions, measure, Counts.plus)
+    def visible(chunk: Rows, start: int) -> int:
+        part = slice(start, start + len(chunk))
+        sizes = np.ones_like(chunk) if scales is None else scales[part]
+        shown = None if opacities is None else opacities[part]
+        return int(np.count_nonzero(_are_seen(largest_scales(sizes), shown)))
+
+    coarse, far = fold(positions, lost, _sums)
+    return Counts(fold(positions, visible, add) if coarse else 0, coarse, far)
+
+
+def _sums(one: tuple[int, int], other: tuple[int, int]) -> tuple[int, int]:
+    return one[0] + other[0], one[1] + other[1]
+
+
+def _are_seen(largest: Rows, opacities: Rows | None) -> Rows:
+    """Which particles can be seen, from their largest scales."""
+    seen: Rows = (largest > 0) & (largest < np.inf)
+    return seen if opacities is None else seen & (opacities[:, 0] >= INVISIBLE)
 
 
 def largest_scales(scales: Rows) -> Rows:

@@ -1,42 +1,57 @@
-"""The colour space of a prim: by a name that USD knows, or one that the stage defines."""
+"""The colour space of coefficients: their own, or by a name on the prim or above, as USD asks."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Gf
 
+from usdvol_lint.facts.usd.kinds import raw_apis
 from usdvol_lint.schema import COLOUR_SPACES
 from usdvol_lint.spelling import closest_name
 
+_API = "ColorSpaceAPI"
 _NAME = "colorSpace:name"
-_DEFINITIONS = "colorSpaceDefinition"
+_DEFINITION_API = "ColorSpaceDefinitionAPI"
 
 
-@dataclass(frozen=True, slots=True)
-class ColourSpace:
-    """An authored colour space name; `similar` is the closest name that USD knows, if any is."""
+class ColourSpace(NamedTuple):
+    """An authored colour space name; `similar` is the closest name that USD knows, if any is.
+
+    USD reads it only if `is_applied`: if the API that declares it is.  `unapplied` is the instance
+    of a definition of that name whose API is not applied, if there is one.
+    """
 
     attribute: Any
     name: str
     is_known: bool
     similar: str | None
+    is_applied: bool = True
+    unapplied: str | None = None
 
 
-def colour_space(prim: Any) -> ColourSpace | None:
-    """The name on the prim or on the nearest ancestor that has one, as USD inherits it."""
+def colour_space(prim: Any, coefficients: Any = None) -> ColourSpace | None:
+    """The coefficients' own colour space, or the nearest name on the prim or above.
+
+    A name without its API is passed over by USD; it is told where no nearer one counts.
+    """
+    if coefficients and coefficients.HasColorSpace():
+        return _described(coefficients, str(coefficients.GetColorSpace()), prim, True)
     for holder in _upward(prim):
         attribute = holder.GetAttribute(_NAME)
         name = attribute.Get() if attribute and attribute.HasAuthoredValue() else None
         if isinstance(name, str) and name:
-            is_known = _is_built_in(name) or any(
-                name in _defined(above) for above in _upward(holder)
-            )
-            similar = None if is_known else closest_name(name, COLOUR_SPACES, cutoff=0.6)
-            return ColourSpace(attribute, name, is_known, similar)
+            return _described(attribute, name, holder, _API in _applied(holder))
     return None
+
+
+def _described(attribute: Any, name: str, holder: Any, is_applied: bool) -> ColourSpace:
+    definitions = [found for above in _upward(holder) for found in _defined(above, name)]
+    is_known = _is_built_in(name) or any(is_there for _, is_there in definitions)
+    similar = None if is_known else closest_name(name, COLOUR_SPACES, cutoff=0.6)
+    unapplied = None if is_known or not definitions else definitions[0][0]
+    return ColourSpace(attribute, name, is_known, similar, is_applied, unapplied)
 
 
 def _upward(prim: Any) -> Iterator[Any]:
@@ -45,14 +60,21 @@ def _upward(prim: Any) -> Iterator[Any]:
         prim = prim.GetParent()
 
 
+def _applied(prim: Any) -> set[str]:
+    """The applied APIs, those too that this USD does not know."""
+    return {*prim.GetAppliedSchemas(), *raw_apis(prim)}
+
+
 def _is_built_in(name: str) -> bool:
     """Whether this USD or the schema tables of the package know the name."""
     is_valid = getattr(Gf.ColorSpace, "IsValid", COLOUR_SPACES.__contains__)
     return name in COLOUR_SPACES or is_valid(name)
 
 
-def _defined(prim: Any) -> Iterator[str]:
-    """The names of the colour spaces that a prim defines."""
-    for attribute in prim.GetAuthoredPropertiesInNamespace(_DEFINITIONS):
-        if attribute.GetName().endswith(":name"):
-            yield attribute.Get()
+def _defined(prim: Any, name: str) -> Iterator[tuple[str, bool]]:
+    """The definitions of a name on a prim: their APIs, and whether these are applied."""
+    for attribute in prim.GetAuthoredPropertiesInNamespace("colorSpaceDefinition"):
+        _, instance, *rest = attribute.GetName().split(":")
+        if rest == ["name"] and attribute.Get() == name:
+            api = f"{_DEFINITION_API}:{instance}"
+            yield api, api in _applied(prim)

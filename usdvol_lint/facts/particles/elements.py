@@ -19,24 +19,37 @@ class Elements(Values):
     noun: str
 
     @property
+    def number(self) -> int:
+        """How many match, in all samples together."""
+        return sum(matches.count for matches in self)
+
+    @property
     def share(self) -> float:
         """The share of the elements of these samples that match."""
-        return self._count / sum(self.sizes)
+        return self.number / sum(self.sizes)
 
     @property
     def amount(self) -> str:
         """`3 of 1,000,000 opacities (0.0003 %)`."""
-        return f"{self._count:,} of {sum(self.sizes):,} {self.noun} ({_percent(self.share)})"
+        return f"{self._amount} ({percent(self.share)})"
+
+    def amount_that(self, one: str, several: str) -> str:
+        """`1 of 500 opacities is NaN (0.2 %)`: the verb for one, and for several."""
+        return f"{self._amount} {one if self.number == 1 else several} ({percent(self.share)})"
 
     @property
     def first(self) -> str:
-        """`first 1.5 at [17] (4 of 240 samples)`."""
+        """`first 1.5 at [17] (4 of 240 samples)`, or `the one at [17]: 1.5`."""
         matches = next(iter(self))
-        return f"first {as_text(matches.value)} at [{matches.first}]{self.count}"
+        if self.number > 1:
+            return f"first {as_text(matches.value)} at [{matches.first}]{self.count}"
+        value = as_text(matches.value)
+        shown = "" if value == "nan" else f": {value}"
+        return f"the one at [{matches.first}]{shown}{self.count}"
 
     @property
-    def _count(self) -> int:
-        return sum(matches.count for matches in self)
+    def _amount(self) -> str:
+        return f"{self.number:,} of {sum(self.sizes):,} {self.noun}"
 
 
 def as_text(row: Row) -> str:
@@ -47,6 +60,7 @@ def as_text(row: Row) -> str:
     return numbers if len(row) == 1 else f"({numbers})"
 
 
-def _percent(share: float) -> str:
+def percent(share: float) -> str:
+    """`33.3 %`."""
     percent = 100 * share
     return f"{percent:.3g} %" if percent >= 0.001 else "less than 0.001 %"

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Any, ClassVar
 
 from usdvol_lint.facts.particles import matches
 from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
+from usdvol_lint.facts.particles.arrays import ParticleArrays
 from usdvol_lint.facts.particles.elements import Elements, as_text
 from usdvol_lint.facts.particles.matches import Mask
-from usdvol_lint.facts.prims.boxes import encloses
+from usdvol_lint.facts.particles.ranges import column_range
+from usdvol_lint.facts.particles.statistics import INVISIBLE
+from usdvol_lint.facts.particles.unseen import hidden_while
+from usdvol_lint.facts.prims.boxes import encloses, union
 from usdvol_lint.facts.prims.extents import box_of
 from usdvol_lint.facts.usd.steps import Time
 from usdvol_lint.facts.usd.values import sample_times
@@ -26,7 +30,7 @@ class OutsideExtent:
     """Positions outside the extent, which is `attribute`.
 
     `elements` are the positions, `all_times` the times at which some are outside; `extent` is its
-    value at the first of these, `positions` the box around the positions of all samples.
+    value at the first of these, `positions` the box around those of all samples that can be seen.
     """
 
     elements: Elements
@@ -54,32 +58,65 @@ class OutsideExtent:
 
 
 def positions_outside_extent(
-    positions: ParticleArray, extent: Any, slack: float, clamp: float
+    arrays: ParticleArrays, extent: Any, slack: float, clamp: float
 ) -> OutsideExtent | None:
     """The positions outside the extent by more than `slack` times its largest coordinate.
 
     That is taken along each axis.  A side at `clamp`, or at its negative, was cut off by an
-    exporter, and sets no limit.
+    exporter, and sets no limit; a particle that can't be seen there may lie anywhere.
     """
+    positions = next(arrays.used("positions"))
     all_times: list[Time] = []
     boxes: dict[Time, Bounds] = {}
-    masks: dict[Time, Mask] = {}
+    spans: list[Bounds] = []
     for sample, measured in positions.ranges:
+        if not measured.low or not measured.high:
+            continue
+        span: Bounds | None = _box(measured.low, measured.high)
+        is_narrowed = False
         for time in times_of_extent(positions, sample, extent):
             box = box_of(extent.Get() if time is None else extent.Get(time))
-            if not box or not measured.low or not measured.high:
+            if not box or _holds(box, span, slack, clamp, positions):
                 continue
-            limits = limits_of(box, slack, clamp, positions.is_half)
-            if not encloses(limits, _box(measured.low, measured.high), 0.0):
+            if not is_narrowed:
+                span, is_narrowed = _seen_span(arrays, positions, sample, span), True
+            if not _holds(box, span, slack, clamp, positions):
                 all_times.append(time)
                 boxes.setdefault(sample.time, box)
-                masks.setdefault(sample.time, _outside(limits))
-    elements = positions.selected(masks) if masks else None
-    if not elements or not positions.low or not positions.high:
+        spans += [span] if span else []
+    if not boxes:
+        return None
+    makers = {
+        time: _outside(limits_of(box, slack, clamp, positions.is_half), arrays, positions)
+        for time, box in boxes.items()
+    }
+    elements = positions.selected(makers)
+    if not elements:
         return None
     first = elements.samples[0].time
-    span = _box(positions.low, positions.high)
-    return OutsideExtent(elements, extent, tuple(all_times), boxes[first], span)
+    return OutsideExtent(elements, extent, tuple(all_times), boxes[first], union(spans))
+
+
+def _holds(
+    box: Bounds, span: Bounds | None, slack: float, clamp: float, positions: ParticleArray
+) -> bool:
+    """Whether an extent encloses the bounds of positions; None are those of no position."""
+    return not span or encloses(limits_of(box, slack, clamp, positions.is_half), span, 0.0)
+
+
+def _seen_span(
+    arrays: ParticleArrays, positions: ParticleArray, sample: ArraySample, span: Bounds | None
+) -> Bounds | None:
+    """The bounds of the positions in a sample whose particles can be seen, within its `span`."""
+    hidden = hidden_while(arrays, positions, sample, INVISIBLE)
+    if not hidden.any():
+        return span
+    for _, rows in positions.read(lambda own: own is sample):
+        seen = rows[~hidden]
+        measured = column_range(seen) if len(seen) else None
+        if measured and measured.low and measured.high:
+            return _box(measured.low, measured.high)
+    return None
 
 
 def times_of_extent(positions: ParticleArray, sample: ArraySample, extent: Any) -> Iterable[Time]:
@@ -103,8 +140,18 @@ def _box(low: Sequence[float], high: Sequence[float]) -> Bounds:
     return (a, b, c), (x, y, z)
 
 
-def _outside(limits: Bounds) -> Mask:
-    return lambda chunk, _: matches.outside(chunk, *limits)
+def _outside(
+    limits: Bounds, arrays: ParticleArrays, positions: ParticleArray
+) -> Callable[[ArraySample], Mask]:
+    """Makes the mask of a sample that selects what is outside of the limits and can be seen."""
+
+    def make(sample: ArraySample) -> Mask:
+        seen = ~hidden_while(arrays, positions, sample, INVISIBLE)
+        return lambda chunk, start: (
+            matches.outside(chunk, *limits) & seen[start : start + len(chunk)]
+        )
+
+    return make
 
 
 def _shown(box: Bounds) -> str:

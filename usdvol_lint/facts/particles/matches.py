@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from usdvol_lint.facts.particles.bits import bits
-from usdvol_lint.facts.particles.chunks import Row, Rows, fold
+from usdvol_lint.facts.particles.bits import bits, ordered
+from usdvol_lint.facts.particles.chunks import READ_ONCE, Row, Rows, fold
 
 Mask: TypeAlias = Callable[[Rows, int], Rows]
 """Selects rows: from a chunk and the index of its first row to one boolean per row."""
@@ -33,15 +33,44 @@ def find_matches(rows: Rows, mask: Mask) -> Matches | None:
     return fold(rows, measure, join_matches)
 
 
-def repetitions(rows: Rows) -> Matches | None:
-    """The rows that equal the next one bit by bit, in one pass."""
+def keep(left: Rows, rows: Rows, mask: Mask) -> None:
+    """Takes those out of `left`, a boolean for each row, that a mask does not select."""
+
+    def measure(chunk: Rows, start: int) -> None:
+        left[start : start + len(chunk)] &= mask(chunk, start)
+
+    fold(rows, measure, _nothing)
+
+
+def keep_repeated(left: Rows, rows: Rows) -> None:
+    """Takes those out of `left` that do not equal the next row bit by bit, or are not finite."""
     values, following = bits(rows[:-1]), bits(rows[1:])
 
-    def mask(chunk: Rows, start: int) -> Rows:
-        return _equal(chunk, following[start : start + len(chunk)])
+    def measure(chunk: Rows, start: int) -> None:
+        part = left[start : start + len(chunk)]
+        part &= _equal(chunk, following[start : start + len(chunk)])
+        if part.any():
+            part &= is_finite(rows[start : start + len(chunk)])
 
-    found = find_matches(values, mask)
-    return found and Matches(found.count, found.first, tuple(rows[found.first].tolist()))
+    fold(values, measure, _nothing)
+
+
+def keep_alike(left: Rows, rows: Rows) -> None:
+    """The same where few are left: only their rows, of any type, are looked at."""
+    is_ours = rows.dtype in (np.float16, np.float32)
+    values = bits(rows) if is_ours else rows
+
+    def measure(part: Rows, start: int) -> None:
+        places = start + np.flatnonzero(part)
+        if len(places):
+            alike = (values[places] == values[places + 1]).all(axis=1)
+            part[places - start, 0] = alike & is_finite(rows[places]) if is_ours else alike
+
+    fold(left[: len(rows) - 1].reshape(-1, 1), measure, _nothing, READ_ONCE // rows.shape[1])
+
+
+def _nothing(one: None, other: None) -> None:
+    """Joins nothing with nothing."""
 
 
 def outside(chunk: Rows, low: float | Row, high: float | Row) -> Rows:
@@ -49,6 +78,31 @@ def outside(chunk: Rows, low: float | Row, high: float | Row) -> Rows:
     beyond: Rows = ((chunk < low) | (chunk > high)) & np.isfinite(chunk)
     rows: Rows = np.logical_or.reduce(beyond, axis=1)
     return rows
+
+
+def rows_outside(chunk: Rows, low: Rows, high: Rows) -> Rows:
+    """The indices of rows with a number outside the limits of its column, or nearly so.
+
+    Limits are rounded inwards to the precision of the chunk, and keys of halfs are compared.
+    """
+    kind = chunk.dtype.type
+    lowest = np.nextafter(low.astype(kind), kind(np.inf))
+    highest = np.nextafter(high.astype(kind), kind(-np.inf))
+    keys, lows, highs = map(ordered, (chunk, lowest, highest))
+    beyond: Rows = np.zeros(len(chunk), np.bool_)
+    for column, least, greatest in zip(keys.T, lows, highs, strict=True):  # faster than all at once
+        beyond |= (column < least) | (column > greatest)
+    return np.flatnonzero(beyond)
+
+
+def rows_below(chunk: Rows, limit: float) -> Rows:
+    """The indices of rows whose numbers are all below a limit, or nearly so, as `rows_outside`."""
+    kind = chunk.dtype.type
+    highest = ordered(np.nextafter(np.array([limit], kind), kind(np.inf)))
+    rows = np.flatnonzero(ordered(chunk) < highest) // chunk.shape[1]
+    last = rows[chunk.shape[1] - 1 :]  # of a row that is there with all its numbers
+    selected: Rows = last[last == rows[: len(last)]]
+    return selected
 
 
 def is_finite(chunk: Rows) -> Rows:

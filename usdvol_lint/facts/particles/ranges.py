@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 from functools import reduce
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,8 +25,7 @@ _HALF_INFINITY = 0x7C00
 _HALF_MINUS_INFINITY = 0xFC00
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(NamedTuple):
     """The least and greatest number in each column, of the rows that are finite.
 
     `low` and `high` are None if no row is, or if they were not asked for; `non_finite` are the rows
@@ -75,7 +74,7 @@ def _measure_columns(chunk: Rows, start: int) -> Range:
 
 
 def _measure_and_count(chunk: Rows, start: int) -> Range:
-    return replace(_measure_columns(chunk, start), counts=count_numbers(chunk))
+    return _measure_columns(chunk, start)._replace(counts=count_numbers(chunk))
 
 
 def _measure_norms(chunk: Rows, start: int) -> Range:

@@ -15,7 +15,7 @@ from usdvol_lint.facts.particles.chunks import Rows, fold
 from usdvol_lint.facts.particles.coarseness import largest_scales, rows_at
 from usdvol_lint.facts.particles.elements import as_text
 from usdvol_lint.facts.particles.extent import limits_of, times_of_extent
-from usdvol_lint.facts.particles.matches import is_finite
+from usdvol_lint.facts.particles.matches import is_finite, rows_outside
 from usdvol_lint.facts.particles.statistics import INVISIBLE
 from usdvol_lint.facts.prims.boxes import union
 from usdvol_lint.facts.prims.extents import box_of
@@ -104,7 +104,7 @@ def kernels_outside(
     samples = []
     for sample, rows in positions.read(lambda sample: sample.time in boxes):
         limits = limits_of(boxes[sample.time], 0.0, clamp, positions.is_half)
-        reach = _reach(arrays, sample, rows, kernel, limits)
+        reach = _reach(arrays, sample, rows, kernel, limits, farthest)
         if reach.outside:
             samples.append(Value(sample.time, reach))
     if not samples:
@@ -132,9 +132,14 @@ def _boxes(
 
 
 def _reach(
-    arrays: ParticleArrays, sample: ArraySample, positions: Rows, kernel: Kernel, limits: Bounds
+    arrays: ParticleArrays,
+    sample: ArraySample,
+    positions: Rows,
+    kernel: Kernel,
+    limits: Bounds,
+    farthest: float,
 ) -> Reach:
-    """The reach of one sample, in one pass; only kernels near the limits are turned."""
+    """The reach of one sample, in one pass; only kernels near the limits are looked at."""
     scales, opacities, turns = (
         rows_at(next(arrays.used(noun), None), sample, len(positions))
         for noun in ("scales", "opacities", "orientations")
@@ -143,14 +148,15 @@ def _reach(
 
     def measure(chunk: Rows, start: int) -> Reach:
         part = slice(start, start + len(chunk))
-        if scales is None:
+        rows = rows_outside(chunk, low + farthest, high - farthest)
+        if scales is None or not len(rows):
             return Reach(0, len(chunk), None)
-        radii = kernel.radius * largest_scales(scales[part])
-        near = _is_outside(chunk, radii[:, np.newaxis], low, high) & (radii > 0) & (radii < inf)
-        near &= is_finite(chunk)
+        radii = kernel.radius * largest_scales(scales[part][rows])
+        near = _is_outside(chunk[rows], radii[:, np.newaxis], low, high)
+        near &= (radii > 0) & (radii < inf) & is_finite(chunk[rows])
         if opacities is not None:
-            near &= opacities[part, 0] >= INVISIBLE
-        rows = np.flatnonzero(near)
+            near &= opacities[part, 0][rows] >= INVISIBLE
+        rows = rows[near]
         if not len(rows):
             return Reach(0, len(chunk), None)
         own = None if turns is None else turns[part][rows]

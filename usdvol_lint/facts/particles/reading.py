@@ -93,7 +93,8 @@ def _read_array(
             continue
         if value is not None and not isinstance(value, wanted):
             return None
-        samples.append(ArraySample(time, 0 if value is None else len(value)))
+        size = 0 if value is None else len(value)
+        samples.append(ArraySample(time, size, is_blocked=value is None))
     return ParticleArray(attribute, tuple(samples), len(times), with_counts, advance)
 
 

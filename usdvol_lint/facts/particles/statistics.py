@@ -41,9 +41,10 @@ def _bytes(array: ParticleArray) -> int:
 
 
 def _quantiles(array: ParticleArray | None) -> dict[str, float] | None:
-    if not array or not array.low or not array.high:
+    span = array.span if array else None
+    if not array or not span:
         return None
-    low, high = min(array.low), max(array.high)
+    low, high = span
     counts, _, middles = _binned(array)
     below = np.cumsum(counts)
     quantiles = {

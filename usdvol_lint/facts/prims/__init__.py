@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.prims.transforms import TransformFaults
     from usdvol_lint.facts.usd.clips import Clips
+    from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.hidden import HiddenAnimation
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
@@ -27,10 +28,12 @@ if TYPE_CHECKING:
 class Prims(Wing):
     """The prims that rules ask for: schemas, attributes, extents, and Gprims above and below."""
 
-    def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips) -> None:
+    def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips, drawn: Drawn) -> None:
         super().__init__(tables)
+        self._drawn = drawn
         self._kinds = kinds
         self._clips = clips
+        self._drawn = drawn
 
     def of(self, schema_name: str) -> list[Any]:
         """The live prims that answer to the schema of that name: its type, a subtype, an API."""
@@ -107,6 +110,12 @@ class Prims(Wing):
 
         return misspelt(prim, self.authored(prim))
 
+    def is_told_as_misspelt(self, prim: Any, name: str) -> bool:
+        """Whether SCH004 tells that an attribute is probably meant to be the one of this name."""
+        return any(slip.intended == name for slip in self.misspelt(prim)) and not self.encoding(
+            prim
+        )
+
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The values of a prim's attributes that are tokens the schema does not allow."""
         from usdvol_lint.facts.prims.contradictions import unlisted_tokens
@@ -126,7 +135,13 @@ class Prims(Wing):
         from usdvol_lint.facts.prims.ancestors import ancestors_of
 
         tables = self.tables.of(schema.VOLUME, schema.PARTICLE_FIELD)
-        return ancestors_of((table.batch for table in tables), self._kinds)
+        return ancestors_of((table.batch for table in tables), self._kinds, self._drawn)
+
+    def is_handed_down(self, above: Any, name: str) -> bool:
+        """Whether a Volume or particle field takes what a prim above it says of a property."""
+        from usdvol_lint.facts.prims.handed_down import is_handed_down
+
+        return is_handed_down(above, name, self._kinds)
 
     @fact
     def encoding(self, prim: Any) -> Encoding | None:
@@ -173,7 +188,7 @@ class Prims(Wing):
         """The paths of the prototypes that PointInstancers show at changing places."""
         from usdvol_lint.facts.usd.instancers import moved_prototypes
 
-        return moved_prototypes(self.tables.prims(schema.POINT_INSTANCER))
+        return moved_prototypes(self._drawn.live_instancers)
 
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:

@@ -29,7 +29,8 @@ class Authored:
     `uniform`: the names of those that must not be animated.
     `bound`: the property names in the `field:` namespace, for Volumes.
     `undeclared`: the names that no schema declares.
-    `misspellings`: those of them with a likely correction: name, corrected name, its type.
+    `misspellings`: those of them, and of those that UsdGeom declares, with a likely correction:
+    name, corrected name, its type.
     `is_layered`: whether the prims have several specs.
     `is_clipped`: whether value clips apply to them.
     """
@@ -93,6 +94,7 @@ def _sort_by_schema(
     registered = prim.GetPrimDefinition().GetPropertyNames()
     declared = {name: known[name] for name in names if name in known}
     undeclared = frozenset(names).difference(candidates, registered)
+    inherited = declared.keys() - schema.DECLARED_BY.keys()
     bound: tuple[str, ...] = ()
     if schema.VOLUME in schemas:
         bound = tuple(name for name in names if name.startswith(schema.FIELD_NAMESPACE))
@@ -110,8 +112,8 @@ def _sort_by_schema(
         undeclared=undeclared,
         misspellings=tuple(
             (name, meant, candidates[meant].type_name)
-            for name in sorted(undeclared)
-            if (meant := spelling.misspelt_attribute(name, candidates))
+            for name in sorted(undeclared | inherited)
+            if (meant := spelling.misspelt_attribute(name, candidates.keys() - {name}))
         ),
         is_layered=is_layered,
         is_clipped=is_clipped,

@@ -33,11 +33,19 @@ class Misspelt(NamedTuple):
     """An attribute that no schema declares, and the name that was probably intended.
 
     `overridden`: the attribute of that name in a weaker layer, whose value stays.
+    `hiding`: the type that the schema declares where it knows the name, for something else.
     """
 
     attribute: Any
     intended: str
     overridden: Any | None = None
+    hiding: str = ""
+
+    @property
+    def shown(self) -> str:
+        """The attribute as messages name it, with its type where the type makes the slip."""
+        name = self.attribute.GetName()
+        return f"{_authored_type(self.attribute)} {name}" if self.hiding else name
 
 
 class Unlisted(NamedTuple):
@@ -64,10 +72,15 @@ def may_be_mistyped(batch: PrimBatch, authored: Authored) -> list[bool]:
 
 
 def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
-    """The specs, in all layers, whose type is not the one that the schema declares."""
-    types = authored.types
+    """The specs, in all layers, whose type is not the one that the schema declares.
+
+    Left out are those that a stronger one corrects, and those of a name that is misspelt.
+    """
+    slips = misspelt(prim, authored) if authored.misspellings else ()
+    misnamed = {slip.attribute.GetName() for slip in slips}
+    types = [(name, wanted) for name, wanted in authored.types if name not in misnamed]
     stack = get_prim_stack(prim) if types else ()
-    for prim_spec in stack:
+    for strength, prim_spec in enumerate(stack):
         for name, wanted in types:
             path = Sdf.Path(f".{name}")
             spec = own_attribute(prim_spec, path)
@@ -76,12 +89,24 @@ def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
                 if spec:
                     yield Mistyped(get_attribute(prim, name), spec, "rel", str(wanted), False)
             elif (found := type_of_spec(spec)) != wanted:
+                stronger = (own_attribute(other, path) for other in stack[:strength])
+                if any(_corrects(other, spec, wanted) for other in stronger if other):
+                    continue
                 only_role = found.type == wanted.type
                 yield Mistyped(get_attribute(prim, name), spec, str(found), str(wanted), only_role)
 
 
+def _corrects(stronger: Any, weaker: Any, wanted: Any) -> bool:
+    """Whether a spec has values of the type that is wanted at all times at which a weaker has."""
+    is_animated = stronger.HasInfo("timeSamples") and not weaker.HasDefaultValue()
+    is_right = type_of_spec(stronger).type == wanted.type
+    return bool(is_right and (is_animated or stronger.HasDefaultValue()))
+
+
 def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
     """The attributes with values that are not read because their names are misspelt.
+
+    One whose name the schema knows is so only if its own type is rather that of the intended one.
 
     Skipped if the type of the intended attribute can't hold the value, if it may be meant to be
     another attribute, or if the intended one has a value too, unless the misspelt one is of the
@@ -97,9 +122,16 @@ def misspelt(prim: Any, authored: Authored) -> Iterator[Misspelt]:
                 yield Misspelt(attribute, intended, right)
             continue
         names_another = name.startswith("particleField:")
-        is_alike = spelling.is_alike(str(attribute.GetTypeName()), wanted)
+        is_alike = spelling.is_alike(str(_authored_type(attribute)), wanted)
         if names_another or (is_alike and not _may_be_own(attribute, intended, wanted)):
-            yield Misspelt(attribute, intended)
+            known = authored.declared.get(name)
+            yield Misspelt(attribute, intended, hiding=known.type_name if known else "")
+
+
+def _authored_type(attribute: Any) -> Any:
+    """The type that the strongest spec has, whatever the schema declares."""
+    specs = attribute.GetPropertyStack()
+    return specs[0].typeName if specs else attribute.GetTypeName()  # in value clips are none
 
 
 def _may_be_own(attribute: Any, intended: str, wanted: str) -> bool:

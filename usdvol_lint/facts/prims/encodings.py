@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.facts.usd.kinds import raw_apis
 
 
-@dataclass(frozen=True, slots=True)
-class Encoding:
+class Encoding(NamedTuple):
     """Where an encoding comes from, what to do, and by which `sign` on a prim it was recognised."""
 
     origin: str
@@ -81,12 +79,12 @@ def recognise(prim: Any) -> Encoding | None:
     """The encoding of a prim; makes few queries, since a stage may hold 100,000 Points."""
     type_name = prim.GetTypeName()
     if type_name in _BY_TYPE:
-        return replace(_BY_TYPE[type_name], sign=f"type {type_name!r}")
+        return _BY_TYPE[type_name]._replace(sign=f"type {type_name!r}")
     if type_name not in _BY_PROPERTIES:
         return None
     for api in raw_apis(prim) if type_name == "Points" else ():
         if api in _BY_API:
-            return replace(_BY_API[api], sign=f"applied API {api!r}")
+            return _BY_API[api]._replace(sign=f"applied API {api!r}")
     return _by_properties(prim, _BY_PROPERTIES[type_name])
 
 
@@ -99,7 +97,7 @@ def _by_properties(prim: Any, known: _Fingerprints) -> Encoding | None:
             if any(child.GetTypeName() in _BY_TYPE for child in prim.GetChildren()):
                 return None  # it is reported on these fields
             first = next(name for name in names if name.startswith(prefixes[0]))
-            return replace(encoding, sign=f"property {first!r}")
+            return encoding._replace(sign=f"property {first!r}")
     return None
 
 

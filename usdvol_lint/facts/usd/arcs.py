@@ -2,30 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf
 
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
-from usdvol_lint.facts.usd.instances import in_prototype, is_live
+from usdvol_lint.facts.usd.drawn import Drawn
+from usdvol_lint.facts.usd.instances import in_prototype
 
 _DIRECT = Pcp.DependencyTypeDirect | Pcp.DependencyTypeNonVirtual
 
 
 class Layered(NamedTuple):
-    """A live prim that several specs make up, strongest first; `parents` have children."""
+    """A drawn prim that several specs make up, strongest first; `parents` have children."""
 
     prim: Any
     specs: list[Any]
     parents: list[Any]
 
 
-def prims_with_arcs(stage: Any) -> list[Any]:
-    """The prims on which an arc is authored in any layer, in no certain order.
+class Arcs:
+    """Where the opinions on a stage come from: its layers, and the arcs between prims."""
 
-    USD's cache of compositions knows them: to ask every prim would take as long as the walk.
-    """
+    def __init__(self, stage: Any, drawn: Drawn) -> None:
+        self._stage = stage
+        self._drawn = drawn
+
+    @cached_property
+    def is_one_layer(self) -> bool:
+        """Whether nothing but the root layer says anything."""
+        session = self._stage.GetSessionLayer()
+        return {*self._stage.GetUsedLayers(), session} <= {self._stage.GetRootLayer(), session}
+
+    @cached_property
+    def prims(self) -> tuple[Any, ...]:
+        """The prims on which an arc is authored in any layer, in no certain order."""
+        return tuple(_prims_with_arcs(self._stage))
+
+    @cached_property
+    def layered(self) -> tuple[Layered, ...]:
+        """The drawn prims that several specs make up; those in instances as the walk meets them."""
+        if self.is_one_layer and not self.prims:
+            return ()
+        return tuple(_layered(self._stage, self.prims, self._drawn))
+
+
+def _prims_with_arcs(stage: Any) -> Iterator[Any]:
+    """USD's cache of compositions knows them: to ask every prim would take as long as the walk."""
     cache = stage._GetPcpCache()
     root = Sdf.Path.absoluteRootPath
     stacks = {
@@ -38,18 +63,17 @@ def prims_with_arcs(stage: Any) -> list[Any]:
         for stack in stacks
         for dependency in cache.FindSiteDependencies(stack, root, _DIRECT, True, False, True)
     }
-    return list(filter(None, map(stage.GetPrimAtPath, paths)))
+    return filter(None, map(stage.GetPrimAtPath, paths))
 
 
-def layered_prims(stage: Any) -> Iterator[Layered]:
-    """The live prims that several specs make up; those in instances as the walk meets them."""
+def _layered(stage: Any, with_arcs: Iterable[Any], drawn: Drawn) -> Iterator[Layered]:
     local = [layer.pseudoRoot for layer in stage.GetLayerStack()]
     pending = _children_of_several(stage.GetPseudoRoot(), local)
-    pending += prims_with_arcs(stage)
+    pending += (*with_arcs, *drawn.roots)
     seen = set()
     while pending:
         prim = in_prototype(pending.pop())
-        if prim in seen or not is_live(prim):
+        if prim in seen or prim not in drawn:
             continue
         seen.add(prim)
         specs = get_prim_stack(prim)
@@ -60,7 +84,7 @@ def layered_prims(stage: Any) -> Iterator[Layered]:
 
 
 def _children_of_several(prim: Any, parents: Sequence[Any]) -> list[Any]:
-    """The live children of a prim of which several of its specs say something."""
+    """The drawn children of a prim of which several of its specs say something."""
     if len(parents) < 2:
         return []  # nearly always: the names of many children are read only where they matter
     seen: set[str] = set()

@@ -11,6 +11,7 @@ parent_path: Any = Sdf.Path.GetParentPath
 prim_path: Any = Sdf.Path.GetPrimPath
 
 own_attribute: Any = Sdf.PrimSpec.GetAttributeAtPath
+own_relationship: Any = Sdf.PrimSpec.GetRelationshipAtPath
 type_of_spec: Any = Sdf.AttributeSpec.typeName.fget
 
 count_samples: Any = Usd.Attribute.GetNumTimeSamples
@@ -31,6 +32,7 @@ get_property_names: Any = Usd.Prim.GetAuthoredPropertyNames
 get_relationship: Any = Usd.Prim.GetRelationship
 get_type: Any = Usd.Prim.GetTypeName
 has_metadata: Any = Usd.Prim.HasAuthoredMetadata
+has_specifier: Any = Usd.Prim.HasDefiningSpecifier
 is_defined: Any = Usd.Prim.IsDefined
 is_in_prototype: Any = Usd.Prim.IsInPrototype
 

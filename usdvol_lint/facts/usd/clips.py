@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import chain
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Sdf, Tf, Usd
 
@@ -19,8 +18,7 @@ _CLIPS_OPENED = 4
 _ALL = Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)
 
 
-@dataclass(frozen=True, slots=True)
-class ClipSet:
+class ClipSet(NamedTuple):
     """One clip set authored on `prim`.
 
     `clips` and `manifest` are `Sdf.AssetPath`s, resolved by USD.
@@ -55,10 +53,11 @@ class ClipSet:
 
     def _with_samples(self, attribute: Any) -> Iterator[Any]:
         path = self.path_in_layers(attribute)
-        for clip in self.clips[:_CLIPS_OPENED]:
-            layer = open_layer(clip)
-            if layer and layer.GetNumTimeSamplesForPath(path):
-                yield layer
+        return (layer for layer in self.opened() if layer.GetNumTimeSamplesForPath(path))
+
+    def opened(self) -> Iterator[Any]:
+        """The layers of the first clips, as far as they open."""
+        return filter(None, map(open_layer, self.clips[:_CLIPS_OPENED]))
 
     def clip_at(self, time: float) -> str | None:
         """The authored path of the clip that is active at a time of the stage."""
@@ -152,6 +151,15 @@ def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
         return ()
 
 
+def is_from_clips(attribute: Any) -> bool:
+    """Whether the first time sample of an attribute is one of value clips."""
+    times = attribute.GetTimeSamples()
+    if not times:
+        return False
+    source = attribute.GetResolveInfo(times[0]).GetSource()
+    return bool(source == Usd.ResolveInfoSourceValueClips)
+
+
 def concerns_only_clips(error: Any, stage: Any) -> bool:
     """Whether an error that USD raised is about value clips that do not open, and nothing else.
 
@@ -177,6 +185,11 @@ class Clips:
     def __init__(self, prims: Iterable[Any]) -> None:
         self._prims = frozenset(prims)
         self._own: dict[Any, tuple[ClipSet, ...]] = {}
+
+    @property
+    def bearing(self) -> frozenset[Any]:
+        """All prims on which clip sets are authored, as far as prims of ours are concerned."""
+        return self._prims
 
     @property
     def are_authored(self) -> bool:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Sdf
 
@@ -14,8 +13,7 @@ from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.model import quoted
 
 
-@dataclass(frozen=True, slots=True)
-class HiddenAnimation:
+class HiddenAnimation(NamedTuple):
     """The strongest of what is hidden, in words; the `layers` that hold it, all at one `path`."""
 
     words: str

@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from enum import IntEnum
 from functools import cache
 from typing import Any, NamedTuple
 
-from pxr import Sdf, Usd
+from pxr import Sdf
+
+
+class Standing(IntEnum):
+    """How an instance stands on the stage, the best first.
+
+    Traversals visit it; or an `over` stands above that nothing defines, so that at most a
+    PointInstancer draws it; or it is part of a `class`.
+    """
+
+    DEFINED = 0
+    UNDEFINED = 1
+    ABSTRACT = 2
 
 
 class Shown(NamedTuple):
@@ -21,7 +34,7 @@ def shown(prim: Any) -> Shown:
     if not prim.IsInPrototype():
         return Shown(str(prim.GetPath()), 1)
     below = path_in_prototype(prim)
-    through = [shown(instance) for instance in instances_of(_prototype(prim))]
+    through = [shown(instance) for instance in instances_of(prototype_of(prim))]
     path = min(instance.path for instance in through)
     return Shown(path + below, sum(instance.instances for instance in through))
 
@@ -36,7 +49,7 @@ def as_shown(prims: Iterable[Any]) -> list[Any]:
     def path(prim: Any) -> Any:
         if not prim.IsInPrototype():
             return prim.GetPath()
-        return Sdf.Path(prototypes(_prototype(prim)) + path_in_prototype(prim))
+        return Sdf.Path(prototypes(prototype_of(prim)) + path_in_prototype(prim))
 
     return sorted(dict.fromkeys(prims), key=path)
 
@@ -46,31 +59,40 @@ def shown_paths(prim: Any) -> list[str]:
     if not prim.IsInPrototype():
         return [str(prim.GetPath())]
     below = path_in_prototype(prim)
-    instances = instances_of(_prototype(prim))
+    instances = instances_of(prototype_of(prim))
     return sorted(path + below for instance in instances for path in shown_paths(instance))
 
 
 def instances_of(prototype: Any) -> list[Any]:
-    """The instances through which a prototype appears; all of them if it appears through none."""
-    instances: list[Any] = prototype.GetInstances()
-    return list(filter(_appears, instances)) or instances
+    """The instances through which a prototype appears: those of the best standing."""
+    standings = [(_standing_of(instance), instance) for instance in prototype.GetInstances()]
+    best = min(standing for standing, _ in standings)
+    return [instance for standing, instance in standings if standing is best]
 
 
-def appears(prototype: Any) -> bool:
-    """Whether a prototype has an instance that is not part of a `class`, also in prototypes."""
-    return any(map(_appears, prototype.GetInstances()))
+def standing_of(prototype: Any) -> Standing:
+    """The best standing of its instances."""
+    best = Standing.ABSTRACT
+    for instance in prototype.GetInstances():
+        best = min(best, _standing_of(instance))
+        if best is Standing.DEFINED:
+            break
+    return best
 
 
-def _appears(instance: Any) -> bool:
-    if instance.IsInPrototype():
-        return appears(_prototype(instance))
-    return not instance.IsAbstract()
+def _standing_of(instance: Any) -> Standing:
+    """Its own, or that of the prototype that it is in if that is worse."""
+    if instance.IsAbstract():
+        return Standing.ABSTRACT
+    own = Standing.DEFINED if instance.IsDefined() else Standing.UNDEFINED
+    around = instance.IsInPrototype()
+    return max(own, standing_of(prototype_of(instance))) if around else own
 
 
 def path_in_prototype(prim: Any) -> str:
     """The path relative to the prototype, equal for all instances; outside one, the whole path."""
     path = str(prim.GetPath())
-    return path[len(str(_prototype(prim).GetPath())) :] if prim.IsInPrototype() else path
+    return path[len(str(prototype_of(prim).GetPath())) :] if prim.IsInPrototype() else path
 
 
 def shown_path(stage: Any, path: Any) -> str:
@@ -82,7 +104,7 @@ def shown_path(stage: Any, path: Any) -> str:
     return shown(prim).path + str(path)[len(str(root)) :]
 
 
-def _prototype(prim: Any) -> Any:
+def prototype_of(prim: Any) -> Any:
     """The root of the prototype that a prim is in."""
     while not prim.IsPrototype():
         prim = prim.GetParent()
@@ -92,13 +114,3 @@ def _prototype(prim: Any) -> Any:
 def in_prototype(prim: Any) -> Any:
     """The prim of the prototype for an instance proxy; any other prim itself."""
     return prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
-
-
-def is_live(prim: Any) -> bool:
-    """Whether a prim is active, loaded, defined and not abstract, as a traversal asks."""
-    return bool(Usd.PrimDefaultPredicate(prim))
-
-
-def live_prototypes(stage: Any) -> list[Any]:
-    """The prototypes with an instance that a traversal visits, or that lies in a prototype."""
-    return [each for each in stage.GetPrototypes() if any(map(is_live, each.GetInstances()))]

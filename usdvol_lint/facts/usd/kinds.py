@@ -34,8 +34,10 @@ class PrimKinds:
     def keys(self, prims: Sequence[Any]) -> list[KindKey]:
         """The keys of many prims' kinds, in a third of the time of asking for each."""
         types = map(get_type, prims)
-        applied = map(get_applied, prims)
+        applied = list(map(get_applied, prims))
         if self.knows_particle_fields:
+            if not any(applied):
+                return list(zip(types))
             return [(name, *apis) for name, apis in zip(types, applied, strict=True)]
         known = self._known_keys
         schemas = zip(types, map(tuple, applied), map(raw_apis, prims), strict=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -38,6 +38,7 @@ class Volumes(Wing):
         tables: Tables,
         stage: Any,
         kinds: PrimKinds,
+        untyped: Sequence[Any],
         prims: Prims,
         files: Files,
         layers: Layers,
@@ -47,6 +48,7 @@ class Volumes(Wing):
         super().__init__(tables)
         self._stage = stage
         self._kinds = kinds
+        self._untyped = untyped
         self._prims = prims
         self._files = files
         self._layers = layers
@@ -111,8 +113,8 @@ class Volumes(Wing):
         What uses a field under this selection is added to `used`, for the selections to come.
         There are none where part of the stage can't be read, and without Volumes none but the only
         field of the stage: several are a library.  Fields are left out that a faulty Volume
-        accounts for, also one whose type is hidden or missing: those below it, and those that its
-        relationships probably intended.
+        accounts for, also one that is not drawn, or whose type is hidden or missing: those below
+        it, and those that its relationships probably intended.
         """
         from usdvol_lint.facts.volumes import usage
 
@@ -122,8 +124,8 @@ class Volumes(Wing):
         is_library = not volumes and len(slots) > 1
         if is_library or not self._used.missing_of(slots) or not self._layers.are_whole:
             return []
-        hidden = self._layers.undefined_prims
-        if not volumes and usage.any_targets(self._stage, next(iter(slots)), hidden):
+        layers = self._layers
+        if not volumes and usage.any_targets(self._stage, next(iter(slots)), layers.out_of_reach):
             return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
@@ -131,7 +133,8 @@ class Volumes(Wing):
             self._used.add(
                 usage.accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
             )
-        others = [each.prim for each in self._layers.retyped]
+        others = [prim for prim in layers.undrawn if self._prims.is_a(prim, schema.VOLUME)]
+        others += (each.prim for each in layers.retyped)
         for prim in (*others, *(each.prim for each in self.lookalikes)):
             self._used.add(usage.accounted_for_by_other(prim, self._kinds))
         return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
@@ -142,26 +145,42 @@ class Volumes(Wing):
 
         Left out are those whose type is hidden, and those that may lack opinions.
         """
-        from usdvol_lint.facts.usd.instancers import undefined_prototypes
+        unbound = self._users.missing_of(self.tables.field_slots)
+        if not (unbound or self._untyped):
+            return []
         from usdvol_lint.facts.volumes.lookalikes import lookalikes
 
-        unbound = self._users.missing_of(self.tables.field_slots)
-        drawn = undefined_prototypes(self.tables.prims(schema.POINT_INSTANCER), self._kinds)
+        layers, found = self._layers, lookalikes(self._stage, self._untyped, unbound)
         return [
             each
-            for each in lookalikes(self._stage, unbound, drawn)
-            if not self._layers.may_lack(each.prim) and not self._layers.hides_ours(each.prim)
+            for each in found
+            if not (layers.may_lack(each.prim) or layers.hides_ours(each.prim))
         ]
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:
         """A predicate for later: whether no variant selection until then uses the field."""
         return self._used.never_get(field.GetPath())
 
+    def is_hidden(self, field: Any, times: Sequence[float]) -> bool:
+        """Whether a field, or each of the Volumes that bind it, is invisible at all these times."""
+        from usdvol_lint.facts.volumes.visibility import is_hidden
+
+        slot = self.tables.field_slots.get(field.GetPath())
+        bound = self.bound_fields.readable(schema.VOLUME)
+        return is_hidden(field, [volume for volume, fields in bound if slot in fields.slots], times)
+
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How transforms move a field relative to a Volume that binds it, if they do."""
         from usdvol_lint.facts.volumes.placement import displacement
 
         return displacement(volume, field)
+
+    def are_apart(self, volume: Any, fields: Container[str]) -> bool:
+        """Whether one of these fields is outside a Volume and does not move with it."""
+        return any(
+            target.shown in fields and self.displacement(volume, target.prim)
+            for _, target in self.bindings(volume).outside(volume)
+        )
 
     @summary
     def overhangs(self, table: Table) -> Sequence[float]:

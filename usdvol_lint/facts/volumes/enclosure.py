@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.grids import Grids
@@ -14,9 +14,11 @@ from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.volumes.bindings import BoundFields, FieldBindings
 from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
 from usdvol_lint.facts.volumes.placement import UNTRANSFORMED, Placement, read_placements
-from usdvol_lint.facts.volumes.shortfall import PlacedField, Shortfall, find_shortfall
 from usdvol_lint.facts.volumes.targets import Target
-from usdvol_lint.facts.volumes.unmeasured import UnmeasuredGrids, find_unmeasured
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.volumes.shortfall import Shortfall
+    from usdvol_lint.facts.volumes.unmeasured import UnmeasuredGrids
 
 
 class Enclosure:
@@ -43,6 +45,8 @@ class Enclosure:
         self, volume: Any, bindings: FieldBindings, relative_slack: float
     ) -> Shortfall | None:
         """By how much an authored extent fails to enclose the grids of a Volume, if it does."""
+        from usdvol_lint.facts.volumes.shortfall import PlacedField, find_shortfall
+
         limits = self._prims.limits(volume)
         if not limits.are_authored:
             return None
@@ -55,6 +59,8 @@ class Enclosure:
 
     def unmeasured(self, volume: Any, bindings: FieldBindings) -> UnmeasuredGrids | None:
         """The grids with which the authored extent of a Volume can't be compared, if there are."""
+        from usdvol_lint.facts.volumes.unmeasured import find_unmeasured
+
         limits = self._prims.limits(volume)
         if not limits.are_authored:
             return None

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from itertools import chain, islice
+from itertools import chain
 from typing import Any, NamedTuple
 
 from pxr import Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import get_parent, get_property_names, get_type
-from usdvol_lint.facts.usd.instances import in_prototype, live_prototypes
+from usdvol_lint.facts.usd.calls import (
+    DRAWN_BELOW,
+    get_parent,
+    get_prim_stack,
+    get_property_names,
+    get_type,
+    has_specifier,
+)
+from usdvol_lint.facts.usd.instances import in_prototype
+from usdvol_lint.facts.usd.unselected import may_be_said
+from usdvol_lint.facts.usd.untyped import GROUP_TYPES
 
-_GROUP_TYPES = frozenset({"", "Xform", "Scope"})
 _ARRAYS = (
     "positions",
     "orientations",
@@ -20,8 +28,6 @@ _ARRAYS = (
     "opacities",
     "radiance:sphericalHarmonicsCoefficients",
 )
-_SEARCHED = 20_000
-"""How many prims are looked at, the first ones: more would take longer than all other rules."""
 
 
 class Lookalike(NamedTuple):
@@ -31,41 +37,34 @@ class Lookalike(NamedTuple):
     binding: Any | None = None
 
 
-def lookalikes(
-    stage: Any, unbound: Collection[Any], undefined: Iterable[Iterable[Any]]
-) -> list[Lookalike]:
+def lookalikes(stage: Any, untyped: Iterable[Any], unbound: Collection[Any]) -> list[Lookalike]:
     """By path: what would bind one of the fields at these paths, or has all the splat arrays.
 
-    `undefined` are the prims that are drawn though no traversal visits them.
+    `untyped` are the prims that are in question, besides those above the fields.
+    Left out are those that a variant which is not selected may give a type.
     """
     found = {}
-    for prim in chain(_above(stage, unbound), _first_groups(stage, undefined)):
+    for prim in chain(_above(stage, unbound), untyped):
         names = get_property_names(prim)
         binding = _binding(prim, names, unbound) if unbound and names else None
         if binding and _is_above_volume(prim):
             continue  # which may forward to it, in a variant that is not selected
-        if binding or (names and _has_arrays(names)):
+        is_alike = binding or (names and _has_arrays(names))
+        if is_alike and not _may_be_typed(prim):
             found[prim] = Lookalike(prim, binding)
     return sorted(found.values(), key=lambda each: each.prim.GetPath())
 
 
 def _above(stage: Any, paths: Iterable[Any]) -> Iterator[Any]:
-    """The prims above those at these paths."""
+    """The drawn prims above those at these paths."""
     seen = set()
     for path in paths:
         prim = get_parent(stage.GetPrimAtPath(path))
-        while prim and not prim.IsPseudoRoot() and prim not in seen:
+        while has_specifier(prim) and not prim.IsPseudoRoot() and prim not in seen:
             seen.add(prim)
-            if get_type(prim) in _GROUP_TYPES:
+            if get_type(prim) in GROUP_TYPES:
                 yield prim
             prim = get_parent(prim)
-
-
-def _first_groups(stage: Any, undefined: Iterable[Iterable[Any]]) -> Iterator[Any]:
-    """The first prims of the stage that have a type in question."""
-    ranges = chain([stage.Traverse()], map(Usd.PrimRange, live_prototypes(stage)), undefined)
-    first = islice(chain.from_iterable(ranges), _SEARCHED)
-    return (prim for prim in first if get_type(prim) in _GROUP_TYPES)
 
 
 def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any | None:
@@ -81,7 +80,18 @@ def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any |
 
 
 def _is_above_volume(prim: Any) -> bool:
-    return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim))
+    return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim, DRAWN_BELOW))
+
+
+def _may_be_typed(prim: Any) -> bool:
+    """Whether a variant may give a prim another type: only a type said in place is stronger."""
+    local = prim.GetStage().GetLayerStack()
+    for spec in get_prim_stack(prim):
+        if spec.typeName:
+            if spec.layer in local and not spec.path.ContainsPrimVariantSelection():
+                return False
+            break
+    return may_be_said(prim, lambda spec: bool(spec.typeName))
 
 
 def _has_arrays(names: Collection[str]) -> bool:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.states import AssetState
@@ -17,8 +16,7 @@ _KNOWN = frozenset({AssetState.FILE, AssetState.UNVERIFIABLE})
 _FILES_NAMED = 3
 
 
-@dataclass(frozen=True, slots=True)
-class MixedFiles:
+class MixedFiles(NamedTuple):
     """The times at which the fields of a Volume name several files.
 
     `fields` maps each file at the first such time to the names of the fields that name it.

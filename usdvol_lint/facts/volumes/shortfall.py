@@ -26,6 +26,9 @@ from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Grid, Matrix
 from usdvol_lint.volumefile.transform import IDENTITY
 
+_MOST_SAMPLES = 6
+_STATEMENT = "float3[] extent = "
+
 
 class Moment(NamedTuple):
     """A grid at a time, and the matrix from its world space to the space of the Volume."""
@@ -127,20 +130,20 @@ class Overhang(NamedTuple):
 class Shortfall:
     """An authored extent that is too small, and the grid that sticks out of it furthest.
 
-    `fields` counts the fields with a grid that sticks out, `checked` the times that were compared;
+    `fields` are those with a grid that sticks out; `checked` counts the times that were compared;
     `times` and `at_default` are those at which the extent is too small.
-    `fitting` is the statement of an extent that encloses the whole voxels: for that time alone if
-    the extent is animated and too small at a single time, else for all times.
+    `remedy` says which extent encloses the whole voxels: an animated one at the times at which it
+    is too small, if these are few, else one for all times.
     """
 
     attribute: Any
     worst: Overhang
-    fields: int
+    fields: frozenset[str]
     times: tuple[float, ...]
     at_default: bool
     checked: int
     only_half_voxels: bool
-    fitting: str
+    remedy: str
     asset: ClassVar[None] = None
 
     @property
@@ -158,8 +161,8 @@ class Shortfall:
             default = ", the default time among them" if self.at_default else ""
             times = len(self.times) + self.at_default
             words.append(f"at {times} of {self.checked} times{default}")
-        if self.fields > 1:
-            words.append(f"in {self.fields} fields")
+        if len(self.fields) > 1:
+            words.append(f"in {len(self.fields)} fields")
         return f" ({', '.join(words)})" if words else ""
 
 
@@ -171,7 +174,8 @@ def find_shortfall(
     A box may stick out by `relative_slack` times its largest coordinate.
     If a voxel centre is outside, half-voxel overhangs elsewhere are not reported.
     """
-    centres, halves, checked = _Tally(), _Tally(), set()
+    checked: set[Time] = set()
+    centres, halves = _Tally(checked), _Tally(checked)
     for placed in fields:
         for moment in placed.moments(limits.times):
             limit, whole = limits.at(moment.time), boxes.whole(moment.grid, moment.matrix)
@@ -191,19 +195,20 @@ def find_shortfall(
     return Shortfall(
         attribute=limits.attribute,
         worst=tally.worst,
-        fields=len(tally.fields),
+        fields=frozenset(tally.fields),
         times=tally.timed,
         at_default=None in tally.times and len(checked) > 1,
         checked=len(checked),
         only_half_voxels=tally is halves,
-        fitting=_fitting(limits, fields, boxes, tally),
+        remedy=_remedy(limits, fields, boxes, tally),
     )
 
 
 @dataclass(slots=True)
 class _Tally:
-    """What sticks out of the extent, over all fields and times."""
+    """What sticks out of the extent, over all fields and times, of those that were `checked`."""
 
+    checked: set[Time]
     times: set[Time] = field(default_factory=set)
     fields: set[str] = field(default_factory=set)
     worst: Overhang | None = None
@@ -223,14 +228,24 @@ class _Tally:
             self.worst = overhang
 
 
-def _fitting(limits: Limits, fields: Sequence[PlacedField], boxes: GridBoxes, tally: _Tally) -> str:
-    """The statement of an extent that encloses all grids, at one time or at all times."""
-    if limits.times and len(tally.times) == 1:
-        (time,) = tally.times
-        moments = [moment for placed in fields if (moment := placed.at(time))]
-        statement = "float3[] extent = " if time is None else f"{format_time(time)}: "
-    else:
-        moments = [moment for placed in fields for moment in placed.moments(limits.times)]
-        statement = "float3[] extent = "
+def _remedy(limits: Limits, fields: Sequence[PlacedField], boxes: GridBoxes, tally: _Tally) -> str:
+    """The extents to write: at the times in question, for samples hide a default, or for all."""
+    if not limits.times or len(tally.times) > _MOST_SAMPLES:
+        instead = " in the place of the time samples" if limits.times else ""
+        return f"write '{fitting(fields, boxes, limits.times)}'{instead}"
+    is_interpolated = not tally.checked - {None} <= set(limits.times)
+    samples = []
+    for time in sorted(tally.times, key=lambda time: (time is not None, time or 0.0)):
+        moments = (moment for placed in fields if (moment := placed.at(time)))
+        wholes = list(filter(None, (boxes.whole(grid, matrix) for _, grid, matrix in moments)))
+        held = limits.at(time) if is_interpolated else None
+        box = extent_around([*wholes, held] if held else wholes)  # what lies between stays enclosed
+        samples.append(f"'{_STATEMENT if time is None else f'{format_time(time)}: '}{box}'")
+    return f"write {', '.join(samples)}"
+
+
+def fitting(fields: Sequence[PlacedField], boxes: GridBoxes, times: Iterable[float] = ()) -> str:
+    """The statement of an extent that encloses all grids at all times, also at these."""
+    moments = (moment for placed in fields for moment in placed.moments(times))
     wholes = (boxes.whole(grid, matrix) for _, grid, matrix in moments)
-    return statement + extent_around(filter(None, wholes))
+    return _STATEMENT + extent_around(filter(None, wholes))

@@ -99,8 +99,26 @@ def _missing_state(ancestor: Any) -> TargetState:
 
 def _prim_state(prim: Any, schemas: frozenset[str], volume: Any) -> tuple[TargetState, Any]:
     """The state of a prim, and the prim that explains it."""
+    for each in (*_instances_above(prim), prim):
+        if found := _off_stage(each, volume):
+            return found
+    return _schema_state(prim, schemas), prim
+
+
+def _instances_above(prim: Any) -> list[Any]:
+    """The instances that an instance proxy is in, the outermost first: it lacks their flags."""
+    instances = []
+    while prim.IsInstanceProxy():
+        prim = get_parent(prim)
+        if prim.IsInstance():
+            instances.append(prim)
+    return instances[::-1]
+
+
+def _off_stage(prim: Any, volume: Any) -> tuple[TargetState, Any] | None:
+    """Why a prim is not on the stage, and the prim that explains it."""
     if _LIVE(prim):
-        return _schema_state(prim, schemas), prim
+        return None
     if not prim.IsActive():
         return TargetState.INACTIVE, prim
     if not prim.IsLoaded():
@@ -109,7 +127,7 @@ def _prim_state(prim: Any, schemas: frozenset[str], volume: Any) -> tuple[Target
         return TargetState.OVER, _topmost(prim, lambda above: not above.IsDefined())
     if prim.IsAbstract():
         return TargetState.ABSTRACT, _topmost(prim, lambda above: above.IsAbstract())
-    return _schema_state(prim, schemas), prim
+    return None
 
 
 def _is_drawn_with(volume: Any, prim: Any) -> bool:

@@ -81,21 +81,26 @@ def accounted_for(
 
 
 def accounted_for_by_other(prim: Any, kinds: PrimKinds) -> Iterator[Any]:
-    """The paths of the fields that a prim of another type would use if it were a Volume."""
+    """The paths of the fields that a prim would use if it were a Volume that is drawn."""
     yield from (in_prototype(field).GetPath() for field in _fields_below(prim, kinds))
     for relationship in prim.GetAuthoredPropertiesInNamespace(schema.FIELD_NAMESPACE):
         if isinstance(relationship, Usd.Relationship):
-            yield from relationship.GetForwardedTargets()
+            yield from _as_walked(prim.GetStage(), relationship.GetForwardedTargets())
 
 
-def any_targets(stage: Any, field: Any, undefined: Iterable[Any]) -> bool:
-    """Whether a relationship targets the field at a path, on the stage or on undefined prims."""
+def any_targets(stage: Any, field: Any, out_of_reach: Iterable[Any]) -> bool:
+    """Whether a relationship targets the field at a path; traversals do not reach some prims."""
     roots = (stage.GetPseudoRoot(), *stage.GetPrototypes())
     targets = [path for root in roots for path in root.FindAllRelationshipTargetPaths()]
-    for prim in undefined:
+    for prim in out_of_reach:
         targets += (path for rel in prim.GetRelationships() for path in rel.GetForwardedTargets())
+    return field in _as_walked(stage, targets)
+
+
+def _as_walked(stage: Any, targets: Iterable[Any]) -> Iterator[Any]:
+    """The paths of the prims at these paths as the walk meets them: in their prototypes."""
     prims = (stage.GetPrimAtPath(path.GetPrimPath()) for path in targets)
-    return any(prim and in_prototype(prim).GetPath() == field for prim in prims)
+    return (in_prototype(prim).GetPath() for prim in prims if prim)
 
 
 def unbound_fields(

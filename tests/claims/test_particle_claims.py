@@ -1,0 +1,88 @@
+"""What the pages of rules/particle say of USD, asked of USD."""
+
+from __future__ import annotations
+
+from answers import Said, stage, with_particles
+from pxr import Usd, UsdShade, UsdVol
+
+pytestmark = with_particles
+
+
+def schemas(text: str) -> list[str]:
+    return list(stage(text).GetPrimAtPath("/splats").GetAppliedSchemas())
+
+
+def applied(*names: str) -> str:
+    listed = ", ".join(f'"{name}"' for name in names)
+    return f'def ParticleField "splats" (prepend apiSchemas = [{listed}])\n{{\n}}\n'
+
+
+def test_PRT001_nothing_is_enforced() -> None:
+    with Said() as said:
+        asked = stage('def ParticleField "splats"\n{\n}\n').GetPrimAtPath("/splats")
+        assert asked.IsA(UsdVol.ParticleField)
+        assert asked.GetAppliedSchemas() == []
+    assert said == []
+
+
+def test_PRT001_the_api_brings_its_base() -> None:
+    name = "ParticleFieldPositionAttributeAPI"
+    assert schemas(applied(name)) == [name, "ParticleFieldPositionBaseAPI"]
+
+
+def test_PRT002_the_splat_type_has_a_kernel() -> None:
+    found = schemas('def ParticleField3DGaussianSplat "splats"\n{\n}\n')
+    assert {"ParticleFieldKernelGaussianEllipsoidAPI", "ParticleFieldKernelBaseAPI"} <= set(found)
+
+
+def test_PRT004_base_apis_have_no_attributes() -> None:
+    for name in ("Position", "Kernel", "Radiance"):
+        base = f"ParticleField{name}BaseAPI"
+        asked = Usd.SchemaRegistry().FindAppliedAPIPrimDefinition(base)
+        assert asked.GetPropertyNames() == []
+        assert stage(applied(base)).GetPrimAtPath("/splats").HasAPI(getattr(UsdVol, base))
+
+
+def test_PRT005_built_in_apis_stay() -> None:
+    text = applied("ParticleFieldKernelConstantSurfletAPI")
+    found = schemas(text.replace("ParticleField ", "ParticleField3DGaussianSplat "))
+    assert "ParticleFieldKernelGaussianEllipsoidAPI" in found
+    assert "ParticleFieldKernelConstantSurfletAPI" in found
+
+
+def test_PRT006_unknown_names_are_dropped_without_a_word() -> None:
+    with Said() as said:
+        assert schemas(applied("ParticleFieldPositionAPI")) == []
+    assert said == []
+
+
+def test_PRT006_any_text_can_be_added() -> None:
+    asked = stage('def ParticleField "splats"\n{\n}\n').GetPrimAtPath("/splats")
+    assert asked.AddAppliedSchema("NoSuchAPI")
+
+
+def test_PRT007_without_its_api_an_attribute_is_a_custom_one() -> None:
+    text = 'def ParticleField "splats"\n{\n    point3f[] positions = [(0, 0, 0)]\n}\n'
+    bare = stage(text).GetPrimAtPath("/splats")
+    assert "positions" not in bare.GetPrimDefinition().GetPropertyNames()
+    assert not bare.HasAPI(UsdVol.ParticleFieldPositionAttributeAPI)
+
+
+def test_PRT008_the_splat_type_has_six_apis_and_hints() -> None:
+    asked = stage('def ParticleField3DGaussianSplat "splats"\n{\n}\n').GetPrimAtPath("/splats")
+    found = [name for name in asked.GetAppliedSchemas() if "Base" not in name]
+    parts = ("Position", "Orientation", "Scale", "Opacity", "SphericalHarmonics")
+    attributes = [f"ParticleField{part}AttributeAPI" for part in parts]
+    assert sorted(found) == sorted([*attributes, "ParticleFieldKernelGaussianEllipsoidAPI"])
+    by_parts = stage(applied(*found)).GetPrimAtPath("/splats")
+    assert not by_parts.IsA(UsdVol.ParticleField3DGaussianSplat)
+    assert asked.HasAttribute("sortingModeHint")
+    assert not by_parts.HasAttribute("sortingModeHint")
+
+
+def test_PRT003_a_binding_counts_without_its_api() -> None:
+    text = 'def ParticleField "splats"\n{\n    rel material:binding = </look>\n}\n'
+    splats = stage(text + 'def Material "look"\n{\n}\n').GetPrimAtPath("/splats")
+    assert not splats.HasAPI(UsdShade.MaterialBindingAPI)
+    bound, _ = UsdShade.MaterialBindingAPI(splats).ComputeBoundMaterial()
+    assert bound.GetPath() == "/look"

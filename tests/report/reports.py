@@ -1,0 +1,175 @@
+"""One report that has everything, the schema of the JSON format, and text without its styles."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from process import ROOT
+
+from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status
+from usdvol_lint.report.json_report import SCHEMA_VERSION
+
+SCHEMA: dict[str, Any] = json.loads(
+    (ROOT / f"usdvol_lint/report/report-{SCHEMA_VERSION}.schema.json").read_text(encoding="utf-8")
+)
+
+HELP = "https://example.org/rules"
+
+LONG_FOLDER = "projects/feature/sequences/sq010/shots/sq010_sh0420/effects/pyro/publish/v0017"
+LONG_PRIM = "/World/Effects/Pyro/Explosion_Main/Debris_Trails/Trail_0042/Simulation/Cache/Volume"
+
+MISSING = Finding(
+    code="AST002",
+    name="file-missing",
+    severity=Severity.ERROR,
+    message="no file at '../vdb cache/smoke.0102.vdb' (4 of 120 frames)",
+    site=Site(
+        layer="shots/smoke.usda",
+        prim="/World/Smoke/density",
+        property="filePath",
+        line=31,
+        column=12,
+        times=(102.0, 103.0, 104.0, 117.0),
+    ),
+    suggestion="render the missing frames, or end the clip at frame 101",
+    help=f"{HELP}/file-missing",
+    fingerprint="0123456789abcdef",
+)
+
+SMOKE = StageReport(
+    path="shots/smoke.usda",
+    status=Status.CHECKED,
+    stats={
+        "prims": 1234,
+        "volumes": 11,
+        "fields": 24,
+        "particle_fields": 1,
+        "files_checked": 31204,
+    },
+    findings=(
+        Finding(
+            code="STG004",
+            name="units-unsaid",
+            severity=Severity.WARNING,
+            message="no metersPerUnit, so that densities have no scale",
+            site=Site(layer="shots/smoke.usda", line=1, column=1),
+            suggestion="author metersPerUnit",
+        ),
+        MISSING,
+        MISSING._replace(
+            code="GRD001",
+            name="grid-missing",
+            message="no grid 'density' in '../vdb/smoke.0101.vdb', which holds 'Density'",
+            site=MISSING.site._replace(
+                property="fieldName",
+                layer=f"{LONG_FOLDER}/smoke_payload.usda",
+                line=7,
+                column=None,
+                times=(101.5,),
+                variant="{quality=high}",
+            ),
+            suggestion=None,
+            help=None,
+        ),
+        Finding(
+            code="FLD003",
+            name="field-unused",
+            severity=Severity.INFO,
+            message="no volume uses this field",
+            site=Site(layer=f"{LONG_FOLDER}/lib.usdc", prim=LONG_PRIM),
+            suggestion=f"bind it to a volume or remove it: {LONG_PRIM} holds 24 fields more, and "
+            "each of them costs time",
+        ),
+        Finding(
+            code="ARR001",
+            name="not-finite",
+            severity=Severity.ERROR,
+            message="3 of 1,000,000 values are not finite, first nan at [17]",
+            site=Site(
+                layer="shots/smoke.usda",
+                prim="/World/Splats",
+                property="primvars:opacities",
+                line=88,
+                column=5,
+                times=(1.0, 3.0, 5.0),
+                at_default=True,
+            ),
+        ),
+    ),
+    seconds={"open": 0.25, "facts": 1.0, "rules": 0.125},
+)
+
+HOSTILE = StageReport(
+    path="shots/\udcff[red]evil[/red].usda",
+    status=Status.CHECKED,
+    stats={"prims": 1},
+    findings=(
+        Finding(
+            code="SCH001",
+            name="odd-name",
+            severity=Severity.ERROR,
+            message="'\x1b[31mred\x1b[0m' [bold]is[/bold] :boom:\r\n::error::no\u202etxet"
+            "\x9b0m \ud800",
+            site=Site(
+                layer="shots/\udcff[red]evil[/red].usda",
+                prim="/[link=x]\n/\x07",
+                property="a:\x7f\u2028b",
+                line=2,
+                column=3,
+            ),
+            suggestion="rename Дым煙\N{FIRE} \x00",
+        ),
+    ),
+)
+
+CRASHED = StageReport(
+    path="shots/crash.usd",
+    status=Status.CRASHED,
+    findings=(
+        Finding(
+            code="LNT001",
+            name="rule-failed",
+            severity=Severity.ERROR,
+            message="GRD001 failed: ZeroDivisionError: division by zero",
+            site=Site(layer="shots/crash.usd", prim="/World"),
+            detail='Traceback:\n\tFile "grid.py", line 3\nZeroDivisionError: \x1b[5mzero\n',
+        ),
+    ),
+)
+
+CLEAN = StageReport(
+    path="shots/clean.usda", status=Status.CHECKED, stats={"volumes": 1, "files_checked": 1}
+)
+TIMED_OUT = StageReport(path="shots/endless.usdc", status=Status.TIMED_OUT)
+UNREADABLE = StageReport(path="shots/broken.usdz", status=Status.UNREADABLE)
+
+
+def report(*stages: StageReport) -> Report:
+    return Report(
+        version="0.1.0",
+        usd_version="0.26.8",
+        settings={
+            "fail_on": Severity.ERROR,
+            "select": frozenset({"GRD", "AST"}),
+            "options": {"GRD004": {"limit": float("inf")}},
+            "config": Path("studio/usdvol-lint.toml"),
+            "paths": ("shots",),
+            "payloads": True,
+            "baseline": None,
+        },
+        stages=stages,
+        seconds=1.2345,
+    )
+
+
+EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
+NOTHING = report(CLEAN)
+INFOS = report(SMOKE._replace(findings=SMOKE.findings[3:4]), CLEAN)
+
+
+def without_styles(text: str) -> str:
+    """Text without the escape codes that set a style."""
+    return re.sub(r"\x1b\[[0-9;]*m", "", text)
