@@ -21,7 +21,7 @@ def file_path_missing(field: Prim, facts: Facts) -> Problems:
     yield Problem(
         (f"filePath {what}" if paths.attribute.IsAuthored() else "no filePath") + (variant.words if variant else ""),
         at=paths.attribute,
-        severity=INFO if is_open or facts.files.is_only_declared(field) else None,
+        severity=INFO if is_open or paths.is_only_declared else None,
         suggestion=variant.advice if variant else "author the path of the file that holds the field",
         absent=absent,
     )

@@ -16,7 +16,7 @@ def path_absolute(field: Prim, facts: Facts) -> Problems:
     # An expression takes its root from a variable, which each place may set.
     absolute = paths.affected(sample for sample in found.samples if sample.authored == sample.path)
     if absolute:
-        below = facts.files.below_layer(absolute)
+        below = absolute.below_layer
         yield Problem(
             f"{absolute.shown} is an absolute path{absolute.count}",
             at=absolute,

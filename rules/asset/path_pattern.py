@@ -14,9 +14,7 @@ def path_pattern(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"no file at {found.shown}: USD does not replace '{found.first.detail}'{found.count}",
             at=found,
-            suggestion=_time_samples(frames)
-            if frames
-            else _advice(facts.files.as_expression(found), facts.files.has_frame(found)),
+            suggestion=_time_samples(frames) if frames else _advice(found.as_expression, found.has_frame),
         )
 
 

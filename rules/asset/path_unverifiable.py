@@ -1,6 +1,6 @@
 """AST010: a path that nothing here resolves can't be checked, or not rendered elsewhere."""
 
-from usdvol_lint.rule import ERROR, INFO, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import ERROR, INFO, WARNING, AssetState, Facts, Prim, Problem, Problems, file_paths, rule
 
 
 @rule(
@@ -19,9 +19,16 @@ def path_unverifiable(field: Prim, facts: Facts) -> Problems:
             suggestion="save the volume to a .vdb file and name that",
         )
     for found in paths.by_detail(AssetState.UNVERIFIABLE):
-        scheme = f"{found.first.detail}:"
-        yield Problem(
-            f"{found.shown} was not checked: no resolver here answers for {scheme!r}{found.count}",
-            at=found,
-            severity=INFO,
-        )
+        if found.first.detail.lower() == "file":
+            yield Problem(
+                f"{found.shown} is not found: USD's own resolver does not know 'file:'{found.count}",
+                at=found,
+                severity=WARNING,
+                suggestion="write the path without 'file://'",
+            )
+            continue
+        query = found.first.path.partition("?")[2]
+        why = f"no resolver here answers for '{found.first.detail}:'"
+        if found.first.detail == "?":
+            why = f"the file is there, and no resolver here reads '?{query}'"
+        yield Problem(f"{found.shown} was not checked: {why}{found.count}", at=found, severity=INFO)

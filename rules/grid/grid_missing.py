@@ -1,5 +1,7 @@
 """GRD003: the grid that a field names must be in its file."""
 
+from typing import Any
+
 from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 from usdvol_lint.spelling import closest_name
 
@@ -16,21 +18,19 @@ def _missing(content: Content) -> tuple[str, str, bool] | None:
 
 @rule("GRD003", on="FieldAsset", when=contents(_missing), severity=ERROR, since="0.1")
 def grid_missing(field: Prim, facts: Facts) -> Problems:
-    for (name, purpose, _), content, found in facts.grids.contents(field).grouped(_missing):
+    for (name, purpose, has_grids), content, found in facts.grids.contents(field).grouped(_missing):
         where = f" of {purpose!r}" if purpose else ""
         yield Problem(
             f"no grid {quoted(name)}{where} in {found.shown}, which holds {content.holds}{found.count}",
             at=found,
-            suggestion=_purpose(content.purposes) or _suggestion(name, content.grid_names),
+            suggestion=_similar(name, content) or (_choice(name, field, found, facts) if has_grids else None),
         )
 
 
-def _purpose(purposes: tuple[str, ...]) -> str | None:
-    """What was probably meant where grids of that name are there, with other purposes."""
-    return f"did you mean fieldPurpose {' or '.join(map(quoted, purposes))}?" if purposes else None
-
-
-def _suggestion(name: str, names: frozenset[str]) -> str | None:
+def _similar(name: str, content: Content) -> str | None:
+    names = content.grid_names
+    if content.claim.purpose and content.purposes:
+        return f"did you mean fieldPurpose {' or '.join(map(quoted, content.purposes))}?"
     for parts in _PARTS:
         split = [name + part for part in parts]
         if names.issuperset(split):
@@ -38,3 +38,9 @@ def _suggestion(name: str, names: frozenset[str]) -> str | None:
             return f"{quoted(name)} is split into {listed}: write it as one vector"
     meant = closest_name(name, names - {""})
     return f"did you mean {quoted(meant)}?" if meant else None
+
+
+def _choice(name: str, field: Prim, found: Any, facts: Facts) -> str:
+    if len(found.samples) < len(facts.files.paths(field).samples):
+        return f"export a grid {quoted(name)} to these files too"
+    return f"set fieldName to a grid that is there, or export a grid {quoted(name)}"

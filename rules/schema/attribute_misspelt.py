@@ -36,7 +36,7 @@ def _loss(slip: Any, prim: Prim, facts: Facts) -> str:
     if slip.overridden or slip.intended not in _LOSSES or facts.layers.may_lack_values(prim):
         return ""
     files = facts.files if slip.intended == "filePath" else None
-    is_elsewhere = files and (files.is_only_declared(prim) or files.unlisted_clips(prim))
+    is_elsewhere = files and (files.paths(prim).is_only_declared or files.unlisted_clips(prim))
     return "" if is_elsewhere else _LOSSES[slip.intended]
 
 

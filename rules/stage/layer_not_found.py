@@ -7,12 +7,19 @@ _NAMED = 3
 
 @rule("STG001", on=STAGE, severity=ERROR, since="0.1")
 def layer_not_found(root: Prim, facts: Facts) -> Problems:
+    for first, *others in facts.layers.of_unread_formats:
+        what = f"the {first.arc} {quoted(first.asset)}{f' and {len(others)} more' if others else ''}"
+        said = f"no plugin here reads {first.extension!r} files: what {what} should bring was not checked"
+        yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset)
     for missing in facts.layers.missing:
+        if missing.extension:
+            continue
         layer = f"the {missing.arc} {quoted(missing.asset)}"
         where = f" (on {len(missing.prims)} prims)" if len(missing.prims) > 1 else ""
-        if missing.is_uri:
+        if missing.is_uri or missing.is_schema:
+            who = "resolver here answers for" if missing.is_uri else "search path here leads to"
             yield NotChecked(
-                f"no resolver here answers for {layer}, what it holds was not checked{where}",
+                f"no {who} {layer}, what it holds was not checked{where}",
                 at=missing.prim,
                 spec=missing.spec,
                 asset=missing.asset,

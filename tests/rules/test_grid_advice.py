@@ -40,7 +40,14 @@ def Volume "cloud"
 CASES: list[Case] = [
     ("grids/no_grids.vdb", "density", (FLOAT,), "GRD003", "which holds no grids", ""),
     ("cloud.vdb", "densty", (FLOAT,), "GRD003", "'density', 'temperature'", "did you mean 'dens"),
-    ("cloud.vdb", "xyz", (FLOAT,), "GRD003", "no grid 'xyz' in './cloud.vdb', which", ""),
+    (
+        "cloud.vdb",
+        "xyz",
+        (FLOAT,),
+        "GRD003",
+        "no grid 'xyz' in './cloud.vdb', which",
+        "set fieldName to a grid that is there, or export a grid 'xyz'",
+    ),
     (
         "grids/split_velocity.vdb",
         "vel",
@@ -55,7 +62,15 @@ CASES: list[Case] = [
         (FLOAT, 'token fieldPurpose = "cloud"'),
         "GRD003",
         "no grid 'dens' of 'cloud' in './x.f3d', which",
-        "",
+        "set fieldName to a grid that is there, or export a grid 'dens'",
+    ),
+    (
+        "x.f3d",
+        "density",
+        (FLOAT, 'token fieldPurpose = "cluod"'),
+        "GRD003",
+        "no grid 'density' of 'cluod' in './x.f3d', which",
+        "did you mean fieldPurpose 'cloud'?",
     ),
     (
         "grids/same_name.vdb",

@@ -16,6 +16,8 @@ ZIP_WRITER: Any = getattr(Sdf, "ZipFileWriter", None) or Usd.ZipFileWriter
 
 
 KINDS = "USD files end in .usd, .usda, .usdc, .usdz"
+KNOWN_TO_REFUSE_OLD = (0, 26, 11)
+"""A version of USD that says of a crate that it is too old; 24.11 takes one for corrupt."""
 AGAIN = "copy or export it again"
 NO_DIRECTORY = (
     "a truncated or corrupt package: the directory of its files, which ends it, is missing"
@@ -129,6 +131,23 @@ def test_crates_and_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
         "alien.usdz": ("a package in which USD finds no layer to open", "package it again"),
     }
     assert statuses(ran)["crate.usd"] == "checked"
+
+
+def test_crates_of_other_versions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    data = crate()
+    for version in ((0, 3, 0), (0, 99, 0)):
+        name = ".".join(map(str, version))
+        (tmp_path / f"{name}.usdc").write_bytes(data[:8] + bytes(version) + data[11:])
+    said = troubles(run(*STUDIO_ONLY, ".", cwd=tmp_path))
+    message, advice = said["0.99.0.usdc"][0], said["0.99.0.usdc"][3]
+    assert message.startswith("a crate file of version 0.99.0; this USD reads none newer than 0.1")
+    assert advice == "convert it to .usda with a newer USD, or lint with that"
+    if Usd.GetVersion() < KNOWN_TO_REFUSE_OLD:
+        return
+    message, advice = said["0.3.0.usdc"][0], said["0.3.0.usdc"][3]
+    assert message == "a crate file of version 0.3.0; this USD reads 0.4.0 and newer"
+    assert advice == "convert it to .usda with an older USD"
 
 
 def packaged(path: Path, comment: bytes = b"", **others: bytes) -> bytes:

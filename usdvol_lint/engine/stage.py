@@ -17,6 +17,8 @@ from usdvol_lint.paths import display
 
 # Few stages fail, so this is compiled only then.
 _LOCATED = r"(?s)(?P<path>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:\s*(?P<what>.*)"
+_OTHER_VERSION = r"obsolete version|file version mismatch"
+_VERSION = r"\d+\.\d+\.\d+"
 _LONGEST_MESSAGE = 300
 
 
@@ -75,9 +77,23 @@ def _explain(path: str, errors: list[str], head: bytes) -> Trouble:
         )
     first = lines[0] if lines else "no reason given"
     if head.startswith(CRATE_SIGNATURE):
+        if re.search(_OTHER_VERSION, first):
+            return _other_version(head, first)
         message = f"a truncated or corrupt crate file: {first}"
         return Trouble(message[:_LONGEST_MESSAGE], EXPORT_AGAIN)
     return Trouble(f"USD can't open it: {first}"[:_LONGEST_MESSAGE])
+
+
+def _other_version(head: bytes, error: str) -> Trouble:
+    """That USD does not read the version of a crate file, as its error says."""
+    *_, limit = re.findall(_VERSION, error)
+    is_older = "obsolete" in error
+    reads = f"{limit} and newer" if is_older else f"none newer than {limit}"
+    return Trouble(
+        f"a crate file of version {'.'.join(map(str, head[8:11]))}; this USD reads {reads}",
+        f"convert it to .usda with {'an older' if is_older else 'a newer'} USD"
+        + ("" if is_older else ", or lint with that"),
+    )
 
 
 def _in_one_line(path: str, error: str) -> str:

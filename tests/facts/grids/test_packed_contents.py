@@ -137,7 +137,6 @@ def test_field3d(
         ("density", "clouds", "did you mean fieldPurpose 'cloud'?"),
         ("v", "cloud", "did you mean fieldPurpose 'smoke'?"),
         ("densty", "cloud", "did you mean 'density'?"),
-        ("nothing", "cloud", None),
     ],
 )
 def test_a_grid_of_another_purpose(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from functools import cached_property
@@ -13,6 +12,7 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
+    from usdvol_lint.facts.files.absences import MissingFolders
     from usdvol_lint.facts.files.alike import Alike, Namesakes
     from usdvol_lint.facts.files.animation import EmptyClip, UnlistedClips
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
@@ -107,8 +107,7 @@ class Files(Wing):
 
         None of them where no folder is missing.
         """
-        folder = self._missing_folders.get(field)
-        return [] if folder is None else self._below_missing_folder[folder]
+        return self._missing_folders.sharing(field)
 
     def alike(self, field: Any) -> Alike:
         """What is known of other fields of the same prim that name the same files."""
@@ -126,24 +125,6 @@ class Files(Wing):
 
         return find_frames(self._disk, found.anchored(), found.first.path)
 
-    def is_only_declared(self, field: Any) -> bool:
-        """Whether the stage's own layer declares `filePath`, and no layer gives it a value."""
-        paths, root = self.paths(field), self._stage.GetRootLayer()
-        specs = paths.attribute.GetPropertyStack()
-        return not paths.samples and any(spec.layer == root for spec in specs)
-
-    def as_expression(self, found: Affected) -> str | None:
-        """The first path as an expression with the environment variables that it has; or None."""
-        from usdvol_lint.facts.files.patterns import as_expression
-
-        return as_expression(found.first.path)
-
-    def has_frame(self, found: Affected) -> bool:
-        """Whether the first path has a placeholder for a frame."""
-        from usdvol_lint.facts.files.patterns import has_frame
-
-        return has_frame(found.first.path)
-
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
         from usdvol_lint.facts.files.letter_case import recased
@@ -155,12 +136,6 @@ class Files(Wing):
         from usdvol_lint.facts.files.origins import outside_package
 
         return outside_package(self.paths(field)) if self._has_packages else None
-
-    def below_layer(self, found: Affected) -> str | None:
-        """The first path relative to the folder of its layer, if it lies below that; else None."""
-        from usdvol_lint.facts.files.origins import below_layer
-
-        return below_layer(found)
 
     def unselected_path(self, field: Any) -> VariantPath | None:
         """A variant that is not selected, and that names a file for the field."""
@@ -213,31 +188,15 @@ class Files(Wing):
         return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
-    def _missing_folders(self) -> dict[Any, str]:
-        """By field, the one folder that is missing above all of its missing files."""
-        from usdvol_lint.facts.files.absences import common_missing_folder
+    def _missing_folders(self) -> MissingFolders:
+        from usdvol_lint.facts.files.absences import MissingFolders
 
-        fields = (
+        missing = (
             (field, self.missing(field))
             for field, paths in self.paths.readable(schema.FIELD_ASSET)
             if AssetState.MISSING in paths.states
         )
-        found = (
-            (field, common_missing_folder(missing, self._disk))
-            for field, missing in fields
-            if missing
-        )
-        return {field: folder for field, folder in found if folder}
-
-    @cached_property
-    def _below_missing_folder(self) -> dict[str, list[Any]]:
-        """The fields by their missing folder, in the order in which they are shown."""
-        from usdvol_lint.facts.usd.instances import as_shown
-
-        fields: dict[str, list[Any]] = defaultdict(list)
-        for field in as_shown(self._missing_folders):
-            fields[self._missing_folders[field]].append(field)
-        return fields
+        return MissingFolders(missing, self._disk)
 
     @cached_property
     def _namesakes(self) -> Namesakes:

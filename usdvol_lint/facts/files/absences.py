@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Iterable
 from itertools import chain
+from typing import Any
 
 from usdvol_lint.facts.files.assets import Affected, AssetSamples
 from usdvol_lint.facts.files.corrections import missing_folder
@@ -12,6 +15,7 @@ from usdvol_lint.facts.files.malformed import hides_file
 from usdvol_lint.facts.files.origins import outside_package
 from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.states import AssetState
+from usdvol_lint.facts.usd.instances import as_shown
 
 
 def unexplained(paths: AssetSamples, disk: Disk, *, has_packages: bool) -> Affected | None:
@@ -35,3 +39,22 @@ def common_missing_folder(missing: Affected, disk: Disk) -> str | None:
     """The topmost missing folder above all missing files, if their paths have one folder."""
     folders = {split_path(sample.path)[0] for sample in missing.samples}
     return missing_folder(disk, missing.anchored()) if len(folders) == 1 else None
+
+
+class MissingFolders:
+    """The fields by the one folder that is missing above all of their missing files."""
+
+    def __init__(self, missing: Iterable[tuple[Any, Affected | None]], disk: Disk) -> None:
+        found = (
+            (field, common_missing_folder(affected, disk))
+            for field, affected in missing
+            if affected
+        )
+        self._folders = {field: folder for field, folder in found if folder}
+        self._fields: dict[str, list[Any]] = defaultdict(list)
+        for field in as_shown(self._folders):
+            self._fields[self._folders[field]].append(field)
+
+    def sharing(self, field: Any) -> list[Any]:
+        """The fields with the same missing folder, in the order in which they are shown."""
+        return self._fields[self._folders[field]] if field in self._folders else []

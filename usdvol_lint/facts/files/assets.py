@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
@@ -10,6 +11,7 @@ from operator import attrgetter
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.files.paths import anchored, extension_of
+from usdvol_lint.facts.files.patterns import as_expression, has_frame
 from usdvol_lint.facts.files.states import ON_DISK_OR_PATTERN, AssetState
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import Occurrences
@@ -101,6 +103,12 @@ class AssetSamples(NamedTuple):
         """Whether any value is neither empty nor blocked."""
         return not self.states <= {AssetState.EMPTY, AssetState.BLOCKED}
 
+    @property
+    def is_only_declared(self) -> bool:
+        """Whether the stage's own layer declares the attribute, and no layer gives it a value."""
+        root, specs = self.attribute.GetStage().GetRootLayer(), self.attribute.GetPropertyStack()
+        return not self.samples and any(spec.layer == root for spec in specs)
+
 
 @dataclass(frozen=True, slots=True)
 class Affected(Occurrences):
@@ -128,6 +136,24 @@ class Affected(Occurrences):
         first = self.first
         origin = "" if first.authored == first.path else f" (from {quoted(first.authored)})"
         return f"{quoted(first.path)}{origin}"
+
+    @property
+    def as_expression(self) -> str | None:
+        """The first path as an expression with the environment variables that it has; or None."""
+        return as_expression(self.first.path)
+
+    @property
+    def has_frame(self) -> bool:
+        """Whether the first path has a placeholder for a frame."""
+        return has_frame(self.first.path)
+
+    @property
+    def below_layer(self) -> str | None:
+        """The first path relative to the folder of its layer, if it lies below that; else None."""
+        strongest = strongest_opinion(self.attribute, self.first.time)
+        folder = os.path.dirname(strongest.spec.layer.realPath) if strongest else ""
+        below = self.first.path.removeprefix(f"{folder}/")
+        return f"./{below}" if folder and below != self.first.path else None
 
     def _more(self, times: Sequence[float]) -> Iterator[str]:
         """The frames as authored if a layer offset moves them, and the layers if several."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -129,6 +130,9 @@ def _why_unresolved(
         scheme = path.partition(":")[0]
         live = scheme.lower() in _LIVE_SCHEMES
         return AssetState.LIVE_SESSION if live else AssetState.UNVERIFIABLE, scheme
+    bare, query, _ = path.partition("?")
+    if query and os.path.isfile(anchored(attribute, time, bare)):
+        return AssetState.UNVERIFIABLE, "?"
     if pattern := find_pattern(path):
         return AssetState.PATTERN, pattern
     return AssetState.MISSING, ""

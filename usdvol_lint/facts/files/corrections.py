@@ -64,6 +64,9 @@ def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
     shown = _with_end(authored, below, "") if below else authored
+    if os.path.isfile(folder):
+        file = _with_end(authored, path[len(folder) :], "")
+        return Absence(f": {quoted(file)} is a file, not a folder", None)
     similar = None if corrected else _closest_name(disk, folder, name, not_meant)
     has_file = bool(similar) and os.path.exists(f"{folder}/{similar}{below}")
     moved = () if corrected or has_file else tuple(_moved(disk, path, missing, authored))

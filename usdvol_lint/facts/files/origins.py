@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from functools import cached_property
 from typing import Any
 
@@ -34,14 +33,6 @@ def package_of(layer: Any | None) -> str:
     if Ar.IsPackageRelativePath(path):
         return str(Ar.SplitPackageRelativePathOuter(path)[0])
     return path if layer.GetFileFormat().IsPackage() else ""
-
-
-def below_layer(affected: Affected) -> str | None:
-    """The first path relative to the folder of its layer, if it lies below that; else None."""
-    strongest = strongest_opinion(affected.attribute, affected.first.time)
-    folder = os.path.dirname(strongest.spec.layer.realPath) if strongest else ""
-    below = affected.first.path.removeprefix(f"{folder}/")
-    return f"./{below}" if folder and below != affected.first.path else None
 
 
 def _is_in(package: str, path: str) -> bool:

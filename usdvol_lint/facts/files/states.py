@@ -21,7 +21,7 @@ class AssetState(Enum):
     UNSET_VARIABLE = auto()
     """A variable expression that needs a variable that is not set where it is authored."""
     UNVERIFIABLE = auto()
-    """A URI that no resolver here answers for."""
+    """A URI that no resolver here answers for, or a file that is there with a query."""
     LIVE_SESSION = auto()
     """A path into a running Houdini session."""
     EMPTY = auto()

@@ -105,13 +105,11 @@ class Content(NamedTuple):
             grids = tuple(grid for grid in grids if grid.purpose == purpose)
         if not name:
             return grids if file.complete and len(grids) == 1 else ()
-        return _called(name, grids)
-
-    @property
-    def purposes(self) -> tuple[str, ...]:
-        """The purposes of the grids with the claimed name, whichever of them the field claims."""
-        named = _called(self.claim.name, self.file.grids) if self.file else ()
-        return tuple(dict.fromkeys(grid.purpose for grid in named if grid.purpose))
+        named = (
+            tuple(grid for grid in grids if getattr(grid, attribute) == name)
+            for attribute in ("unique_name", "label", "name")
+        )
+        return next(filter(None, named), ())
 
     @property
     def holds(self) -> str:
@@ -132,6 +130,14 @@ class Content(NamedTuple):
     def grid_names(self) -> frozenset[str]:
         """The names of the grids in the file."""
         return frozenset(grid.unique_name for grid in self.file.grids) if self.file else frozenset()
+
+    @property
+    def purposes(self) -> tuple[str, ...]:
+        """The purposes under which the file has grids with the name that the field claims."""
+        grids = self.file.grids if self.file else ()
+        name = self.claim.name
+        named = [each.purpose for each in grids if name in (each.unique_name, each.label)]
+        return tuple(dict.fromkeys(filter(None, named)))
 
     @property
     def label(self) -> str:
@@ -183,15 +189,6 @@ class ContentClass:
             answers[key] = key(self.content)
         answer: _K | None = answers[key]
         return answer
-
-
-def _called(name: str | None, grids: tuple[Grid, ...]) -> tuple[Grid, ...]:
-    """The grids of a name, in the order of the file."""
-    named = (
-        tuple(grid for grid in grids if getattr(grid, attribute) == name)
-        for attribute in ("unique_name", "label", "name")
-    )
-    return next(filter(None, named), ())
 
 
 def _shown(grid: Grid) -> str:

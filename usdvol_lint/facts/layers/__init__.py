@@ -54,6 +54,11 @@ class Layers(Wing):
         return self._composition.missing_layers
 
     @property
+    def of_unread_formats(self) -> tuple[tuple[MissingLayer, ...], ...]:
+        """Those of them that are there, and in files that no plugin here reads; by formats."""
+        return self._composition.of_unread_formats
+
+    @property
     def empty_arcs(self) -> tuple[EmptyArc, ...]:
         """The references and payloads to prims that are not there."""
         return self._composition.empty_arcs

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import defaultdict
 from collections.abc import Iterable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
 
 ARCS = ("sublayer", "reference", "payload")
 """The composition arcs that name a layer, in the words of USD's errors."""
+_SCHEMA = re.compile(r"\w+/schema\.usda")
 
 
 class MissingLayer(NamedTuple):
@@ -23,6 +26,7 @@ class MissingLayer(NamedTuple):
 
     `arc`, `asset`, `path` and `spec` are as in `LayerArc`.
     `reason`: what is wrong with a file that exists, or "".
+    `extension`: that of a file that is there and that no plugin here reads, or "".
     `prims`: those of the stage that are composed without it, at least one.
     """
 
@@ -31,6 +35,7 @@ class MissingLayer(NamedTuple):
     path: str
     spec: Any
     reason: str
+    extension: str
     prims: tuple[Any, ...]
 
     @property
@@ -42,6 +47,11 @@ class MissingLayer(NamedTuple):
     def is_uri(self) -> bool:
         """Whether the authored path is a URI."""
         return is_uri(self.asset)
+
+    @property
+    def is_schema(self) -> bool:
+        """Whether it is the schema of a library, which `usdGenSchema` finds on a search path."""
+        return not self.reason and _SCHEMA.fullmatch(self.asset) is not None
 
 
 class CompositionError(NamedTuple):
@@ -92,6 +102,14 @@ class Composition:
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
         return _is_at_or_below(prim, self._lack_opinions | self._lack_clips)
+
+    @property
+    def of_unread_formats(self) -> tuple[tuple[MissingLayer, ...], ...]:
+        """The layers that are there, and in files that no plugin here reads; by their formats."""
+        formats: dict[str, list[MissingLayer]] = defaultdict(list)
+        for missing in self.missing_layers:
+            formats[missing.extension].append(missing)
+        return tuple(tuple(layers) for extension, layers in formats.items() if extension)
 
     @cached_property
     def _lack_opinions(self) -> frozenset[Any]:

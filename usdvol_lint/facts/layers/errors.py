@@ -23,7 +23,7 @@ from usdvol_lint.facts.layers.error_texts import (
     reason_in,
     unresolved_arc,
 )
-from usdvol_lint.facts.layers.unopened import missing_clips, unopened_reason
+from usdvol_lint.facts.layers.unopened import missing_clips, unopened_reason, unread_extension
 from usdvol_lint.facts.layers.unresolved import EmptyArc, Fault, Targets
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.instances import as_shown
@@ -101,8 +101,10 @@ def _missing_layers(
 ) -> tuple[MissingLayer, ...]:
     paths = {arc.path for arc in missing}
     reasons = {path: unopened_reason(path, reported.get(path, ())) for path in paths}
+    extensions = {path: unread_extension(path) for path in paths}
     layers = (
-        MissingLayer(*arc, reasons[arc.path], _sorted(prims)) for arc, prims in missing.items()
+        MissingLayer(*arc, reasons[arc.path], extensions[arc.path], _sorted(prims))
+        for arc, prims in missing.items()
     )
     return tuple(sorted(layers, key=_missing_order))
 

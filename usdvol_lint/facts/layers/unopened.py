@@ -9,7 +9,7 @@ from typing import Any
 from pxr import Sdf, Tf
 
 from usdvol_lint.facts.files.disk import file_fault
-from usdvol_lint.facts.files.paths import is_packaged
+from usdvol_lint.facts.files.paths import extension_of, is_packaged
 from usdvol_lint.facts.layers.error_texts import LayerArc, as_reason
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
@@ -51,6 +51,12 @@ def unopened_reason(path: str, reported: Iterable[str]) -> str:
     else:
         reason = _why_not_open(path) if is_packaged(path) and not fault else ""
     return reason or min(filter(None, reported), default="")
+
+
+def unread_extension(path: str) -> str:
+    """The extension of a file that is there and whole, if no plugin here reads it; else ""."""
+    is_there = os.path.isabs(path) and file_fault(path) is None
+    return extension_of(path) if is_there and not Sdf.FileFormat.FindByExtension(path) else ""
 
 
 def _why_not_open(resolved: str) -> str:
