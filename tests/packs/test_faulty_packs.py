@@ -79,6 +79,43 @@ def test_a_problem_that_can_not_say_whether_it_holds_is_reported_and_so_is_that(
     )
 
 
+INTERRUPT = """
+def interrupt(*ignored):
+    raise KeyboardInterrupt("stop")
+
+"""
+
+
+@pytest.mark.parametrize(
+    ("rule", "said"),
+    [
+        (RULE.format(problem="'seen', at=interrupt()"), "rule FLT001 (faulty) failed here: "),
+        (
+            RULE.format(problem="'seen', at=volume, holds=interrupt"),
+            "rule FLT001 (faulty) failed here: ",
+        ),
+        (
+            RULE.format(problem="'seen', at=volume").replace(
+                "severity=", "when=When(Prims.authored, interrupt), severity="
+            ),
+            "the precondition of rule FLT001 (faulty) failed, so the rule looked at every prim "
+            "that it asks for: ",
+        ),
+    ],
+    ids=["check", "holds", "when"],
+)
+def test_an_interrupt_that_a_rule_raises_is_its_own(rule: str, said: str, tmp_path: Path) -> None:
+    """Neither the user nor USD is to blame, and what else there is stands."""
+    (tmp_path / "faulty.py").write_text(
+        f"from usdvol_lint.rule import Prims, When\n{INTERRUPT}{rule}", encoding="utf-8"
+    )
+    stages = write(tmp_path / "stages", one=volume("a"))
+    ran = run("--isolated", "--pack", tmp_path, "--output-format", "json", stages, cwd=tmp_path)
+    [stage] = ran.json["stages"]
+    assert (ran.code, stage["status"]) == (2, "checked")
+    assert f"{said}KeyboardInterrupt: stop" in [each["message"] for each in stage["findings"]]
+
+
 def test_a_precondition_that_is_none(tmp_path: Path) -> None:
     rule = RULE.format(problem="'seen', at=volume").replace(
         'on="Volume"', 'on="Volume", when="authored"'

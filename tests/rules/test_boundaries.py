@@ -91,6 +91,8 @@ def test_a_severity_that_is_set_holds_for_milder_cases_too(tmp_path: Path) -> No
     assert _levels(run(*arguments, cwd=tmp_path).json) == ["info"]
     ran = run("--severity", "AST010=warning", *arguments, cwd=tmp_path)
     assert (ran.code, _levels(ran.json)) == (0, ["warning"])
+    ran = run("--severity", "AST010=error", *arguments, cwd=tmp_path)  # which the rule has anyway
+    assert (ran.code, _levels(ran.json)) == (1, ["error"])
 
 
 def _levels(report: dict[str, list[dict[str, list[dict[str, str]]]]]) -> list[str]:

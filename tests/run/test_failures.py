@@ -19,31 +19,35 @@ from usdvol_lint.run.supervisor import Worker
 ROUGH_ONLY = ("--isolated", "--pack", ROUGH, "--select", "RGH", "--output-format", "json")
 
 CRASHED = "the file or a layer it names is probably corrupt: open it with usdcat to see which"
+KILLED = "give the machine more memory, or let fewer work at once with --jobs"
 ENDED = "a bug of usdvol-lint, a rule pack or a USD plugin; --verbose shows what it said"
 
 
 @pytest.mark.skipif(not POSIX, reason="signals as POSIX has them")
 @pytest.mark.parametrize("jobs", ["1", "3"])
 def test_crashes_and_hangs(jobs: str, tmp_path: Path) -> None:
-    names = ["a", "abort", "exit", "hang", "leave", "print", "segfault", "z"]
+    names = ["a", "abort", "exit", "hang", "interrupt", "killed", "leave", "print", "segfault", "z"]
     write(tmp_path / "stages", **{name: volume(name) for name in names})
     ran = run(*ROUGH_ONLY, "--timeout", "1", "-j", jobs, "stages", cwd=tmp_path)
     assert (ran.code, ran.err) == (2, "")
     behaved = ("behaved", 2, 1, None)
     crash = "the USD library crashed while reading it"
     end = "the process that checked it ended early"
+    outside = "the process that checked it was ended from outside"
     hung = "look for a layer that is a pipe or a corrupt file, or give it more with --timeout"
     assert troubles(ran) == {
         "stages/a.usda": behaved,
         "stages/abort.usda": (f"{crash} (SIGABRT)", None, None, CRASHED),
         "stages/exit.usda": (f"{end} (exit code 3)", None, None, ENDED),
         "stages/hang.usda": ("not done after 1 s, ended there", None, None, hung),
+        "stages/interrupt.usda": (f"{end} (SIGINT)", None, None, ENDED),
+        "stages/killed.usda": (f"{outside} (SIGKILL)", None, None, KILLED),
         "stages/leave.usda": (f"{end} (exit code 4)", None, None, ENDED),
         "stages/print.usda": behaved,
         "stages/segfault.usda": (f"{crash} (SIGSEGV)", None, None, CRASHED),
         "stages/z.usda": behaved,
     }
-    assert ran.json["summary"]["by_status"] == {"checked": 3, "crashed": 4, "timed_out": 1}
+    assert ran.json["summary"]["by_status"] == {"checked": 3, "crashed": 6, "timed_out": 1}
 
 
 @pytest.mark.parametrize("end", ["hang", "exit"])

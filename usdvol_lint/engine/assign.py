@@ -8,6 +8,7 @@ from operator import itemgetter
 from typing import Any, TypeAlias
 
 from usdvol_lint import schema
+from usdvol_lint.engine.failures import PACK_FAILURES
 from usdvol_lint.facts import Facts, Walked
 from usdvol_lint.facts.prims.tables import Chunk, Table
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
@@ -16,7 +17,7 @@ from usdvol_lint.rule import Rule, When
 
 Options: TypeAlias = Mapping[str, Mapping[str, Any]]
 """The options of rules, by code."""
-Failed: TypeAlias = Callable[[Sequence[Rule], Exception], None]
+Failed: TypeAlias = Callable[[Sequence[Rule], BaseException], None]
 """Called with rules whose precondition raised; they are handed the prims all the same."""
 
 
@@ -113,7 +114,7 @@ class _RulesByKey:
             return list(self._declared.keys(self._wing, table))
         except UNREADABLE:
             pass  # the rules meet the same error, and report it
-        except Exception as error:  # a rule pack's code: reported once it fails on one prim alone
+        except PACK_FAILURES as error:  # reported once it fails on one prim alone
             if len(table.prims) == 1:
                 self._failed([rule for rule, _ in self._rules], error)
         return None
@@ -127,7 +128,7 @@ class _RulesByKey:
         given = {**rule.options, **self._options.get(rule.code, {})}
         try:
             return when.holds(key, **{name: given[name] for name in when.options})
-        except Exception as error:  # a rule pack's code: reported
+        except PACK_FAILURES as error:
             self._failed([rule], error)
             return True
 

@@ -10,7 +10,7 @@ from pxr import Tf
 from usdvol_lint import schema
 from usdvol_lint.engine.asked_types import never_run
 from usdvol_lint.engine.assign import Options, assign
-from usdvol_lint.engine.failures import Failures
+from usdvol_lint.engine.failures import PACK_FAILURES, Failures
 from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.usd_version import usd_version
@@ -67,7 +67,7 @@ class StageCheck:
             try:
                 for problem in rule.check(prim, facts, **options):
                     yield from self._stamp.stamp(rule, problem)
-            except Exception as error:  # whatever a rule raises is reported, and the others go on
+            except PACK_FAILURES as error:  # reported, and the other rules go on
                 failures.add(rule, prim, error)
         for prim, fault in facts.tables.unreadable:
             failures.add(NOT_CHECKED, prim, fault)
@@ -104,7 +104,7 @@ class StageCheck:
         """Each rule with each prim that it is handed; rules on the stage get the pseudo-root."""
         root = facts.stage.GetPseudoRoot()
 
-        def failed(rules: Sequence[Rule], error: Exception) -> None:
+        def failed(rules: Sequence[Rule], error: BaseException) -> None:
             failures.add_precondition(rules, root, error)
 
         yield from assign(walked, self._rules, facts, self._options, failed)

@@ -73,7 +73,7 @@ class Engine:
 
     def _report(self, path: str, context: Context, clock: _Stopwatch) -> StageReport:
         depth = self._depth
-        stamp = Stamp(self._active.severities, several_selections=depth.selections > 0)
+        stamp = Stamp(self._active, several_selections=depth.selections > 0)
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
         clock.lap("walk")

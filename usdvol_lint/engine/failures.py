@@ -16,6 +16,8 @@ from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.rule import NotChecked, Rule
 
+PACK_FAILURES = (Exception, KeyboardInterrupt)
+"""What the code of a rule pack may raise without ending the process."""
 _LONGEST_MESSAGE = 300
 _OF_THE_RULE = "a bug of the rule, not of the stage; --verbose shows the traceback"
 
@@ -24,7 +26,12 @@ class _Failure:
     """One kind of failure: the rule and the prim that met it first, and how many prims met it."""
 
     def __init__(
-        self, rule: Rule, prim: Any, error: Exception, traceback: str, of_precondition: bool = False
+        self,
+        rule: Rule,
+        prim: Any,
+        error: BaseException,
+        traceback: str,
+        of_precondition: bool = False,
     ) -> None:
         self.rule = rule
         self.prim = prim
@@ -61,7 +68,7 @@ class Failures:
     def __init__(self) -> None:
         self._failures: dict[Identity, _Failure] = {}
 
-    def add(self, rule: Rule, prim: Any, error: Exception) -> None:
+    def add(self, rule: Rule, prim: Any, error: BaseException) -> None:
         """Records what a rule raised on a prim."""
         key: Identity = (rule.code, type(error).__name__, str(_line(error)))
         if isinstance(error, Tf.ErrorException):
@@ -71,7 +78,7 @@ class Failures:
         self._failures[key].count += 1
         error.__traceback__ = None  # its frames hold the stage, and one of them holds this
 
-    def add_precondition(self, rules: Iterable[Rule], root: Any, error: Exception) -> None:
+    def add_precondition(self, rules: Iterable[Rule], root: Any, error: BaseException) -> None:
         """Records what the precondition of these rules raised: once for each rule."""
         new = {(rule.code, "when"): rule for rule in rules}
         new = {key: rule for key, rule in new.items() if key not in self._failures}
@@ -106,7 +113,7 @@ def still_holding(stamped: Stamped) -> Iterator[Finding]:
     try:
         if not stamped.holds or stamped.holds():
             yield stamped.finding
-    except Exception as error:  # a rule pack's code: reported
+    except PACK_FAILURES as error:
         found = stamped.finding
         said = " ".join(f"{type(error).__name__}: {error}".split())
         yield found
@@ -121,7 +128,7 @@ def still_holding(stamped: Stamped) -> Iterator[Finding]:
         )
 
 
-def _line(error: Exception) -> int:
+def _line(error: BaseException) -> int:
     """The line that raised it; the message would not do, as it may name the prim."""
     entry = error.__traceback__
     while entry and entry.tb_next:
@@ -129,7 +136,7 @@ def _line(error: Exception) -> int:
     return entry.tb_lineno if entry else 0
 
 
-def _traceback(error: Exception) -> str:
+def _traceback(error: BaseException) -> str:
     import traceback  # costs start-up time, and rules rarely fail
 
     return "".join(traceback.format_exception(error))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.site import Sites
 from usdvol_lint.model import Finding, Lack, Severity
+from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
 
@@ -26,19 +27,19 @@ class Stamped(NamedTuple):
 class Stamp:
     """Makes findings of the problems of one stage.
 
-    `severities` are those of the active rules, by code; `several_selections` says whether
-    findings need an identity, because more than one variant selection is checked.
+    `several_selections` says whether findings need an identity, because more than one variant
+    selection is checked.
     """
 
-    def __init__(self, severities: Mapping[str, Severity], several_selections: bool) -> None:
+    def __init__(self, active: ActiveRules, several_selections: bool) -> None:
         self.sites = Sites()
-        self._severities = severities
+        self._active = active
         self._several_selections = several_selections
 
     def stamp(self, rule: Rule, problem: Problem | NotChecked) -> Iterator[Stamped]:
         """The finding; none if LNT005, which reports what was not checked, is switched off."""
         reported_as = NOT_CHECKED if isinstance(problem, NotChecked) else rule
-        severity = self._severities.get(reported_as.code)
+        severity = self._active.severities.get(reported_as.code)
         if severity is None:
             return
         site, spec, instances = self.sites.locate(problem)
@@ -46,7 +47,7 @@ class Stamp:
         finding = Finding(
             code=reported_as.code,
             name=reported_as.name,
-            severity=_lowered(severity, rule, problem),
+            severity=self._lowered(severity, problem, reported_as.code),
             message=problem.message + shown,
             site=site,
             suggestion=problem.suggestion,
@@ -55,6 +56,13 @@ class Stamp:
         )
         same = identity(rule, problem, spec) if self._several_selections else ()
         yield Stamped(finding, same, problem.holds if isinstance(problem, Problem) else None)
+
+    def _lowered(self, severity: Severity, problem: Problem | NotChecked, code: str) -> Severity:
+        """The severity of a milder case, unless the user chose one for the rule."""
+        milder = problem.severity if isinstance(problem, Problem) else None
+        if milder is None or code in self._active.chosen:
+            return severity
+        return min(severity, milder)
 
 
 def _absent(problem: Problem) -> tuple[frozenset[Lack], ...]:
@@ -68,10 +76,3 @@ def _absent(problem: Problem) -> tuple[frozenset[Lack], ...]:
         )
         for part in problem.absent
     )
-
-
-def _lowered(severity: Severity, rule: Rule, problem: Problem | NotChecked) -> Severity:
-    """The severity of a milder case, unless the user chose one for the rule."""
-    if isinstance(problem, Problem) and problem.severity is not None and severity == rule.severity:
-        return min(severity, problem.severity)
-    return severity

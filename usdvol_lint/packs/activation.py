@@ -14,10 +14,15 @@ _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: 
 
 
 class ActiveRules(NamedTuple):
-    """The severities of the active rules, and the options that were given, by code."""
+    """The severities of the active rules, and the options that were given, by code.
+
+    `chosen` are the codes whose severity is not the rule's own but the user's, also for the milder
+    cases that a rule tells apart.
+    """
 
     severities: Mapping[str, Severity]
     options: Mapping[str, Mapping[str, Any]]
+    chosen: frozenset[str] = frozenset()
 
 
 def activate(config: Config, catalog: Catalog) -> ActiveRules:
@@ -27,18 +32,20 @@ def activate(config: Config, catalog: Catalog) -> ActiveRules:
     """
     codes = catalog.select(config.select, config.ignore)
     severities = {code: catalog.rules[code].severity for code in sorted(codes)}
+    chosen: set[str] = set()
     for selector, level in sorted(config.severity.items(), key=lambda item: length(item[0])):
         if selector.strip().upper() in NOT_IGNORABLE:
             raise UsageError(f"{selector} stays an error: it says that the job was not done")
         for code in catalog.expand(selector) & severities.keys() - NOT_IGNORABLE:
             severities[code] = Severity[level.upper()]
+            chosen.add(code)
     options: dict[str, dict[str, Any]] = {}
     for name, given in config.options.items():
         rule = catalog.find(name)
         for option, value in given.items():
             checked = _checked_option(rule.name, rule.options, option, value)
             options.setdefault(rule.code, {})[option] = checked
-    return ActiveRules(severities, options)
+    return ActiveRules(severities, options, frozenset(chosen))
 
 
 def _checked_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> Any:

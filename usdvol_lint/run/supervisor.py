@@ -19,6 +19,8 @@ from usdvol_lint.run.protocol import Advance, NewFindings, Ready, Refusal, Setup
 if TYPE_CHECKING:
     import subprocess
 
+_FROM_OUTSIDE = frozenset({"SIGHUP", "SIGKILL", "SIGTERM"})
+
 
 class Worker:
     """One child process, replaced by a new one when it died or was ended.
@@ -138,17 +140,21 @@ class Worker:
 
     def _crashed(self) -> Trouble:
         code = self._process.wait()
-        if 0 <= code < 256:
-            return Trouble(
-                f"the process that checked it ended early ({_cause(code)})",
-                "a bug of usdvol-lint, a rule pack or a USD plugin; --verbose shows what it said",
-                detail=self._last_words(),
+        cause = _cause(code)
+        if 0 <= code < 256 or cause == "SIGINT":  # which is how Python ends by KeyboardInterrupt
+            what = "the process that checked it ended early"
+            advice = (
+                "a bug of usdvol-lint, a rule pack or a USD plugin; --verbose shows what it said"
             )
-        return Trouble(
-            f"the USD library crashed while reading it ({_cause(code)})",
-            "the file or a layer it names is probably corrupt: open it with usdcat to see which",
-            detail=self._last_words(),
-        )
+        elif cause in _FROM_OUTSIDE:
+            what = "the process that checked it was ended from outside"
+            advice = "give the machine more memory, or let fewer work at once with --jobs"
+        else:
+            what = "the USD library crashed while reading it"
+            advice = (
+                "the file or a layer it names is probably corrupt: open it with usdcat to see which"
+            )
+        return Trouble(f"{what} ({cause})", advice, detail=self._last_words())
 
     def _last_words(self) -> str:
         self._process.wait()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import pickle
+import signal
 from typing import Any, BinaryIO
 
 from usdvol_lint.model import StageReport, UsageError
@@ -17,6 +18,9 @@ def main() -> None:
     # Facts are many, live as long as their stage, and have no reference cycles: collecting garbage
     # again and again takes a third of the time on a stage of 100,000 prims.
     gc.disable()
+    # Where a terminal interrupts all processes, the parent ends this one: what is raised here as
+    # KeyboardInterrupt is raised by a rule.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     requests, replies = _take_pipes()
     try:
         from pxr import Usd  # noqa: F401

@@ -131,6 +131,25 @@ def test_field3d(
     assert said(report) == [(code, None, message) for code, message in expected]
 
 
+@pytest.mark.parametrize(
+    ("name", "purpose", "suggestion"),
+    [
+        ("density", "clouds", "did you mean fieldPurpose 'cloud'?"),
+        ("v", "cloud", "did you mean fieldPurpose 'smoke'?"),
+        ("densty", "cloud", "did you mean 'density'?"),
+    ],
+)
+def test_a_grid_of_another_purpose(
+    name: str, purpose: str, suggestion: str | None, lint_text: Lint, tmp_path: Path
+) -> None:
+    (tmp_path / "a.f3d").write_bytes((SAMPLES / "f3d_ogawa.f3d").read_bytes())
+    layer = (f'token fieldName = "{name}"', f'token fieldPurpose = "{purpose}"')
+    more = ("asset filePath = @./a.f3d@", 'token fieldDataType = "float"', *layer)
+    report = lint_text(stage(field("density", *more, kind="Field3DAsset")))
+    [finding] = [each for each in report.findings if each.code == "GRD003"]
+    assert finding.suggestion == suggestion
+
+
 def test_field3d_without_h5py(
     lint_text: Lint, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -31,6 +31,16 @@ MOVES = (
     'uniform token[] xformOpOrder = ["xformOp:translate"]\n'
 )
 STANDS = MOVES.replace(".timeSamples = { 1: (0, 0, 0), 7: (0, 9, 0) }", " = (0, 9, 0)")
+MATRIX = (
+    "matrix4d xformOp:transform.timeSamples = { 1: ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), "
+    "(0, 0, 0, 1)), 7: ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 9, 0, 1)) }\n"
+    'uniform token[] xformOpOrder = ["xformOp:transform"]\n'
+)
+TURNS = (
+    "float xformOp:rotateY.timeSamples = { 1: 0, 7: 360 }\n"
+    'uniform token[] xformOpOrder = ["xformOp:rotateY"]\n'
+)
+UNUSED = MOVES.partition("uniform")[0]
 FLASHES = 'token visibility.timeSamples = { 1: "invisible", 3: "inherited", 6: "invisible" }\n'
 
 
@@ -61,6 +71,9 @@ def levels(lint_text: Lint, assets: Path, tmp_path: Path) -> Levels:
         ([volume("a")], "warning"),
         ([volume("a", STANDS)], "warning"),
         ([volume("a", MOVES)], "info"),
+        ([volume("a", MATRIX)], "info"),
+        ([volume("a", TURNS)], "warning"),
+        ([volume("a", UNUSED)], "warning"),
         ([volume("a", MOVES), volume("b")], "warning"),
         ([volume("a", FLASHES)], "info"),
         ([volume("a", 'token visibility = "invisible"\n')], None),

@@ -16,6 +16,11 @@ def behaves(volume: Prim, facts: Facts) -> Problems:
         os.abort()
     elif name == "segfault":
         os.kill(os.getpid(), signal.SIGSEGV)
+    elif name == "killed":
+        os.kill(os.getpid(), signal.SIGKILL)
+    elif name == "interrupt":
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGINT)
     elif name == "exit":
         print("many words\n" * 50_000 + "last words", file=sys.stderr)
         os._exit(3)

@@ -63,6 +63,12 @@ class Corrections:
         return found
 
 
+def changes_place(prim: Any) -> bool:
+    """Whether an op of a prim takes it to other places over time; to turn on the spot does not."""
+    moving = _TRANSLATIONS | {_MATRIX}
+    return any(op.GetOpType() in moving and op.MightBeTimeVarying() for op in _ops(prim))
+
+
 def resetting(prim: Any) -> Any | None:
     """The nearest prim, from this one upwards, that nothing above it moves, if one says so."""
     while prim and not _resets(prim):

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from pxr import UsdGeom
 
+from usdvol_lint.facts.layers.turns import changes_place
 from usdvol_lint.facts.usd.instances import shown
 
 
@@ -15,7 +16,7 @@ class Staging(NamedTuple):
     """How prims are shown over a range of time.
 
     `is_shown`: whether one of them is visible for more than a frame; `is_still`: whether one is so
-    throughout, and nothing moves it.
+    throughout, and stays where it is.
     """
 
     is_shown: bool
@@ -30,7 +31,7 @@ def staging_of(
     `moved` are the paths of what PointInstancers move.
     """
     each = [_staging(prim, moved, time_range) for prim in volumes or (field,)]
-    is_still = any(map(all, each)) and not any(map(_moves, _upwards(field)))
+    is_still = any(map(all, each)) and not any(map(changes_place, _upwards(field)))
     return Staging(any(one.is_shown for one in each), is_still)
 
 
@@ -44,7 +45,7 @@ def _staging(prim: Any, moved: Collection[Any], time_range: tuple[float, float])
         for start, end in pairwise(_within(changes, time_range))
         if imageable.ComputeVisibility(start) != UsdGeom.Tokens.invisible
     ]
-    is_moved = any(each.GetPath() in moved or _moves(each) for each in upwards)
+    is_moved = any(each.GetPath() in moved or changes_place(each) for each in upwards)
     return Staging(sum(end - start for start, end in is_visible) > 1, not changes and not is_moved)
 
 
@@ -66,9 +67,3 @@ def _within(times: Iterable[float], time_range: tuple[float, float]) -> list[flo
     """The times in a range, with its start and the frame after its end."""
     start, end = time_range
     return [start, *(time for time in times if start < time <= end), end + 1]
-
-
-def _moves(prim: Any) -> bool:
-    """Whether a prim has a transform that is animated."""
-    xformable = UsdGeom.Xformable(prim)
-    return bool(xformable and xformable.TransformMightBeTimeVarying())
