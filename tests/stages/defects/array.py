@@ -136,6 +136,7 @@ def many_that_are_one(subject: ParticleSubject, rng: Random) -> None:
     for name in ("positions", "orientations", "scales", "opacities", COEFFICIENTS):
         for values in subject.lists(name):
             values[:5] = [values[0]] * 5
+    subject.prim.properties.pop("primvars:ids", None)  # which tell particles apart
 
 
 @on_particles("ARR015", needs=_ALL, is_info=True)

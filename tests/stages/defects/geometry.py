@@ -20,6 +20,7 @@ def _self_or_root(subject: Subject, rng: Random) -> Prim:
 def purpose_not_allowed(subject: VolumeSubject, rng: Random) -> Prim:
     prim = _self_or_root(subject, rng)
     token = rng.choice(("Render", "final", "preview"))
+    subject.prim.properties.pop("purpose", None)  # its own, which would hold in place of this
     prim.properties["purpose"] = Attribute("token", token, is_uniform=True)
     return prim
 
