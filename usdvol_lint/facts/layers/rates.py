@@ -135,17 +135,20 @@ def _is_undone(prim: Any, layer: Any, scale: float, own: float) -> bool:
     """
     if _is_close(scale, 1) or (_is_even(scale) and not _is_even(scale / own)):
         return True
-    return any(_is_close(arc, 1) for arc in _scales_of_rated_arcs(prim, layer))
+    return any(_is_close(arc, 1) for arc in _corrected_scales(prim, layer, own))
 
 
-def _scales_of_rated_arcs(prim: Any, layer: Any) -> Iterator[float]:
-    """The scales, authored and added, of the arcs that bring a layer to a prim at another rate."""
+def _corrected_scales(prim: Any, layer: Any, own: float) -> Iterator[float]:
+    """For each arc that brings a layer to a prim, its authored scale times one that USD adds.
+
+    USD adds a scale at arcs between layers of different rates; one of the others may undo it too.
+    """
     for node in nodes_of(prim.GetPrimIndex()):
         if layer in node.layerStack.layers:
-            while node.parent and _rate(node.parent) == _rate(node):
+            while node.parent:
+                scale = node.mapToParent.timeOffset.scale
+                yield scale * own if _rate(node.parent) == _rate(node) else scale
                 node = node.parent
-            if node.parent:
-                yield node.mapToParent.timeOffset.scale
 
 
 def _rate(node: Any) -> float:
