@@ -165,9 +165,7 @@ class Volumes(Wing):
         """Whether a field, or each of the Volumes that bind it, is invisible at all these times."""
         from usdvol_lint.facts.volumes.visibility import is_hidden
 
-        slot = self.tables.field_slots.get(field.GetPath())
-        bound = self.bound_fields.readable(schema.VOLUME)
-        return is_hidden(field, [volume for volume, fields in bound if slot in fields.slots], times)
+        return is_hidden(field, self._users.of(self.tables.field_slots[field.GetPath()]), times)
 
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How transforms move a field relative to a Volume that binds it, if they do."""
@@ -203,27 +201,15 @@ class Volumes(Wing):
 
     def is_targeted(self, prim: Any) -> bool:
         """Whether a live Volume targets a prim, also one that is no live field."""
-        return prim.GetPath() in self._targeted
-
-    @cached_property
-    def _targeted(self) -> frozenset[Any]:
-        """The paths of all targets that are no live fields right below their Volume."""
-        bound = self.bound_fields.readable(schema.VOLUME)
-        in_full = (fields.bindings for _, fields in bound if fields.bindings)
-        return frozenset(path for bindings in in_full for path in bindings.target_paths())
+        return prim.GetPath() in self._users.other_targets
 
     @cached_property
     def _targets_of_unknown_type(self) -> frozenset[Any]:
         """The paths of the prims of unregistered types that Volumes target."""
-        from usdvol_lint.facts.usd.instances import in_prototype
-        from usdvol_lint.facts.volumes.states import TargetState
+        from usdvol_lint.facts.volumes.usage import targets_of_unknown_type
 
-        return frozenset(
-            in_prototype(target.prim).GetPath()
-            for volume, fields in self.bound_fields.readable(schema.VOLUME)
-            if TargetState.UNKNOWN_TYPE in fields.marks
-            for _, target in self.bindings(volume).with_target(TargetState.UNKNOWN_TYPE)
-        )
+        bound = self.bound_fields.readable(schema.VOLUME)
+        return targets_of_unknown_type(bound, self.bindings)
 
     @cached_property
     def _users(self) -> Users:

@@ -16,6 +16,7 @@ from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.bindings import BoundFields, FieldBindings
 from usdvol_lint.facts.volumes.intended import FieldIndex
+from usdvol_lint.facts.volumes.states import TargetState
 
 
 class UsedFields:
@@ -60,12 +61,30 @@ class Users:
         return self._by_slot[slot]
 
     @cached_property
+    def other_targets(self) -> frozenset[Any]:
+        """The paths of all targets that are no live fields right below their Volume."""
+        in_full = (fields.bindings for _, fields in self._volumes if fields.bindings)
+        return frozenset(path for bindings in in_full for path in bindings.target_paths())
+
+    @cached_property
     def _by_slot(self) -> dict[Slot, list[Any]]:
         found: dict[Slot, list[Any]] = defaultdict(list)
         for volume, fields in self._volumes:
             for slot in fields.slots:
                 found[slot].append(volume)
         return found
+
+
+def targets_of_unknown_type(
+    volumes: Iterable[tuple[Any, BoundFields]], bindings: Callable[[Any], FieldBindings]
+) -> frozenset[Any]:
+    """The paths of the prims of unregistered types that Volumes target."""
+    return frozenset(
+        in_prototype(target.prim).GetPath()
+        for volume, fields in volumes
+        if TargetState.UNKNOWN_TYPE in fields.marks
+        for _, target in bindings(volume).with_target(TargetState.UNKNOWN_TYPE)
+    )
 
 
 def accounted_for(
