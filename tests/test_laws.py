@@ -63,6 +63,14 @@ LONGEST_RULE = 49
 LONGEST_HALF_OF_RULES = 21
 """How many lines a rule's module has at most, and how many the shorter half of them have."""
 
+LONGEST_WING = 200
+LONGEST_MODULE = 300
+LONGER_MODULES = {"engine/lines.py"}
+"""A scanner of usda text, which is one thing."""
+LONGEST_FUNCTION = 40
+LONGEST_HALF_OF_FUNCTIONS = 6
+"""How many lines a wing's class, a module and a function have at most."""
+
 RULE_MODULES = sorted(path for path in RULES.rglob("*.py") if not path.name.startswith("_"))
 ENGINE_MODULES = sorted(ENGINE.rglob("*.py"))
 
@@ -157,6 +165,33 @@ def test_modules_say_what_they_are(path: Path) -> None:
     words = ast.get_docstring(tree(path))
     assert words
     assert words.partition("\n")[0].endswith((".", "`."))
+
+
+def test_every_part_is_short() -> None:
+    """A longer wing lists what its modules should do, a longer function does two things."""
+    modules = {path.relative_to(ENGINE).as_posix(): path for path in ENGINE_MODULES}
+    lines = {name: len(path.read_text("utf-8").splitlines()) for name, path in modules.items()}
+    assert {name for name, count in lines.items() if count > LONGEST_MODULE} == LONGER_MODULES
+    wings = {f"facts/{name}/__init__.py" for name in WINGS}
+    assert {
+        node.name: _length(node)
+        for name in wings
+        for node in tree(modules[name]).body
+        if isinstance(node, ast.ClassDef) and _length(node) > LONGEST_WING
+    } == {}
+    functions = [
+        node
+        for path in ENGINE_MODULES
+        for node in ast.walk(tree(path))
+        if isinstance(node, ast.FunctionDef)
+    ]
+    assert {each.name for each in functions if _length(each) > LONGEST_FUNCTION} == set()
+    assert median(map(_length, functions)) <= LONGEST_HALF_OF_FUNCTIONS
+
+
+def _length(node: ast.ClassDef | ast.FunctionDef) -> int:
+    assert node.end_lineno is not None
+    return node.end_lineno - node.lineno + 1
 
 
 # --- rule modules ---------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from contextlib import suppress
 from functools import cached_property, partial
 from typing import Any, TypeAlias
 
-from pxr import Sdf
+from pxr import Sdf, Tf
 
 from usdvol_lint import schema
 from usdvol_lint.engine.spec_parts import (
@@ -27,13 +27,14 @@ from usdvol_lint.engine.spec_parts import (
 )
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.prims.tables import Table
-from usdvol_lint.facts.usd.calls import get_prim_stack, has_value
+from usdvol_lint.facts.usd.calls import ARCS, get_prim_stack, has_value
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.volumes.states import TargetState
 from usdvol_lint.model import Completed, Completion
 from usdvol_lint.schema import CLIPS, FIELD_NAMESPACE, PRIMS, SPECIFIER, TYPE_NAME
 
-_ARCS = ("references", "payload", "inheritPaths", "specializes")
+_RAISED = (Tf.ErrorException, UnicodeDecodeError)
+"""What USD raises for what it can't read."""
 
 _Layers: TypeAlias = tuple[str, ...]
 
@@ -77,13 +78,13 @@ class _Completions:
         tables = self._facts.tables
         for table in tables.of(*schema.OURS):
             for find in (self._find_values, self._find_types, self._find_clipped):
-                with suppress(Exception):  # what can't be read, a rule that asks for it reports
+                with suppress(*_RAISED):  # what can't be read, a rule that asks for it reports
                     find(table)
         for table in tables.of(schema.VOLUME):
-            with suppress(Exception):
+            with suppress(*_RAISED):
                 self._find_bindings(table)
         for find_any in (self._find_definitions, self._find_clips, self._find_prims):
-            with suppress(Exception):
+            with suppress(*_RAISED):
                 find_any()
 
     def _add(self, spec: Any, *what: str) -> None:
@@ -116,7 +117,7 @@ class _Completions:
         """Whether a spec has something, or a weaker one that its own arcs may bring."""
         if has(spec):
             return True
-        if not any(map(spec.HasInfo, _ARCS)):
+        if not any(map(spec.HasInfo, ARCS)):
             return False
         siblings = self._local if spec.layer in self._local else ()
         weaker = stack[stack.index(spec) + 1 :]

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 from pxr import Sdf, Usd
 
 from usdvol_lint import schema
-from usdvol_lint.facts.usd.calls import DRAWN_BELOW, get_path
+from usdvol_lint.facts.usd.calls import ARCS, DRAWN_BELOW, get_path
 from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
@@ -21,10 +21,7 @@ _CHECKED = frozenset(
     }
 )
 """The schemas of prims that make a variant worth composing."""
-_BRINGS = (
-    *("references", "payload", "inheritPaths", "specializes"),
-    *("apiSchemas", "active", "variantSelection"),
-)
+_BRINGS = (*ARCS, "apiSchemas", "active", "variantSelection")
 """Metadata of a spec without a type that puts prims on the stage, or changes what they are."""
 
 VariantSpec: TypeAlias = tuple[str, str]

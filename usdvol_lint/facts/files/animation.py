@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from usdvol_lint.facts.usd.calls import ARCS
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.model import quoted
 
-_ARCS = ("references", "payload", "inheritPaths", "specializes", "variantSetNames")
+_BRINGS = (*ARCS, "variantSetNames")
 
 
 class UnlistedClips(NamedTuple):
@@ -84,4 +85,4 @@ def _composes(layer: Any, path: Any) -> bool:
     if layer.subLayerPaths:
         return True
     specs = filter(None, map(layer.GetPrimAtPath, path.GetPrimPath().GetPrefixes()))
-    return any(spec.HasInfo(arc) for spec in specs for arc in _ARCS)
+    return any(spec.HasInfo(arc) for spec in specs for arc in _BRINGS)

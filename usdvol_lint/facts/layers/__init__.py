@@ -92,7 +92,9 @@ class Layers(Wing):
 
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
-        return self._composition.may_lack_values(prim) or prim in self.clip_losses.prims
+        may_be_lost = self._clips.are_authored or self._arcs.prims
+        is_lost = may_be_lost and prim in self.clip_losses.prims
+        return bool(is_lost or self._composition.may_lack_values(prim))
 
     @cached_property
     def clip_losses(self) -> ClipLosses:

@@ -10,12 +10,11 @@ from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.calls import ARCS
 from usdvol_lint.facts.usd.clips import Clips, is_from_clips
 from usdvol_lint.facts.usd.instances import instances_of, prototype_of, shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-
-_ARCS = ("references", "payload", "inheritPaths", "specializes")
 
 
 class LeftBehind(NamedTuple):
@@ -191,4 +190,4 @@ def _first_instance(prototype: Any) -> Any:
 
 def _with_arc(prim: Any) -> Any:
     stack = prim.GetPrimStack()
-    return next((spec for spec in stack if any(map(spec.HasInfo, _ARCS))), stack[0])
+    return next((spec for spec in stack if any(map(spec.HasInfo, ARCS))), stack[0])

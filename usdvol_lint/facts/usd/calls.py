@@ -40,6 +40,9 @@ get_targets: Any = Usd.Relationship.GetForwardedTargets
 
 prim_at: Any = Usd.Stage.GetPrimAtPath
 
+ARCS = ("references", "payload", "inheritPaths", "specializes")
+"""The metadata of a spec that bring it the opinions of other prims."""
+
 COMPOSED: Any = Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
 """As USD's default predicate, which does without prims that nothing defines."""
 DRAWN_BELOW: Any = COMPOSED & Usd.PrimHasDefiningSpecifier

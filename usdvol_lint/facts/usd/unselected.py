@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from usdvol_lint.facts.usd.calls import get_parent, get_prim_stack
+from usdvol_lint.facts.usd.calls import ARCS, get_parent, get_prim_stack
 
-_ARCS = ("references", "payload", "inheritPaths", "specializes", "variantSetNames")
+_BRINGS = (*ARCS, "variantSetNames")
 
 
 def may_be_said(prim: Any, says: Callable[[Any], bool]) -> bool:
@@ -44,6 +44,6 @@ def _unselected(prim: Any) -> Iterator[Any]:
 def _may_say(variant: Any, prefixes: Iterable[Any], says: Callable[[Any], bool]) -> bool:
     """Whether a variant says it of the last of these relative paths, or has arcs there or above."""
     specs = [variant, *(variant.GetPrimAtPath(path) for path in prefixes if path.name != ".")]
-    return any(spec and any(map(spec.HasInfo, _ARCS)) for spec in specs) or bool(
+    return any(spec and any(map(spec.HasInfo, _BRINGS)) for spec in specs) or bool(
         specs[-1] and says(specs[-1])
     )

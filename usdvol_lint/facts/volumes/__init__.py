@@ -150,12 +150,7 @@ class Volumes(Wing):
             return []
         from usdvol_lint.facts.volumes.lookalikes import lookalikes
 
-        layers, found = self._layers, lookalikes(self._stage, self._untyped, unbound)
-        return [
-            each
-            for each in found
-            if not (layers.may_lack(each.prim) or layers.hides_ours(each.prim))
-        ]
+        return lookalikes(self._stage, self._untyped, unbound, self._layers)
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:
         """A predicate for later: whether no variant selection until then uses the field."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Usd
 
@@ -20,6 +20,9 @@ from usdvol_lint.facts.usd.calls import (
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.usd.unselected import may_be_said
 from usdvol_lint.facts.usd.untyped import GROUP_TYPES
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.layers import Layers
 
 _ARRAYS = (
     "positions",
@@ -37,11 +40,14 @@ class Lookalike(NamedTuple):
     binding: Any | None = None
 
 
-def lookalikes(stage: Any, untyped: Iterable[Any], unbound: Collection[Any]) -> list[Lookalike]:
+def lookalikes(
+    stage: Any, untyped: Iterable[Any], unbound: Collection[Any], layers: Layers
+) -> list[Lookalike]:
     """By path: what would bind one of the fields at these paths, or has all the splat arrays.
 
     `untyped` are the prims that are in question, besides those above the fields.
-    Left out are those that a variant which is not selected may give a type.
+    Left out are those that a variant which is not selected may give a type, those whose type is
+    hidden, and those that may lack opinions.
     """
     found = {}
     for prim in chain(_above(stage, unbound), untyped):
@@ -50,7 +56,9 @@ def lookalikes(stage: Any, untyped: Iterable[Any], unbound: Collection[Any]) -> 
         if binding and _is_above_volume(prim):
             continue  # which may forward to it, in a variant that is not selected
         is_alike = binding or (names and _has_arrays(names))
-        if is_alike and not _may_be_typed(prim):
+        if is_alike and not (
+            _may_be_typed(prim) or layers.may_lack(prim) or layers.hides_ours(prim)
+        ):
             found[prim] = Lookalike(prim, binding)
     return sorted(found.values(), key=lambda each: each.prim.GetPath())
 
