@@ -205,13 +205,16 @@ class ParticleArray:
         """Which elements a mask selects in all wanted samples that have them: a boolean for each.
 
         Only samples whose least numbers are suspicious are read, and only while some elements are
-        left.
+        left; none are where a sample as long as the longest is above suspicion.
         """
         most = max((sample.size for sample in self.samples if wanted(sample)), default=0)
-        left: Rows = np.ones(most, np.bool_)
-        for sample, measured in self.ranges:
-            if wanted(sample) and not (measured.low and is_suspect(measured.low)):
-                left[: sample.size] = False
+        cleared = [
+            sample.size
+            for sample, measured in self.ranges
+            if wanted(sample) and not (measured.low and is_suspect(measured.low))
+        ]
+        left: Rows = np.ones(0 if most in cleared else most, np.bool_)
+        left[: max(cleared, default=0)] = False
         for _, rows in self.read(lambda own: wanted(own) and bool(left[: own.size].any())):
             matches.keep(left, rows, mask)
         return left

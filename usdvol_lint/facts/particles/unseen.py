@@ -51,22 +51,23 @@ class Unseen:
 
 def unseen_particles(arrays: ParticleArrays) -> Unseen | None:
     """The particles without opacity or size in all samples, if all are read."""
-    count = arrays.most_particles
-    masks: list[Rows] = []
-    attributes = []
-    for array, find in _telling(arrays, 0.0):
-        mask = np.zeros(count, np.bool_)
-        if array and array.is_read_whole:
-            found = find(lambda sample: True)[:count]
-            mask[: len(found)] = found
-        masks.append(mask)
-        if array and mask.any():
-            attributes.append(array.attribute)
+    found = [
+        (array, find(lambda sample: True) if array and array.is_read_whole else _NONE)
+        for array, find in _telling(arrays, 0.0)
+    ]
+    attributes = [array.attribute for array, selected in found if array and selected.any()]
     if not attributes:
         return None
-    transparent, sizeless = masks
+    count = arrays.most_particles
+    transparent, sizeless = masks = [_of_length(count, selected) for _, selected in found]
     numbers = (int(np.count_nonzero(mask)) for mask in (*masks, transparent & sizeless))
     return Unseen(attributes[0], transparent | sizeless, *numbers)
+
+
+def _of_length(count: int, selected: Rows) -> Rows:
+    mask: Rows = np.zeros(count, np.bool_)
+    mask[: len(selected)] = selected[:count]
+    return mask
 
 
 def hidden_while(
