@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Sdf, Tf, Usd
 
@@ -18,6 +18,8 @@ from usdvol_lint.facts.usd.instances import (
     path_in_prototype,
     prototype_of,
 )
+
+_Places: TypeAlias = dict[tuple[Any, ...], str]
 
 
 class StoppedClips(NamedTuple):
@@ -62,23 +64,24 @@ def _bearers(prim: Any) -> tuple[Any, ...]:
 
 def _first_paths(prototype: Any) -> Iterable[str]:
     """The first path at which the prototype appears below each group of prims with clips."""
-    first: dict[tuple[Any, ...], str] = {}
-    for path, above in sorted(_places(prototype), key=lambda place: place[0]):
-        if above:
-            first.setdefault(above, path)
-    return first.values()
+    return sorted(path for above, path in _places(prototype, {}).items() if above)
 
 
-def _places(prototype: Any) -> Iterator[tuple[str, tuple[Any, ...]]]:
-    """Each path at which a prototype appears, and the prims with clips there and above."""
+def _places(prototype: Any, known: dict[Any, _Places]) -> _Places:
+    """Where a prototype appears first, by the prims with clips there and above."""
+    if prototype in known:
+        return known[prototype]
+    first: _Places = {}
     for instance in instances_of(prototype):
-        own = _bearers(instance)
-        if not instance.IsInPrototype():
-            yield str(instance.GetPath()), own
-            continue
+        own, around = _bearers(instance), {(): ""}
+        if instance.IsInPrototype():
+            around = _places(prototype_of(instance), known)
         below = path_in_prototype(instance)
-        for path, above in _places(prototype_of(instance)):
-            yield path + below, own + above
+        for above, path in around.items():
+            group, place = own + above, path + below
+            first[group] = min(place, first.get(group, place))
+    known[prototype] = first
+    return first
 
 
 def _stopped(stage: Any, path: Any, still: dict[Any, list[Any]]) -> Iterator[StoppedClips]:
