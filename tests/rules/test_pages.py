@@ -6,6 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from causes import told_twice
 from process import ROOT
 
 from usdvol_lint.engine.engine import Engine
@@ -42,6 +43,7 @@ def test_example_reports_its_marks_and_says_its_words(
     findings = portable(engine.lint(STAGE).findings, tmp_path)
     place = f"{case.page.path}:{case.example.line}"
     words = words_of(findings)
+    assert not told_twice(findings), place
     assert Counter(map(mark, findings)) == marks(case, load().rules), f"{place}\n{words}"
     agreed = (read_words(case.page) or {}).get(case.title, "")
     assert words == agreed, f"{place}: `make generate` writes the words"

@@ -7,6 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from causes import told_twice
 
 from stages.defects import DEFECTS
 from stages.generating import FEATURES, Generated, generate
@@ -45,7 +46,7 @@ def test_nothing_is_found_but_the_defect(
             Found(each.code, each.severity.label, each.site.prim, each.message)
             for each in report.findings
         ]
-        missed = misses(made.expected, found)
+        missed = [*misses(made.expected, found), *told_twice(report.findings)]
         if missed:
             failures.append(failure(number, path, made, missed))
         else:

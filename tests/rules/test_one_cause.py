@@ -1,0 +1,82 @@
+"""The law that one cause is one finding sees two that have one.
+
+It is held over all examples in `test_pages`, and over random defects in `stages/test_stages`.
+"""
+
+from __future__ import annotations
+
+import pytest
+from causes import ABSENT, OF_ONE_FILE, OF_ONE_PRIM, OF_ONE_PROPERTY, told_twice
+
+from usdvol_lint.model import Finding, Severity, Site
+from usdvol_lint.packs.catalog import load
+
+
+def found(
+    code: str,
+    place: str = "/cloud/density.filePath",
+    message: str = "",
+    advice: str | None = None,
+    times: tuple[float, ...] = (),
+) -> Finding:
+    prim, _, name = place.partition(".")
+    site = Site("a.usda", prim, name or None, times=times)
+    return Finding(code, "", Severity.ERROR, message or code, site, advice)
+
+
+MISSPELT = found("SCH004", "/cloud/density.filepath", advice="did you mean 'filePath'?")
+HALF = found("SCH004", "/Splat.positionh", advice="did you mean 'positionsh'?")
+NO_API = found(
+    "PRT006", "/Splat", "USD knows no API 'A', so nothing gives these splats positions or a kernel"
+)
+
+
+@pytest.mark.parametrize(
+    "findings",
+    [
+        (found("AST002"), found("AST009")),
+        (found("AST002", times=(1, 2)), found("AST008", times=(2, 3))),
+        (found("AST002", times=(1, 2)), found("AST007")),
+        (found("AST002"), found("AST002", message="the same again")),
+        (found("AST011", message="twice"), found("AST011", message="twice")),
+        (found("AST006"), found("FLD007", "/cloud/density")),
+        (MISSPELT, found("AST001")),
+        (found("AST001", "/cloud/density"), MISSPELT),
+        (found("SCH003"), found("AST001")),
+        (HALF, found("ARR001", "/Splat")),
+        (NO_API, found("PRT001", "/Splat")),
+        (found("PRT002", "/Splat"), NO_API),
+        (
+            found("SCH004", "/Splat.extents", advice="did you mean 'extent'?"),
+            found("SCH007", "/A", "no extent: Volume </A>, ParticleField </Splat>"),
+        ),
+        (
+            found("AST002", message="no file at 'a.vdb', as in 2 other fields"),
+            found("AST002", "/cloud/heat.filePath", "no file at 'a.vdb'"),
+        ),
+    ],
+)
+def test_one_cause_is_seen(findings: tuple[Finding, Finding]) -> None:
+    assert len(told_twice(findings)) == 1
+
+
+@pytest.mark.parametrize(
+    "findings",
+    [
+        (found("AST002", times=(1, 2)), found("AST009", times=(3,))),
+        (found("AST002"), found("GRD003")),
+        (found("AST002"), found("AST009", "/cloud/heat.filePath")),
+        (found("AST002", "/cloud/a.filePath", "gone"), found("AST002", "/fog/a.filePath", "gone")),
+        (MISSPELT, found("FLD001", "/cloud/density")),
+        (MISSPELT, found("AST001", "/cloud/heat")),
+        (NO_API, found("PRT003", "/Splat")),
+        (found("ARR002", "/Splat.scales"), found("ARR003", "/Splat.opacities")),
+    ],
+)
+def test_two_causes_are_two_findings(findings: tuple[Finding, Finding]) -> None:
+    assert told_twice(findings) == []
+
+
+def test_tables_name_codes_that_rules_have() -> None:
+    named = set().union(*OF_ONE_PROPERTY, *OF_ONE_PRIM, OF_ONE_FILE, ABSENT)
+    assert named <= load().rules.keys()
