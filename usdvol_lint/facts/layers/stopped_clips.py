@@ -63,23 +63,26 @@ def _bearers(prim: Any) -> tuple[Any, ...]:
 
 def _first_paths(prototype: Any) -> Iterable[str]:
     """The first path at which the prototype appears below each group of prims with clips."""
-    first: dict[tuple[Any, ...], str] = {}
-    for path, above in sorted(_places(prototype), key=lambda place: place[0]):
-        if above:
-            first.setdefault(above, path)
-    return first.values()
+    first = _first_by_bearers(prototype, {})
+    return sorted(path for bearers, path in first.items() if bearers)
 
 
-def _places(prototype: Any) -> Iterator[tuple[str, tuple[Any, ...]]]:
-    """Each path at which a prototype appears, and the prims with clips there and above."""
-    for instance in instances_of(prototype):
-        own = _bearers(instance)
-        if not instance.IsInPrototype():
-            yield str(instance.GetPath()), own
-            continue
-        below = path_in_prototype(instance)
-        for path, above in _places(prototype_of(instance)):
-            yield path + below, own + above
+def _first_by_bearers(
+    prototype: Any, known: dict[Any, dict[tuple[Any, ...], str]]
+) -> dict[tuple[Any, ...], str]:
+    """By the prims with clips at and above it, the first path at which a prototype appears."""
+    if prototype not in known:
+        first = known[prototype] = {}
+        for instance in instances_of(prototype):
+            own = _bearers(instance)
+            below, places = str(instance.GetPath()), {(): ""}
+            if instance.IsInPrototype():
+                below = path_in_prototype(instance)
+                places = _first_by_bearers(prototype_of(instance), known)
+            for above, path in places.items():
+                bearers = own + above
+                first[bearers] = min(path + below, first.get(bearers, path + below))
+    return known[prototype]
 
 
 def _stopped(stage: Any, path: Any, still: dict[Any, list[Any]]) -> Iterator[StoppedClips]:

@@ -31,12 +31,20 @@ class Shown(NamedTuple):
 
 def shown(prim: Any) -> Shown:
     """Where a prim appears; outside prototypes, once, at its own path."""
+    return _shown(prim, {})
+
+
+def _shown(prim: Any, known: dict[Any, Shown]) -> Shown:
+    """The same; `known` are prototypes, since instances in instances may be very many."""
     if not prim.IsInPrototype():
         return Shown(str(prim.GetPath()), 1)
-    below = path_in_prototype(prim)
-    through = [shown(instance) for instance in instances_of(prototype_of(prim))]
-    path = min(instance.path for instance in through)
-    return Shown(path + below, sum(instance.instances for instance in through))
+    prototype = prototype_of(prim)
+    if prototype not in known:
+        through = [_shown(instance, known) for instance in instances_of(prototype)]
+        path = min(instance.path for instance in through)
+        known[prototype] = Shown(path, sum(instance.instances for instance in through))
+    first, instances = known[prototype]
+    return Shown(first + path_in_prototype(prim), instances)
 
 
 def as_shown(prims: Iterable[Any]) -> list[Any]:
