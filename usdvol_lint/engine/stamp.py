@@ -43,7 +43,7 @@ class Stamp:
         if severity is None:
             return
         site, spec, instances = self.sites.locate(problem)
-        shown = f" (shown by {instances} instances)" if instances > 1 else ""
+        shown = f" (shown by {instances:,} instances)" if instances > 1 else ""
         finding = Finding(
             code=reported_as.code,
             name=reported_as.name,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Sdf, Usd
 
@@ -19,6 +19,8 @@ from usdvol_lint.facts.usd.instances import (
     path_in_prototype,
     prototype_of,
 )
+
+_Places: TypeAlias = dict[tuple[Any, ...], str]
 
 
 class StoppedClips(NamedTuple):
@@ -63,26 +65,24 @@ def _bearers(prim: Any) -> tuple[Any, ...]:
 
 def _first_paths(prototype: Any) -> Iterable[str]:
     """The first path at which the prototype appears below each group of prims with clips."""
-    first = _first_by_bearers(prototype, {})
-    return sorted(path for bearers, path in first.items() if bearers)
+    return sorted(path for above, path in _places(prototype, {}).items() if above)
 
 
-def _first_by_bearers(
-    prototype: Any, known: dict[Any, dict[tuple[Any, ...], str]]
-) -> dict[tuple[Any, ...], str]:
-    """By the prims with clips at and above it, the first path at which a prototype appears."""
-    if prototype not in known:
-        first = known[prototype] = {}
-        for instance in instances_of(prototype):
-            own = _bearers(instance)
-            below, places = str(instance.GetPath()), {(): ""}
-            if instance.IsInPrototype():
-                below = path_in_prototype(instance)
-                places = _first_by_bearers(prototype_of(instance), known)
-            for above, path in places.items():
-                bearers = own + above
-                first[bearers] = min(path + below, first.get(bearers, path + below))
-    return known[prototype]
+def _places(prototype: Any, known: dict[Any, _Places]) -> _Places:
+    """Where a prototype appears first, by the prims with clips there and above."""
+    if prototype in known:
+        return known[prototype]
+    first: _Places = {}
+    for instance in instances_of(prototype):
+        own, around = _bearers(instance), {(): ""}
+        if instance.IsInPrototype():
+            around = _places(prototype_of(instance), known)
+        below = path_in_prototype(instance)
+        for above, path in around.items():
+            group, place = own + above, path + below
+            first[group] = min(place, first.get(group, place))
+    known[prototype] = first
+    return first
 
 
 def _stopped(stage: Any, path: Any, still: dict[Any, list[Any]]) -> Iterator[StoppedClips]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from enum import IntEnum
 from functools import cache
+from itertools import islice
 from typing import Any, NamedTuple
 
 from pxr import Sdf
+
+_MOST_PATHS = 10_000
 
 
 class Standing(IntEnum):
@@ -34,17 +37,19 @@ def shown(prim: Any) -> Shown:
     return _shown(prim, {})
 
 
-def _shown(prim: Any, known: dict[Any, Shown]) -> Shown:
-    """The same; `known` are prototypes, since instances in instances may be very many."""
+def _shown(prim: Any, prototypes: dict[Any, Shown]) -> Shown:
+    """As `shown`; `prototypes` keeps what is known, since many instances lead to the same one."""
     if not prim.IsInPrototype():
         return Shown(str(prim.GetPath()), 1)
     prototype = prototype_of(prim)
-    if prototype not in known:
-        through = [_shown(instance, known) for instance in instances_of(prototype)]
-        path = min(instance.path for instance in through)
-        known[prototype] = Shown(path, sum(instance.instances for instance in through))
-    first, instances = known[prototype]
-    return Shown(first + path_in_prototype(prim), instances)
+    if prototype not in prototypes:
+        through = [_shown(instance, prototypes) for instance in instances_of(prototype)]
+        prototypes[prototype] = Shown(
+            min(instance.path for instance in through),
+            sum(instance.instances for instance in through),
+        )
+    path, instances = prototypes[prototype]
+    return Shown(path + path_in_prototype(prim), instances)
 
 
 def as_shown(prims: Iterable[Any]) -> list[Any]:
@@ -63,12 +68,20 @@ def as_shown(prims: Iterable[Any]) -> list[Any]:
 
 
 def shown_paths(prim: Any) -> list[str]:
-    """Every stage path at which a prim appears, in ascending order."""
+    """The stage paths at which a prim appears, in ascending order; not all where it has very many.
+
+    A few prototypes in one another can show a prim more often than a computer can count.
+    """
+    return sorted(islice(_paths(prim), _MOST_PATHS))
+
+
+def _paths(prim: Any) -> Iterator[str]:
     if not prim.IsInPrototype():
-        return [str(prim.GetPath())]
+        yield str(prim.GetPath())
+        return
     below = path_in_prototype(prim)
-    instances = instances_of(prototype_of(prim))
-    return sorted(path + below for instance in instances for path in shown_paths(instance))
+    for instance in instances_of(prototype_of(prim)):
+        yield from (path + below for path in _paths(instance))
 
 
 def instances_of(prototype: Any) -> list[Any]:
