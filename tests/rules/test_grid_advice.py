@@ -116,7 +116,7 @@ CASES: list[Case] = [
     ),
     ("grids/text.vdb", "density", (FLOAT,), "GRD001", "is not a volume file: its first", "copy it"),
     ("grids/broken.vdb", "density", (FLOAT,), "GRD001", "is broken: grid", "write or copy it"),
-    ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "is a NanoVDB file, but", "convert it"),
+    ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "NanoVDB file, which some", "convert it"),
     ("odd.vdb", "density", (FLOAT,), "GRD001", "is a Field3D file, but", "convert it"),
     (
         "x.f3d",
