@@ -17,12 +17,13 @@ def orientations_missing(particles: Prim, facts: Facts) -> Problems:
         return
     if facts.particles.is_misspelt(particles, "orientations"):
         return  # SCH004 says it
-    is_applied = apis.has(_API)
-    if not is_applied and any(particles.GetAttribute(name).HasAuthoredValue() for name in API_ATTRIBUTES[_API]):
-        return  # PRT007 says it
+    if _API not in apis.applied and any(
+        particles.GetAttribute(name).HasAuthoredValue() for name in API_ATTRIBUTES[_API]
+    ):
+        return  # PRT006, PRT007 or PRT009 says it
     yield Problem(
         f"no orientations for the flat kernel {quoted(kernels[0])}, so all particles face along z",
         at=particles,
-        suggestion=("" if is_applied else f"apply {_API} and ")
+        suggestion=("" if apis.has(_API) else f"apply {_API} and ")
         + "author orientations that turn z to the normals of the surface",
     )

@@ -3,8 +3,7 @@
 from usdvol_lint.rule import ERROR, WARNING, Content, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 from usdvol_lint.schema import FILE_EXTENSIONS
 
-_WANTED = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
-_FORMATS = {"openvdb": "an OpenVDB", "field3d": "a Field3D", "nanovdb": "a NanoVDB"}
+_TYPES = {"OpenVDBAsset": "an OpenVDBAsset", "Field3DAsset": "a Field3DAsset"}
 
 
 def _other_format(content: Content) -> str | None:
@@ -15,19 +14,19 @@ def _no_volume(content: Content) -> bool | None:
     return content.is_no_volume or None
 
 
-@rule("AST006", on=tuple(_WANTED), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
+@rule("AST006", on=tuple(_TYPES), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
     if facts.layers.hides_ours(field):
         return
-    type_name = next(name for name in _WANTED if facts.prims.is_a(field, name))
-    prim = f"{_FORMATS[_WANTED[type_name]]}Asset"
+    type_name = next(name for name in _TYPES if facts.prims.is_a(field, name))
     paths, inside = facts.files.paths(field), facts.grids.contents(field)
     others = inside.grouped(_other_format)
-    for other, _, found in others:
+    for other, content, found in others:
         yield Problem(
-            f"{found.shown} is {_FORMATS[other]} file, but the prim is {prim}{found.count}",
+            f"{found.shown} is {content.foreign}{found.count}",
             at=found,
             suggestion=_advice(other, found.first.extension),
+            severity=WARNING if content.is_read_by_some else None,
         )
     wanted = FILE_EXTENSIONS[type_name]
     told = [found for _, _, found in (*others, *inside.grouped(_no_volume))]
@@ -35,7 +34,7 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
     misnamed = paths.affected(each for each in paths.samples if each.is_there and each.extension not in accounted)
     if misnamed:
         formats = inside.timeline.formats
-        what = f"does not end in '{wanted}', as the file of {prim} does"
+        what = f"does not end in '{wanted}', as the file of {_TYPES[type_name]} does"
         advice = f"end its name in '{wanted}'" if formats else f"name a '{wanted}' file"
         if (misnamed.first.extension, wanted) == (".nvdb", ".vdb") and "openvdb" not in formats:
             what = "is a NanoVDB file, which some renderers read and Storm does not"

@@ -1,9 +1,8 @@
 """GRD001: a field names volume files, and of the format that its type asks for."""
 
-from usdvol_lint.rule import ERROR, Content, Facts, NotChecked, Prim, Problem, Problems, contents, rule
+from usdvol_lint.rule import ERROR, WARNING, Content, Facts, NotChecked, Prim, Problem, Problems, contents, rule
 
 _FAULTS = ("not-a-volume-file", "not-a-file")
-_FORMATS = {"openvdb": "an OpenVDB", "nanovdb": "a NanoVDB", "field3d": "a Field3D"}
 _AS_IT_IS = "make the prim an OpenVDBAsset, and end the file's name in '.vdb'"
 _CONVERTED = "convert it to OpenVDB, for an OpenVDBAsset: no reader of other files ships with OpenUSD"
 
@@ -37,7 +36,8 @@ def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
         )
     for stranger, content, found in inside.grouped(_stranger):
         yield Problem(
-            f"{found.shown} is {_FORMATS[stranger]} file, but the prim is {_FORMATS[content.wanted]}Asset{found.count}",
+            f"{found.shown} is {content.foreign}{found.count}",
             at=found,
             suggestion=_AS_IT_IS if stranger == "openvdb" else _CONVERTED,
+            severity=WARNING if content.is_read_by_some else None,
         )

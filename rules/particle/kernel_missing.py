@@ -7,7 +7,7 @@ from usdvol_lint.schema import KERNEL_BASE
 @rule("PRT002", on="ParticleField", severity=ERROR, since="0.1")
 def kernel_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
-    if KERNEL_BASE not in apis.applied and not facts.particles.is_told_as_misspelt(particles, KERNEL_BASE):
+    if KERNEL_BASE not in apis.applied and not facts.particles.is_told_elsewhere(particles, KERNEL_BASE):
         yield Problem(
             f"nothing gives these splats a kernel, their shape: no API schema for one is applied{apis.doubt}",
             at=particles,

@@ -7,7 +7,7 @@ from usdvol_lint.schema import POSITION_BASE
 @rule("PRT001", on="ParticleField", severity=ERROR, since="0.1")
 def position_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
-    if POSITION_BASE not in apis.applied and not facts.particles.is_told_as_misspelt(particles, POSITION_BASE):
+    if POSITION_BASE not in apis.applied and not facts.particles.is_told_elsewhere(particles, POSITION_BASE):
         yield Problem(
             f"nothing gives these splats positions: the API schema for positions is not applied{apis.doubt}",
             at=particles,

@@ -7,7 +7,7 @@ from usdvol_lint.schema import RADIANCE_BASE
 @rule("PRT003", on="ParticleField", severity=ERROR, since="0.1")
 def radiance_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
-    if RADIANCE_BASE in apis.applied or facts.particles.is_told_as_misspelt(particles, RADIANCE_BASE):
+    if RADIANCE_BASE in apis.applied or facts.particles.is_told_elsewhere(particles, RADIANCE_BASE):
         return
     bound = facts.particles.material_is_bound(particles)
     material = "; the bound material serves only renderers that prefer it" if bound else ""

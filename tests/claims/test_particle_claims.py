@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from answers import Said, stage, with_particles
+import pytest
+from answers import Said, layer, stage, with_particles
 from pxr import Usd, UsdShade, UsdVol
 
 pytestmark = with_particles
@@ -59,6 +60,25 @@ def test_PRT006_unknown_names_are_dropped_without_a_word() -> None:
 def test_PRT006_any_text_can_be_added() -> None:
     asked = stage('def ParticleField "splats"\n{\n}\n').GetPrimAtPath("/splats")
     assert asked.AddAppliedSchema("NoSuchAPI")
+
+
+@pytest.mark.parametrize("how", ["", "add", "append", "prepend", "delete"])
+def test_PRT009_a_list_with_a_name_twice_is_dropped_without_a_word(how: str) -> None:
+    text = applied("MaterialBindingAPI", "ParticleFieldPositionAttributeAPI", "MaterialBindingAPI")
+    with Said() as said:
+        read = layer(text.replace("prepend", how))
+    assert not read.GetPrimAtPath("/splats").HasInfo("apiSchemas")
+    assert said == []
+
+
+def test_PRT009_python_adds_no_name_twice() -> None:
+    asked = stage('def ParticleField "splats"\n{\n}\n').GetPrimAtPath("/splats")
+    for _ in range(2):
+        asked.ApplyAPI(UsdVol.ParticleFieldPositionAttributeAPI)
+        asked.AddAppliedSchema("NoSuchAPI")
+    listed = asked.GetMetadata("apiSchemas").GetAddedOrExplicitItems()
+    assert {"ParticleFieldPositionAttributeAPI", "NoSuchAPI"} <= {*listed}
+    assert len({*listed}) == len(listed)
 
 
 def test_PRT007_without_its_api_an_attribute_is_a_custom_one() -> None:

@@ -189,7 +189,7 @@ def test_a_rule_that_has_something_to_look_at_says_nothing_of_it(
     types: tuple[str, ...], tmp_path: Path
 ) -> None:
     stages = write(tmp_path / "stages", one=volume("a"))
-    chosen = ("--select", "FLT,LNT")
+    chosen = ("--select", "FLT,LNT", "--show", "info")
     ran = run("--isolated", "--pack", on(tmp_path, *types), *chosen, stages, cwd=tmp_path)
     assert ran.code == 0
     assert "looked at nothing" not in ran.out

@@ -9,7 +9,15 @@ from typing import Any
 
 from process import ROOT
 
-from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status
+from usdvol_lint.model import (
+    Finding,
+    ParticleFieldStats,
+    Report,
+    Severity,
+    Site,
+    StageReport,
+    Status,
+)
 from usdvol_lint.report.json_report import SCHEMA_VERSION
 
 SCHEMA: dict[str, Any] = json.loads(
@@ -167,6 +175,29 @@ def report(*stages: StageReport) -> Report:
 
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
 NOTHING = report(CLEAN)
+
+_NO_FIGURES = ParticleFieldStats("/World/Void", 0, None, 0, None, None, None, None, None)
+_FIGURES = _NO_FIGURES._replace(
+    prim="/World/Splats",
+    count=1_234_567,
+    sh_degree=3,
+    bytes=291_357_812,
+    precision="half",
+    bounds=((-1.5, 0.0, -2.25), (1234.567, 4.0, 5.5)),
+    opacity={"min": 0.0, "p50": 0.75, "max": 1.0},
+    scale={"min": 1e-7, "p50": 0.0125, "max": 3.5},
+    transparent=0.0375,
+)
+FIGURES = report(
+    SMOKE._replace(particle_fields=(_FIGURES,)),
+    CLEAN._replace(
+        particle_fields=(
+            _NO_FIGURES,
+            _FIGURES._replace(count=1, bytes=44, precision="mixed", transparent=0.0),
+        )
+    ),
+    CLEAN._replace(particle_fields=()),
+)
 INFOS = report(SMOKE._replace(findings=SMOKE.findings[3:4]), CLEAN)
 
 

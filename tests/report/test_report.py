@@ -14,6 +14,7 @@ from process import ROOT
 from reports import (
     CLEAN,
     EVERYTHING,
+    FIGURES,
     HOSTILE,
     INFOS,
     LONG_PRIM,
@@ -41,6 +42,7 @@ GOLDENS = (
     ("full-color-wide.txt", INFOS, "full", Options(color=True, width=200, least=Severity.INFO)),
     ("full-infos.txt", INFOS, "full", Options(least=Severity.INFO)),
     ("full-infos-counted.txt", INFOS, "full", Options()),
+    ("full-figures.txt", FIGURES, "full", Options()),
     ("full-clean.txt", NOTHING, "full", Options()),
     ("full-clean-color.txt", NOTHING, "full", Options(color=True)),
     ("concise.txt", EVERYTHING, "concise", Options()),
@@ -78,6 +80,9 @@ def test_quiet_says_nothing_when_clean() -> None:
     assert render(NOTHING, "full", Options(quiet=True)) == ""
     assert render(NOTHING, "full", Options(quiet=True, verbose=True)) == ""
     assert render(NOTHING, "concise", Options()) == ""
+    healthy = FIGURES._replace(stages=FIGURES.stages[1:])
+    assert render(healthy, "full", Options(quiet=True)) == ""
+    assert "holds:" not in render(FIGURES, "full", Options(quiet=True))
 
 
 def test_json_does_not_depend_on_presentation() -> None:

@@ -1,4 +1,4 @@
-"""AST006 and GRD001 on files in the format of the other type of field: one error each."""
+"""AST006 and GRD001 on files in the format of the other type of field: one finding each."""
 
 from __future__ import annotations
 
@@ -46,9 +46,10 @@ def Volume "cloud"
         ("Field3DAsset", "cloud.vdb", OPENVDB, {("AST006", "error")}),
         ("Field3DAsset", "cloud.bin", OPENVDB, {("AST006", "error")}),
         ("Field3DAsset", "cloud.f3d", OPENVDB, {("GRD001", "error")}),
-        ("OpenVDBAsset", "cloud.bin", NANOVDB, {("AST006", "error")}),
+        ("OpenVDBAsset", "cloud.bin", NANOVDB, {("AST006", "warning")}),
         ("OpenVDBAsset", "cloud.nvdb", NANOVDB, {("AST006", "warning")}),
-        ("OpenVDBAsset", "cloud.vdb", NANOVDB, {("GRD001", "error")}),
+        ("OpenVDBAsset", "cloud.vdb", NANOVDB, {("GRD001", "warning")}),
+        ("Field3DAsset", "cloud.f3d", NANOVDB, {("GRD001", "error")}),
         ("Field3DAsset", "cloud.nvdb", NANOVDB, {("AST006", "error")}),
         ("OpenVDBAsset", "cloud.bin", NOTE, {("GRD001", "error")}),
         ("OpenVDBAsset", "cloud.vdb", NOTE, {("GRD001", "error")}),

@@ -116,7 +116,7 @@ CASES: list[Case] = [
     ),
     ("grids/text.vdb", "density", (FLOAT,), "GRD001", "is not a volume file: its first", "copy it"),
     ("grids/broken.vdb", "density", (FLOAT,), "GRD001", "is broken: grid", "write or copy it"),
-    ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "is a NanoVDB file, but", "convert it"),
+    ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "NanoVDB file, which some", "convert it"),
     ("odd.vdb", "density", (FLOAT,), "GRD001", "is a Field3D file, but", "convert it"),
     (
         "x.f3d",
@@ -243,3 +243,13 @@ def test_what_one_frame_leaves_open(
         samples = f"filePath.timeSamples = {{ 1: @./{one}@, 2: @./{second}@ }}"
         report = lint_text(text.replace("filePath = @./x.vdb@", samples))
         assert (code in {finding.code for finding in report.findings}) == found
+
+
+def test_the_only_grid_of_one_file_is_none_where_another_has_several(
+    lint_text: Lint, tmp_path: Path
+) -> None:
+    shutil.copytree(ASSETS, tmp_path, dirs_exist_ok=True)
+    samples = "filePath.timeSamples = { 1: @./grids/unnamed.vdb@, 2: @./cloud.vdb@ }"
+    report = lint_text(stage("./x.vdb", "", FLOAT).replace("filePath = @./x.vdb@", samples))
+    [found] = [finding for finding in report.findings if finding.code == "FLD001"]
+    assert found.message == "fieldName is empty"

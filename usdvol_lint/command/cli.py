@@ -84,7 +84,7 @@ def _complete_from(constant: str) -> Any:
               shell_complete=_complete_from("TIMES"),
               help="Look at all time samples of particles (default), or at some.")
 @click.option("--statistics", is_flag=True,
-              help="Add what particle fields hold to the JSON report.")
+              help="Add what particle fields hold: count, bounds, opacity, scale.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), metavar="N",
               help="Worker processes (default: one for each processor).")
 @click.option("--timeout", type=float, metavar="SECONDS",

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from pxr import Tf
-
 from usdvol_lint import schema
 from usdvol_lint.engine.asked_types import never_run
 from usdvol_lint.engine.assign import Options, assign
@@ -17,6 +15,7 @@ from usdvol_lint.engine.usd_version import usd_version
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts, Walked
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
 from usdvol_lint.rule import STAGE, Problem, Rule
 
@@ -84,12 +83,12 @@ class StageCheck:
         for left_out in selections.not_checked():
             yield from self._stamp.stamp(NOT_CHECKED, left_out)
 
-    def _other(self, fault: Tf.ErrorException | None) -> Iterator[Stamped]:
+    def _other(self, fault: Unreadable | None) -> Iterator[Stamped]:
         """What the selection composed now shows, or `fault`, which kept USD from composing it."""
         if not fault:
             try:
                 walked = self.walk()
-            except Tf.ErrorException as error:
+            except UNREADABLE as error:
                 fault = error
             else:
                 yield from self.selection(walked, self.facts(walked))

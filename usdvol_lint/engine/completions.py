@@ -8,7 +8,7 @@ from contextlib import suppress
 from functools import cached_property, partial
 from typing import Any, TypeAlias
 
-from pxr import Sdf, Tf
+from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.engine.spec_parts import (
@@ -29,12 +29,10 @@ from usdvol_lint.facts import Facts
 from usdvol_lint.facts.prims.tables import Table
 from usdvol_lint.facts.usd.calls import ARCS, get_prim_stack, has_value
 from usdvol_lint.facts.usd.clips import ClipSet
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.volumes.states import TargetState
 from usdvol_lint.model import Completed, Completion
 from usdvol_lint.schema import CLIPS, FIELD_NAMESPACE, PRIMS, SPECIFIER, TYPE_NAME
-
-_RAISED = (Tf.ErrorException, UnicodeDecodeError)
-"""What USD raises for what it can't read."""
 
 _Layers: TypeAlias = tuple[str, ...]
 
@@ -78,13 +76,13 @@ class _Completions:
         tables = self._facts.tables
         for table in tables.of(*schema.OURS):
             for find in (self._find_values, self._find_types, self._find_clipped):
-                with suppress(*_RAISED):  # what can't be read, a rule that asks for it reports
+                with suppress(*UNREADABLE):  # what can't be read, a rule that asks for it reports
                     find(table)
         for table in tables.of(schema.VOLUME):
-            with suppress(*_RAISED):
+            with suppress(*UNREADABLE):
                 self._find_bindings(table)
         for find_any in (self._find_definitions, self._find_clips, self._find_prims):
-            with suppress(*_RAISED):
+            with suppress(*UNREADABLE):
                 find_any()
 
     def _add(self, spec: Any, *what: str) -> None:

@@ -7,13 +7,13 @@ import stat
 from typing import BinaryIO
 
 from usdvol_lint.engine.trouble import Trouble, UnreadableStageError
+from usdvol_lint.layertext.signatures import TEXT_SIGNATURES
 from usdvol_lint.model import quoted
 from usdvol_lint.paths import SUFFIXES
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
 CRATE_SIGNATURE = b"PXR-USDC"
 ZIP_SIGNATURE = b"PK\x03\x04"
-TEXT_SIGNATURES = (b"#usda", b"#sdf", b"#usd ")
 EXPORT_AGAIN = "copy or export it again"
 _FORMATS = (
     (CRATE_SIGNATURE, "a crate file", (".usdc", ".usd")),

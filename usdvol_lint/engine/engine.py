@@ -12,13 +12,14 @@ from usdvol_lint import schema
 from usdvol_lint.config import Depth
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.completions import completion
-from usdvol_lint.engine.failures import still_holding
+from usdvol_lint.engine.failures import still_holding, unreadable
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.folders import Folders
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.model import Finding, StageReport, Status, with_fingerprints
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
@@ -69,16 +70,26 @@ class Engine:
             return report_trouble(path, error.trouble, seconds=clock.seconds)
         clock.lap("open")
         context = Context.of(stage, self._depth, self._volume_files, self._folders, self._advance)
-        return self._report(path, context, clock)
+        found: list[Stamped] = []
+        try:
+            return self._report(path, context, clock, found)
+        except UNREADABLE as error:  # where no rule was asked that would have reported it
+            trouble = unreadable(error)
+        clock.lap("check")
+        others = (finding for finding in _still(found) if finding.message != trouble.message)
+        return report_trouble(path, trouble, seconds=clock.seconds, found=others)
 
-    def _report(self, path: str, context: Context, clock: _Stopwatch) -> StageReport:
+    def _report(
+        self, path: str, context: Context, clock: _Stopwatch, found: list[Stamped]
+    ) -> StageReport:
+        """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
         stamp = Stamp(self._active, several_selections=depth.selections > 0)
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)
-        found = list(self._sent(chain(check.usd_version(facts), check.never_run(facts))))
+        found += self._sent(chain(check.usd_version(facts), check.never_run(facts)))
         found += self._sent(check.selection(walked, facts))
         completes = completion(facts)
         stats = _stats(walked, facts, context.disk.checked)
@@ -89,7 +100,7 @@ class Engine:
             found += self._sent(check.others(others, {stamped.identity for stamped in found}))
             stats["variant_selections"] = others.composed
             clock.lap("variants")
-        findings = with_fingerprints(chain.from_iterable(map(still_holding, found)))
+        findings = with_fingerprints(_still(found))
         clock.lap("check")
         return StageReport(
             display(path),
@@ -115,6 +126,10 @@ class Engine:
             yield stamped
         if unsent:
             self._send(unsent)
+
+
+def _still(found: Iterable[Stamped]) -> Iterator[Finding]:
+    return chain.from_iterable(map(still_holding, found))
 
 
 class _Stopwatch:

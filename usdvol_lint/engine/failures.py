@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from pxr import Tf
-
 from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.messages import messages
 from usdvol_lint.engine.site import Sites
 from usdvol_lint.engine.stamp import Stamped
-from usdvol_lint.facts.usd.diagnostics import without_parser_rule
+from usdvol_lint.engine.trouble import Trouble
+from usdvol_lint.facts.usd.diagnostics import (
+    BROKEN_TEXT,
+    UNREADABLE,
+    Unreadable,
+    without_parser_rule,
+)
 from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.rule import NotChecked, Rule
@@ -19,6 +23,7 @@ from usdvol_lint.rule import NotChecked, Rule
 PACK_FAILURES = (Exception, KeyboardInterrupt)
 """What the code of a rule pack may raise without ending the process."""
 _LONGEST_MESSAGE = 300
+_OF_THE_STAGE = "the layer is probably corrupt: copy or export it again"
 _OF_THE_RULE = "a bug of the rule, not of the stage; --verbose shows the traceback"
 
 
@@ -42,13 +47,12 @@ class _Failure:
 
     @property
     def is_by_usd(self) -> bool:
-        return isinstance(self.error, Tf.ErrorException)
+        return isinstance(self.error, UNREADABLE)
 
     @property
     def message(self) -> str:
         if self.is_by_usd and not self.of_precondition:
-            said = "; ".join(map(without_parser_rule, messages(self.error)))
-            return f"USD can't read what is here: {said}"
+            return _unreadable(self.error)
         rule, error = self.rule, self.error
         said = " ".join(f"{type(error).__name__}: {error}".split())
         if self.of_precondition:
@@ -61,8 +65,8 @@ class _Failure:
 class Failures:
     """What rules raised on one stage; each kind of failure becomes one finding.
 
-    An exception of USD's is reported for the stage and not for the rule: the stage holds something
-    that USD can't read, whichever rule asks for it.
+    What USD raises is reported for the stage and not for the rule: the stage holds something that
+    USD can't read, whichever rule asks for it.
     """
 
     def __init__(self) -> None:
@@ -71,8 +75,8 @@ class Failures:
     def add(self, rule: Rule, prim: Any, error: BaseException) -> None:
         """Records what a rule raised on a prim."""
         key: Identity = (rule.code, type(error).__name__, str(_line(error)))
-        if isinstance(error, Tf.ErrorException):
-            key = (str(prim.GetPath()), *messages(error))
+        if isinstance(error, UNREADABLE):
+            key = _cause(prim, error)
         if key not in self._failures:
             self._failures[key] = _Failure(rule, prim, error, _traceback(error))
         self._failures[key].count += 1
@@ -98,14 +102,22 @@ class Failures:
                 severity=Severity.ERROR,
                 message=failure.message[:_LONGEST_MESSAGE],
                 site=sites.locate(NotChecked("", at=failure.prim)).site,
-                suggestion="the layer is probably corrupt: copy or export it again"
-                if by_usd
-                else _OF_THE_RULE,
+                suggestion=_OF_THE_STAGE if by_usd else _OF_THE_RULE,
                 help=help_for(code),
                 detail=failure.traceback,
                 faulty_rule=failure.rule.code if failure.of_precondition else None,
             )
             yield Stamped(finding, key)
+
+
+def unreadable(error: Unreadable) -> Trouble:
+    """That USD raised for something on a stage where no rule was asked."""
+    return Trouble(_unreadable(error)[:_LONGEST_MESSAGE], _OF_THE_STAGE, detail=_traceback(error))
+
+
+def _unreadable(error: Any) -> str:
+    said = "; ".join(map(without_parser_rule, messages(error)))
+    return f"USD can't read what is here: {said}"
 
 
 def still_holding(stamped: Stamped) -> Iterator[Finding]:
@@ -114,18 +126,33 @@ def still_holding(stamped: Stamped) -> Iterator[Finding]:
         if not stamped.holds or stamped.holds():
             yield stamped.finding
     except PACK_FAILURES as error:
-        found = stamped.finding
-        said = " ".join(f"{type(error).__name__}: {error}".split())
-        yield found
-        yield found._replace(
-            code=RULE_FAILED.code,
-            name=RULE_FAILED.name,
-            severity=Severity.ERROR,
-            message=f"rule {found.code} ({found.name}) failed here: {said}"[:_LONGEST_MESSAGE],
-            suggestion=_OF_THE_RULE,
-            help=help_for(RULE_FAILED),
-            detail=_traceback(error),
-        )
+        yield stamped.finding
+        yield _beside(stamped.finding, error)
+
+
+def _beside(found: Finding, error: BaseException) -> Finding:
+    """What was raised when a rule was asked whether it stands by what it found."""
+    by_usd = isinstance(error, UNREADABLE)
+    code = STAGE_UNREADABLE if by_usd else RULE_FAILED
+    said = " ".join(f"{type(error).__name__}: {error}".split())
+    failed = f"rule {found.code} ({found.name}) failed here: {said}"
+    return found._replace(
+        code=code.code,
+        name=code.name,
+        severity=Severity.ERROR,
+        message=(_unreadable(error) if by_usd else failed)[:_LONGEST_MESSAGE],
+        suggestion=_OF_THE_STAGE if by_usd else _OF_THE_RULE,
+        help=help_for(code),
+        detail=_traceback(error),
+    )
+
+
+def _cause(prim: Any, error: Unreadable) -> Identity:
+    """What one finding is made of: all broken text of a stage, or what USD says of a prim."""
+    said = messages(error)
+    if any(BROKEN_TEXT in each for each in said):
+        return (BROKEN_TEXT,)
+    return (str(prim.GetPath()), *said)
 
 
 def _line(error: BaseException) -> int:

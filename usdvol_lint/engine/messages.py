@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 import re
-from typing import Any
 
-from usdvol_lint.facts.usd.diagnostics import commentary
+from usdvol_lint.facts.usd.diagnostics import Unreadable, sayings
 from usdvol_lint.paths import display
 
 # Few stages fail, so what takes their errors apart is compiled only then.
@@ -14,13 +13,9 @@ _SESSION = r", sessionLayer @anon:[^@]*@"
 _MENTION = r"[@<]([^@<>]+)[@>]"
 
 
-def messages(error: Any) -> list[str]:
-    """The message of each error in a `Tf.ErrorException`."""
-    return [_message(each) for each in error.args]
-
-
-def _message(error: Any) -> str:
-    return re.sub(_MENTION, _shown, re.sub(_SESSION, "", commentary(error)))
+def messages(error: Unreadable) -> list[str]:
+    """The message of each error that USD raised at once."""
+    return [re.sub(_MENTION, _shown, re.sub(_SESSION, "", said)) for said in sayings(error)]
 
 
 def _shown(mention: re.Match[str]) -> str:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from pxr import Ar, Usd
+from pxr import Usd
 
-from usdvol_lint.engine.diagnosis import TEXT_SIGNATURES
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.layertext.source import LayerTexts
 from usdvol_lint.model import Site
 from usdvol_lint.paths import display
 from usdvol_lint.rule import NotChecked, Problem
-
-if TYPE_CHECKING:
-    from usdvol_lint.engine.lines import TextLayer
 
 
 class Located(NamedTuple):
@@ -29,7 +26,7 @@ class Sites:
     """Finds the sites of problems; a text layer is read once, and only if a problem is in it."""
 
     def __init__(self) -> None:
-        self._texts: dict[str, TextLayer | None] = {}
+        self._texts = LayerTexts()
 
     def locate(self, problem: Problem | NotChecked) -> Located:
         """The site of a problem, the spec to blame for it, and how many instances show it."""
@@ -38,7 +35,7 @@ class Sites:
         spec, time = (problem.spec, None) if problem.spec else _blamed_spec(problem)
         layer = spec.layer if spec else prim.GetStage().GetRootLayer()
         path = spec.path if spec else "/"
-        text = self._text(layer)
+        text = self._texts.of(layer)
         position = text.find(str(path), time=time, asset=problem.asset) if text else None
         on_stage = shown(prim)
         site = Site(
@@ -52,17 +49,6 @@ class Sites:
             at_default=problem.at_default,
         )
         return Located(site, spec, on_stage.instances)
-
-    def _text(self, layer: Any) -> TextLayer | None:
-        from usdvol_lint.engine.lines import (
-            TextLayer,  # costs start-up time; clean stages need none
-        )
-
-        key = layer.identifier
-        if key not in self._texts:
-            data = _read(layer)
-            self._texts[key] = TextLayer(data) if data.startswith(TEXT_SIGNATURES) else None
-        return self._texts[key]
 
 
 def _blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
@@ -100,28 +86,3 @@ def _variants(path: Any) -> str | None:
         if prefix.IsPrimVariantSelectionPath()
     ]
     return ", ".join(chosen) or None
-
-
-def _read(layer: Any) -> bytes:
-    path = layer.realPath
-    if not path or layer.anonymous:
-        return b""
-    if layer.GetFileFormat().IsPackage():
-        path = _root_layer_of_package(path)
-    if Ar.IsPackageRelativePath(path):
-        asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
-        return bytes(asset.GetBuffer()) if asset else b""
-    try:
-        with open(path, "rb") as file:
-            head = file.read(8)
-            return head + file.read() if head.startswith(TEXT_SIGNATURES) else b""
-    except OSError:
-        return b""
-
-
-def _root_layer_of_package(path: str) -> str:
-    """The path of the first file in a package, which is what USD opens."""
-    from usdvol_lint.volumefile.package import Package  # costs start-up time; few are packages
-
-    names = Package(path).names
-    return str(Ar.JoinPackageRelativePath(path, names[0])) if names else path

@@ -6,13 +6,13 @@ import os
 import re
 from typing import Any
 
-from pxr import Ar, Sdf, Tf, Usd
+from pxr import Ar, Sdf, Usd
 
 from usdvol_lint.engine.diagnosis import CRATE_SIGNATURE, EXPORT_AGAIN, ZIP_SIGNATURE, read_head
 from usdvol_lint.engine.messages import messages
 from usdvol_lint.engine.trouble import Trouble, UnreadableStageError
 from usdvol_lint.facts.usd.clips import concerns_only_clips
-from usdvol_lint.facts.usd.diagnostics import without_parser_rule
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE, without_parser_rule
 from usdvol_lint.paths import display
 
 # Few stages fail, so this is compiled only then.
@@ -33,7 +33,7 @@ def open_stage(path: str, load: str, session: Any | None = None) -> Any:
     try:
         layer = Sdf.Layer.FindOrOpen(os.path.abspath(path))
         stage = _open(layer, session, policy) if layer else None
-    except Tf.ErrorException as error:
+    except UNREADABLE as error:
         raise UnreadableStageError(_explain(path, messages(error), head)) from error
     if stage is None:
         raise UnreadableStageError(
@@ -56,7 +56,7 @@ def _open(layer: Any, session: Any | None, policy: Any) -> Any:
             # Without the context, USD would take a session of None for one that searches nowhere.
             context = Ar.GetResolver().CreateDefaultContextForAsset(layer.identifier)
             return Usd.Stage.Open(layer, session, context, policy)
-    except Tf.ErrorException as error:
+    except UNREADABLE as error:
         stage = next(iter(cache.GetAllStages()), None)
         if stage is None or not concerns_only_clips(error, stage):
             raise

@@ -7,10 +7,11 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import Any, NamedTuple
 
-from pxr import Sdf, Tf, Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint.engine.variant_sets import Variant, VariantSpec, may_bring, survey, variants
 from usdvol_lint.facts.usd.clips import concerns_only_clips
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.rule import NotChecked
@@ -54,7 +55,7 @@ class OtherSelections:
         self._composed_specs: set[VariantSpec] = set()
         self._out_of_reach: dict[frozenset[VariantSpec], str] = {}
 
-    def __iter__(self) -> Iterator[tuple[str | None, Tf.ErrorException | None]]:
+    def __iter__(self) -> Iterator[tuple[str | None, Unreadable | None]]:
         """Each selection that shows or hides prims that we check, as a path: `/model{look=thin}`.
 
         The stage is composed that way until the next is asked for, or the error says why it can't
@@ -63,7 +64,7 @@ class OtherSelections:
         """
         try:
             self._explore(Sdf.Path.absoluteRootPath)
-        except Tf.ErrorException as error:
+        except UNREADABLE as error:
             yield None, error
         while self._waiting and self.composed < self._limit:
             choice = heappop(self._waiting)
@@ -76,7 +77,7 @@ class OtherSelections:
             try:
                 self._compose(choice.selection)
                 holders = self._explore(choice.selection)
-            except Tf.ErrorException as error:
+            except UNREADABLE as error:
                 yield str(choice.selection), error
             else:
                 if not choice.unknown or path in holders or self._may_lack(path):
@@ -107,7 +108,7 @@ class OtherSelections:
     def _compose(self, selection: Any) -> None:
         try:
             self._select(selection)
-        except Tf.ErrorException as error:
+        except UNREADABLE as error:
             if not concerns_only_clips(error, self._stage):
                 raise
 

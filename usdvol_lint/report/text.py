@@ -8,6 +8,7 @@ from itertools import groupby
 
 from usdvol_lint.model import (
     Finding,
+    ParticleFieldStats,
     Report,
     Severity,
     Site,
@@ -17,6 +18,7 @@ from usdvol_lint.model import (
     printable,
 )
 from usdvol_lint.report import Options
+from usdvol_lint.report.figures import figures
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
 
 _LONGEST_SUGGESTION = 400
@@ -89,17 +91,23 @@ def _is_shown(stage: StageReport, options: Options) -> bool:
     """Whether a stage has a section in the report."""
     if stage.findings or stage.status != Status.CHECKED:
         return True
-    return options.verbose and not options.quiet
+    return (options.verbose or bool(stage.particle_fields)) and not options.quiet
 
 
 def _stage(stage: StageReport, options: Options) -> str:
-    groups = [
-        "".join(f"{line}\n" for line in _prim(prim, findings, options))
+    found = {
+        prim: list(findings)
         for prim, findings in groupby(sorted(stage.findings, key=_prim_of), key=_prim_of)
+    }
+    held = {} if options.quiet else {one.prim: one for one in stage.particle_fields or ()}
+    groups = [
+        _prim(prim, held.get(prim), found.get(prim, ()), options)
+        for prim in sorted({*found, *held})
     ]
     if options.verbose:
-        groups.append("".join(f"{line}\n" for line in _extras(stage, options)))
-    return _heading(stage, options) + "\n" + "\n".join(filter(None, groups))
+        groups.append(_extras(stage, options))
+    blocks = ("".join(f"{line}\n" for line in group) for group in groups)
+    return _heading(stage, options) + "\n" + "\n".join(filter(None, blocks))
 
 
 def _heading(stage: StageReport, options: Options) -> str:
@@ -114,10 +122,15 @@ def _prim_of(finding: Finding) -> str:
     return finding.site.prim or ""
 
 
-def _prim(prim: str, findings: Iterable[Finding], options: Options) -> Iterator[str]:
-    """The findings on one prim under its path; those on the stage itself have no heading."""
+def _prim(
+    prim: str, holds: ParticleFieldStats | None, findings: Iterable[Finding], options: Options
+) -> Iterator[str]:
+    """What one prim holds and the findings on it; those on the stage itself have no heading."""
     if prim:
         yield "  " + paint(printable(prim), "bold", options.color)
+    if holds:
+        for label, figure in figures(holds):
+            yield _labelled(label, figure, "dim", "    ", options)
     for finding in findings:
         yield from _finding(finding, "    " if prim else "  ", options)
 

@@ -44,3 +44,13 @@ def test_an_instance_may_lack_what_its_prototype_does(
     (tmp_path / "asset.usda").write_text(f'#usda 1.0\ndef Xform "asset" {{\n{CLOUD}}}\n')
     instance = f"instanceable = true\nreferences = [@./asset.usda@</asset>{more}]"
     assert codes(lint_text(f'#usda 1.0\ndef "a" (\n{instance}\n) {{\n}}\n')) == expected
+
+
+def test_what_a_circle_of_references_leaves_out_may_define_the_prim(
+    lint_text: Lint, tmp_path: Path
+) -> None:
+    circle = '#usda 1.0\ndef Xform "World" (\n    references = @./{}.usda@</World>\n)\n{{\n{}}}\n'
+    below = f'    def Xform "fx"\n    {{\n    }}\n    over "FX"\n    {{\n{CLOUD}    }}\n'
+    (tmp_path / "other.usda").write_text(circle.format("stage", ""))
+    report = lint_text(circle.format("other", below))
+    assert [finding.code for finding in report.findings] == ["STG002"]

@@ -38,3 +38,14 @@ def test_a_gprim_in_an_instance_of_an_instance(lint_text: Lint) -> None:
     [(prim, message)] = nested(lint_text(text))
     assert prim == "/cloud/it"
     assert message.startswith("an instance, which holds Cube </cloud/it/it/one>, below Volume")
+
+
+@pytest.mark.parametrize("depth", [10, 2000])
+def test_a_gprim_in_the_depth(depth: int, lint_text: Lint) -> None:
+    """Deeper than Python recurses, above and below."""
+    above, below, end = 'def "a" {\n' * depth, 'def "b" {\n' * depth, "}\n" * depth
+    inside = VOLUME.replace("}", f'{below}def Cube "it" {{\n}}\n{end}}}')
+    report = lint_text(f"#usda 1.0\n{above}{inside}{end}")
+    assert [each.code for each in report.findings if each.code.startswith("LNT")] == []
+    [(_, message)] = nested(report)
+    assert message.startswith("Cube below Volume </a/a/")

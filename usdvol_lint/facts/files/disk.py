@@ -6,12 +6,13 @@ import os
 import stat
 from typing import Any
 
-from pxr import Ar, Tf
+from pxr import Ar
 
 from usdvol_lint.facts.files.folders import Folders, Listing
 from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.places import folders_above
 from usdvol_lint.facts.files.states import FileFault
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
 _LFS_POINTER_LIMIT = 1024
@@ -150,7 +151,7 @@ def _starts_like_lfs(path: str) -> bool:
 def _package_fault(path: str) -> str | None:
     try:
         asset: Any = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
-    except Tf.ErrorException:
+    except UNREADABLE:
         return FileFault.PACKED
     if asset is None:
         return FileFault.UNREADABLE

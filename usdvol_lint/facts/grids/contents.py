@@ -16,6 +16,7 @@ _NAMES_SHOWN = 8
 _UNREAD = ("needs-h5py", "not-in-place")
 _ANNOUNCED: dict[str, Format] = {".nvdb": "nanovdb", ".vdb": "openvdb", ".f3d": "field3d"}
 """The format that an extension announces."""
+_NAMES = {"openvdb": "an OpenVDB", "nanovdb": "a NanoVDB", "field3d": "a Field3D"}
 
 _K = TypeVar("_K", bound=Hashable)
 
@@ -71,6 +72,20 @@ class Content(NamedTuple):
             return None
         is_known = file.format == announced == "nanovdb" and self.wanted == "openvdb"
         return None if is_known else file.format
+
+    @property
+    def is_read_by_some(self) -> bool:
+        """Whether some renderers read the file, though the field wants another format of it."""
+        file = self.reading.file
+        return file is not None and (file.format, self.wanted) == ("nanovdb", "openvdb")
+
+    @property
+    def foreign(self) -> str:
+        """What the file is, in another format than the field wants, in words that follow `is`."""
+        name = _NAMES[self.reading.file.format] if self.reading.file else "no volume"
+        if self.is_read_by_some:
+            return f"{name} file, which some renderers read and Storm does not"
+        return f"{name} file, but the prim is {_NAMES[self.wanted]}Asset"
 
     @property
     def is_no_volume(self) -> bool:

@@ -8,10 +8,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
-from pxr import Tf
-
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
@@ -107,7 +106,7 @@ def _animated(tables: Tables) -> Iterator[tuple[Any, list[float]]]:
 def _times(attribute: Any) -> list[float]:
     try:
         return sample_times(attribute)
-    except Tf.ErrorException:  # clips that do not open: reported by another rule
+    except UNREADABLE:  # clips that do not open: reported by another rule
         return []
 
 

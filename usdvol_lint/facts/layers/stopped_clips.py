@@ -6,12 +6,13 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple, TypeAlias
 
-from pxr import Sdf, Tf, Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.layers.lost_clips import without_samples
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on, is_from_clips
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.instances import (
     in_prototype,
     instances_of,
@@ -114,7 +115,7 @@ def _freed(stage: Any, path: Any) -> Any | None:
     context = stage.GetPathResolverContext()
     try:
         return Usd.Stage.OpenMasked(stage.GetRootLayer(), session, context, mask)
-    except Tf.ErrorException:
+    except UNREADABLE:
         return None  # USD makes a manifest where there is none, and so opens the clips
 
 

@@ -6,13 +6,13 @@ import os
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from pxr import Sdf, Tf
+from pxr import Sdf
 
 from usdvol_lint.facts.files.disk import file_fault
 from usdvol_lint.facts.files.paths import extension_of, is_packaged
 from usdvol_lint.facts.layers.error_texts import LayerArc, as_reason
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
-from usdvol_lint.facts.usd.diagnostics import commentary, without_parser_rule
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE, sayings, without_parser_rule
 
 
 def missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[LayerArc, Any]]:
@@ -63,6 +63,6 @@ def _why_not_open(resolved: str) -> str:
     """Why USD can't open the layer at a path, or "" if it can."""
     try:
         return "" if Sdf.Layer.FindOrOpen(resolved) else "it is not a valid layer"
-    except Tf.ErrorException as error:
-        words = "; ".join(dict.fromkeys(map(without_parser_rule, map(commentary, error.args))))
+    except UNREADABLE as error:
+        words = "; ".join(dict.fromkeys(map(without_parser_rule, sayings(error))))
         return as_reason(words, resolved) or "it is not a valid layer"

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from pxr import Pcp, Sdf, Tf, Usd
+from pxr import Pcp, Sdf, Usd
 
 from usdvol_lint.facts.layers.error_texts import PrimArc, unresolved_arc
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.spelling import closest_name
 
 _WHY_NOT_THERE = frozenset(
@@ -131,7 +132,7 @@ def _compose(layer_path: str, path: str) -> Any | None:
     layer = Sdf.Layer.Find(layer_path)
     try:
         return Usd.Stage.OpenMasked(layer, Usd.StagePopulationMask([path])) if layer else None
-    except Tf.ErrorException:  # such as for value clips that do not open
+    except UNREADABLE:  # such as for value clips that do not open
         return None
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
@@ -10,7 +10,7 @@ from usdvol_lint.facts.found import Wing, fact
 
 if TYPE_CHECKING:
     from usdvol_lint.config import Depth
-    from usdvol_lint.facts.particles.apis import ParticleApis
+    from usdvol_lint.facts.particles.apis import Loss, ParticleApis
     from usdvol_lint.facts.particles.array import ParticleArray
     from usdvol_lint.facts.particles.arrays import ParticleArrays
     from usdvol_lint.facts.particles.chunks import Row
@@ -55,7 +55,13 @@ class Particles(Wing):
         """The applied APIs of a prim, those that are not registered too."""
         from usdvol_lint.facts.particles.apis import read_particle_apis
 
-        return read_particle_apis(prim, self._kinds)
+        return read_particle_apis(prim, self._kinds, self._prims.dropped_lists(prim))
+
+    def loss(self, prim: Any, names: Iterable[str]) -> Loss:
+        """What a prim lacks because APIs of these names are not applied."""
+        from usdvol_lint.facts.particles.apis import loss
+
+        return loss(prim, self.apis(prim), names)
 
     def without_api(self, prim: Any) -> Iterator[tuple[str, list[Any]]]:
         """The APIs that are not applied though attributes of theirs are authored, with these."""
@@ -63,8 +69,8 @@ class Particles(Wing):
 
         return attributes_without_api(prim, self.apis(prim))
 
-    def is_told_as_misspelt(self, prim: Any, base: str) -> bool:
-        """Whether PRT006 says why a base API is missing: the name of one that includes it."""
+    def is_told_elsewhere(self, prim: Any, base: str) -> bool:
+        """Whether PRT006 or PRT009 says why a base API is missing: the name of one with it."""
         return self.apis(prim).is_lost(base) and not self._prims.encoding(prim)
 
     @fact
@@ -203,18 +209,8 @@ class Particles(Wing):
         from usdvol_lint.facts.particles.colour_spaces import colour_space
 
         used = self.arrays(prim).coefficients
-        return colour_space(prim, used.attribute if used else None)
-
-    def are_grey(self, prim: Any) -> bool:
-        """Whether there are particles, and neither coefficients nor a material colours them."""
-        arrays = self.arrays(prim)
-        is_bare = arrays.lack_coefficients and arrays.most_particles > 0
-        return is_bare and not self.material_is_bound(prim)
-
-    def are_all_in(self, prim: Any, attribute: Any) -> bool:
-        """Whether a particle field has no particles, and another attribute has elements."""
-        is_likely = self.arrays(prim).lack_positions and attribute.GetTypeName().isArray
-        return is_likely and any(map(len, self._prims.values(prim, attribute.GetName())))
+        dropped = (name for found in self.apis(prim).dropped for name in found.names)
+        return colour_space(prim, used.attribute if used else None, frozenset(dropped))
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 from pxr import Usd
 
 from usdvol_lint import schema, spelling
+from usdvol_lint.facts.usd.dropped import DroppedList
 from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
+
+_BROUGHT = {
+    schema.POSITION_BASE: "positions",
+    schema.KERNEL_BASE: "a kernel",
+    schema.RADIANCE_BASE: "radiance",
+}
 
 
 class ParticleApis(NamedTuple):
@@ -18,6 +25,7 @@ class ParticleApis(NamedTuple):
     `third_party` are names in `apiSchemas` that are not registered and resemble none of UsdVol's:
     this USD ignores them, another installation may know them.
     `misspelt` maps other names that are not registered to the API that was probably intended.
+    `dropped` are the lists that USD does not have since a name stands in one twice.
     `built_in_type` says that the prim type is UsdVol's own, so that its APIs are all known.
     """
 
@@ -25,10 +33,16 @@ class ParticleApis(NamedTuple):
     third_party: tuple[str, ...]
     misspelt: dict[str, str]
     built_in_type: bool
+    dropped: tuple[DroppedList, ...] = ()
 
     def has(self, api: str) -> bool:
-        """Whether the API is applied, or would be with every name spelt right."""
-        return api in self.applied or api in schema.expand_apis(tuple(self.misspelt.values()))
+        """Whether the API is applied, or would be with every name spelt right and given once."""
+        return api in self.applied or api in schema.expand_apis(self._intended)
+
+    @property
+    def _intended(self) -> tuple[str, ...]:
+        listed = (name for dropped in self.dropped for name in dropped.names)
+        return (*self.misspelt.values(), *listed)
 
     def providers(self, base: str) -> tuple[str, ...]:
         """The applied APIs that include a base API and that no other such API includes."""
@@ -37,9 +51,14 @@ class ParticleApis(NamedTuple):
         return tuple(api for api in providers if api not in included)
 
     def is_lost(self, base: str) -> bool:
-        """Whether a base API is missing because the name of one that includes it is misspelt."""
-        return base not in self.applied and base in schema.expand_apis(
-            tuple(self.misspelt.values())
+        """Whether a base API is missing because a name that includes it is misspelt or dropped."""
+        return base in self.lost_with(self._intended)
+
+    def lost_with(self, names: Iterable[str]) -> tuple[str, ...]:
+        """The base APIs that are missing, and that APIs of these names would bring."""
+        brought = schema.expand_apis(tuple(names))
+        return tuple(
+            base for base in schema.BASE_APIS if base not in self.applied and base in brought
         )
 
     def remedy(self, base: str, otherwise: str) -> str:
@@ -56,7 +75,9 @@ class ParticleApis(NamedTuple):
         return f"; {names}, unknown to this USD, may provide this" if names else ""
 
 
-def read_particle_apis(prim: Any, kinds: PrimKinds) -> ParticleApis:
+def read_particle_apis(
+    prim: Any, kinds: PrimKinds, dropped: tuple[DroppedList, ...]
+) -> ParticleApis:
     """Reads the applied schemas, those that are not registered too."""
     applied = tuple(dict.fromkeys(kinds.applied(prim)))
     unregistered = [
@@ -70,6 +91,7 @@ def read_particle_apis(prim: Any, kinds: PrimKinds) -> ParticleApis:
         third_party=tuple(name for name in unregistered if not intended[name]),
         misspelt={name: api for name, api in intended.items() if api},
         built_in_type=prim.GetTypeName() in schema.CONCRETE_TYPES,
+        dropped=dropped,
     )
 
 
@@ -82,6 +104,26 @@ def attributes_without_api(prim: Any, apis: ParticleApis) -> Iterator[tuple[str,
             authored = [attribute for attribute in attributes if attribute.HasAuthoredValue()]
             if authored:
                 yield api, authored
+
+
+class Loss(NamedTuple):
+    """What a particle field lacks without some APIs: `words` end a message.
+
+    `is_total`: whether it is something that must be there, and that nothing else may bring.
+    """
+
+    words: str
+    is_total: bool
+
+
+def loss(prim: Any, apis: ParticleApis, names: Iterable[str]) -> Loss:
+    """What a prim lacks because APIs of these names are not applied."""
+    lost = apis.lost_with(names)
+    if not lost:
+        return Loss("", False)
+    words = " or ".join(_BROUGHT[base] for base in lost)
+    is_bound = lost == (schema.RADIANCE_BASE,) and material_is_bound(prim)
+    return Loss(f", so nothing gives these splats {words}", not apis.third_party and not is_bound)
 
 
 def material_is_bound(prim: Any) -> bool:

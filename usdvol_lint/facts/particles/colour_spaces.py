@@ -31,23 +31,46 @@ class ColourSpace(NamedTuple):
     unapplied: str | None = None
 
 
-def colour_space(prim: Any, coefficients: Any = None) -> ColourSpace | None:
+class _Applied(NamedTuple):
+    """The APIs of prims: those applied, and of one prim what a list that USD drops names too."""
+
+    prim: Any
+    dropped: frozenset[str]
+
+    def to(self, prim: Any) -> frozenset[str]:
+        """The applied APIs, those too that this USD does not know."""
+        written = self.dropped if prim == self.prim else frozenset[str]()
+        return written.union(prim.GetAppliedSchemas(), raw_apis(prim))
+
+
+def colour_space(
+    prim: Any, coefficients: Any = None, dropped: frozenset[str] = frozenset()
+) -> ColourSpace | None:
     """The coefficients' own colour space, or the nearest name on the prim or above.
 
     A name without its API is passed over by USD; it is told where no nearer one counts.
+    `dropped`: APIs of the prim of which PRT009 tells that they are not applied.
     """
+    applied = _Applied(prim, dropped)
     if coefficients and coefficients.HasColorSpace():
-        return _described(coefficients, str(coefficients.GetColorSpace()), prim, True)
+        return _described(coefficients, str(coefficients.GetColorSpace()), prim, True, applied)
     for holder in _upward(prim):
         attribute = holder.GetAttribute(_NAME)
         name = attribute.Get() if attribute and attribute.HasAuthoredValue() else None
         if isinstance(name, str) and name:
-            return _described(attribute, name, holder, _API in _applied(holder))
+            is_applied = _API in applied.to(holder)
+            return _described(attribute, name, holder, is_applied, applied)
     return None
 
 
-def _described(attribute: Any, name: str, holder: Any, is_applied: bool) -> ColourSpace:
-    definitions = [found for above in _upward(holder) for found in _defined(above, name)]
+def _described(
+    attribute: Any, name: str, holder: Any, is_applied: bool, applied: _Applied
+) -> ColourSpace:
+    definitions = [
+        (api, api in applied.to(above))
+        for above in _upward(holder)
+        for api in _defined(above, name)
+    ]
     is_known = _is_built_in(name) or any(is_there for _, is_there in definitions)
     similar = None if is_known else closest_name(name, COLOUR_SPACES, cutoff=0.6)
     unapplied = None if is_known or not definitions else definitions[0][0]
@@ -60,21 +83,15 @@ def _upward(prim: Any) -> Iterator[Any]:
         prim = prim.GetParent()
 
 
-def _applied(prim: Any) -> set[str]:
-    """The applied APIs, those too that this USD does not know."""
-    return {*prim.GetAppliedSchemas(), *raw_apis(prim)}
-
-
 def _is_built_in(name: str) -> bool:
     """Whether this USD or the schema tables of the package know the name."""
     is_valid = getattr(Gf.ColorSpace, "IsValid", COLOUR_SPACES.__contains__)
     return name in COLOUR_SPACES or is_valid(name)
 
 
-def _defined(prim: Any, name: str) -> Iterator[tuple[str, bool]]:
-    """The definitions of a name on a prim: their APIs, and whether these are applied."""
+def _defined(prim: Any, name: str) -> Iterator[str]:
+    """The APIs of the definitions of a name on a prim."""
     for attribute in prim.GetAuthoredPropertiesInNamespace("colorSpaceDefinition"):
         _, instance, *rest = attribute.GetName().split(":")
         if rest == ["name"] and attribute.Get() == name:
-            api = f"{_DEFINITION_API}:{instance}"
-            yield api, api in _applied(prim)
+            yield f"{_DEFINITION_API}:{instance}"

@@ -20,9 +20,11 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.prims.transforms import TransformFaults
     from usdvol_lint.facts.usd.clips import Clips
     from usdvol_lint.facts.usd.drawn import Drawn
+    from usdvol_lint.facts.usd.dropped import DroppedList
     from usdvol_lint.facts.usd.hidden import HiddenAnimation
     from usdvol_lint.facts.usd.kinds import PrimKinds
     from usdvol_lint.facts.usd.values import Values
+    from usdvol_lint.layertext.source import LayerTexts
 
 
 class Prims(Wing):
@@ -142,6 +144,20 @@ class Prims(Wing):
         from usdvol_lint.facts.prims.handed_down import is_handed_down
 
         return is_handed_down(above, name, self._kinds)
+
+    def dropped_lists(self, prim: Any) -> tuple[DroppedList, ...]:
+        """The lists of APIs that USD drops, of a particle field that lacks one."""
+        if not self.authored(prim).lacks_apis:
+            return ()  # and no text of a layer need be read
+        from usdvol_lint.facts.usd.dropped import dropped_lists
+
+        return dropped_lists(prim, self._kinds.applied(prim), self._texts)
+
+    @cached_property
+    def _texts(self) -> LayerTexts:
+        from usdvol_lint.layertext.source import LayerTexts
+
+        return LayerTexts()
 
     @fact
     def encoding(self, prim: Any) -> Encoding | None:

@@ -16,6 +16,12 @@ from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
 Shape: TypeAlias = tuple[tuple[str, ...], bool, bool]
 """The names of authored properties; whether a prim has several specs; whether clips apply to it."""
 
+_API_OF = {
+    "colorSpace:name": "ColorSpaceAPI",
+    **{name: api for api, names in schema.API_ATTRIBUTES.items() for name in names},
+}
+"""By the names of attributes that applied APIs declare, these APIs."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Authored:
@@ -28,6 +34,8 @@ class Authored:
     `tokens`: the names of those that allow only certain tokens, with these.
     `uniform`: the names of those that must not be animated.
     `bound`: the property names in the `field:` namespace, for Volumes.
+    `lacks_apis`: whether a particle field has no API for positions, kernel or radiance, or none for
+    an attribute.
     `undeclared`: the names that no schema declares.
     `misspellings`: those of them, and of those that UsdGeom declares, with a likely correction:
     name, corrected name, its type.
@@ -41,6 +49,7 @@ class Authored:
     tokens: tuple[tuple[str, tuple[str, ...]], ...]
     uniform: tuple[str, ...]
     bound: tuple[str, ...]
+    lacks_apis: bool
     undeclared: frozenset[str]
     misspellings: tuple[tuple[str, str, str], ...]
     is_layered: bool
@@ -95,6 +104,7 @@ def _sort_by_schema(
     declared = {name: known[name] for name in names if name in known}
     undeclared = frozenset(names).difference(candidates, registered)
     inherited = declared.keys() - schema.DECLARED_BY.keys()
+    needed = {*schema.BASE_APIS, *(_API_OF[name] for name in names if name in _API_OF)}
     bound: tuple[str, ...] = ()
     if schema.VOLUME in schemas:
         bound = tuple(name for name in names if name.startswith(schema.FIELD_NAMESPACE))
@@ -109,6 +119,7 @@ def _sort_by_schema(
         tokens=tuple((name, known.tokens) for name, known in declared.items() if known.tokens),
         uniform=tuple(name for name, known in declared.items() if known.uniform),
         bound=bound,
+        lacks_apis=schema.PARTICLE_FIELD in schemas and not schemas.issuperset(needed),
         undeclared=undeclared,
         misspellings=tuple(
             (name, meant, candidates[meant].type_name)

@@ -34,9 +34,16 @@ class Nesting:
 
     def _at_or_above(self, prim: Any) -> Any | None:
         """The prim itself if it is a Gprim, or else the nearest above."""
+        passed = []
         gprim = self._cache.get(prim, _NOT_CACHED)
-        if gprim is _NOT_CACHED:
-            gprim = self._cache[prim] = self._find_at_or_above(prim)
+        while gprim is _NOT_CACHED:  # no recursion: prims may be nested deeper than that goes
+            passed.append(prim)
+            if prim.IsPseudoRoot() or prim.IsPrototype() or self._is_gprim(prim):
+                gprim = self._find_here(prim)
+            else:
+                prim = get_parent(prim)
+                gprim = self._cache.get(prim, _NOT_CACHED)
+        self._cache.update(dict.fromkeys(passed, gprim))
         return gprim
 
     def are_likely(self, batch: PrimBatch) -> list[bool]:
@@ -65,20 +72,24 @@ class Nesting:
 
     def _topmost_gprims(self, prim: Any) -> Iterator[Any]:
         # To end a Usd.PrimRange takes longer than to visit a Volume with its fields this way.
-        for child in get_children(prim, WITH_INSTANCES):
-            if self._is_gprim(child):
+        waiting = [iter(get_children(prim, WITH_INSTANCES))]
+        while waiting:
+            child = next(waiting[-1], None)
+            if child is None:
+                waiting.pop()
+            elif self._is_gprim(child):
                 yield child
             else:
-                yield from self._topmost_gprims(child)
+                waiting.append(iter(get_children(child, WITH_INSTANCES)))
 
     def _any_has_gprims(self, prims: Sequence[Any]) -> bool:
         """Whether one of these prims is a Gprim or has one below it."""
-        for prim in prims:
+        waiting = list(prims)
+        while waiting:
+            prim = waiting.pop()
             if self._is_gprim(prim):
                 return True
-            below = get_children(prim, WITH_INSTANCES)
-            if below and self._any_has_gprims(below):
-                return True
+            waiting += get_children(prim, WITH_INSTANCES)
         return False
 
     def _is_gprim(self, prim: Any) -> bool:
@@ -90,15 +101,12 @@ class Nesting:
             self._is_gprim_type[type_name] = known
         return known
 
-    def _find_at_or_above(self, prim: Any) -> Any | None:
-        if prim.IsPseudoRoot():
-            return None
+    def _find_here(self, prim: Any) -> Any | None:
+        """The prim, if it is a Gprim; above a prototype, the first that its instances have."""
         if self._is_gprim(prim):
             return prim
-        if prim.IsPrototype():
-            gprims = map(self._find_at_or_above, prim.GetInstances())
-            return next(filter(None, gprims), None)
-        return self.above(prim)
+        instances = prim.GetInstances() if prim.IsPrototype() else ()
+        return next(filter(None, map(self._at_or_above, instances)), None)
 
 
 def _outermost_instance(prim: Any) -> Any:

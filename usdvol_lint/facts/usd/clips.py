@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import Any, NamedTuple
 
-from pxr import Sdf, Tf, Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.clip_faults import Keys, find_fault, used_sets
-from usdvol_lint.facts.usd.diagnostics import commentary
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable, sayings
 
 _CLIPS_OPENED = 4
 """How many clips of a set are searched for samples, since opening all may take long."""
@@ -110,7 +110,7 @@ def open_layer(asset: Any) -> Any | None:
     """The layer that an `Sdf.AssetPath` resolved to; None where USD can't read one there."""
     try:
         return Sdf.Layer.FindOrOpen(asset.resolvedPath) if asset.resolvedPath else None
-    except Tf.ErrorException:
+    except UNREADABLE:
         return None
 
 
@@ -146,7 +146,7 @@ def _read_clip_set(prim: Any, name: str, keys: Keys) -> ClipSet | None:
 def _clip_paths(api: Any, name: str) -> tuple[Any, ...]:
     try:
         return tuple(api.ComputeClipAssetPaths(name) or ())
-    except Tf.ErrorException:
+    except UNREADABLE:
         # USD raises where a template matches no file, and for a set that it can't use.
         return ()
 
@@ -160,7 +160,7 @@ def is_from_clips(attribute: Any) -> bool:
     return bool(source == Usd.ResolveInfoSourceValueClips)
 
 
-def concerns_only_clips(error: Any, stage: Any) -> bool:
+def concerns_only_clips(error: Unreadable, stage: Any) -> bool:
     """Whether an error that USD raised is about value clips that do not open, and nothing else.
 
     USD generates a manifest for clips without one, so it opens the clips when it composes the
@@ -174,9 +174,9 @@ def concerns_only_clips(error: Any, stage: Any) -> bool:
         for clip in filter(None, (asset.resolvedPath for asset in clip_set.clips)):
             try:
                 Sdf.Layer.FindOrOpen(clip)
-            except Tf.ErrorException as clip_error:
-                known.update(map(commentary, clip_error.args))
-    return set(map(commentary, error.args)) <= known
+            except UNREADABLE as clip_error:
+                known.update(sayings(clip_error))
+    return set(sayings(error)) <= known
 
 
 class Clips:

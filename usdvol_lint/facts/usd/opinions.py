@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from pxr import Tf, Usd
+from pxr import Usd
+
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 
 
 class Opinion(NamedTuple):
@@ -31,7 +33,7 @@ def _stack(attribute: Any, code: Any) -> Any:
     """The specs and their offsets, strongest first; those in clips only if all clips open."""
     try:
         return attribute.GetPropertyStackWithLayerOffsets(code)
-    except Tf.ErrorException:
+    except UNREADABLE:
         return attribute.GetPropertyStackWithLayerOffsets(Usd.TimeCode.Default())
 
 

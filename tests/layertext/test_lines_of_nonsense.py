@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from usdvol_lint.engine.lines import TextLayer
+from usdvol_lint.layertext.lines import TextLayer
 
 FRAGMENTS = st.sampled_from(
     [

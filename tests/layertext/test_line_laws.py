@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from marks import ASSETS, PRIMS, PROPERTIES, SAMPLES, VARIANTS, in_prim, marked, with_mark
 from pxr import Sdf, Usd
 
-from usdvol_lint.engine.lines import Position, TextLayer
+from usdvol_lint.layertext.lines import Position, TextLayer
 
 # USD 24.11 can only read layers with Sdf once the Usd library is loaded.
 assert Usd.GetVersion() >= (0, 24, 11)

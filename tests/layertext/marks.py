@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from usdvol_lint.engine.lines import Position, TextLayer
+from usdvol_lint.layertext.lines import Position, TextLayer
 
 MARK = "¦"
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 # linear for any text.
 _BLOCK_COMMENT = rb"/\*[^*]*+(?:\*(?!/)[^*]*+)*+(?:\*/)?+"
 _COMMENTS = (rb"#[^\n]*+", rb"//[^\n]*+", _BLOCK_COMMENT)
-_STRINGS = (
+STRINGS = (
     rb'"""[^"\\]*+(?:(?:\\[\s\S]|"(?!""))[^"\\]*+)*+(?:""")?+',
     rb"'''[^'\\]*+(?:(?:\\[\s\S]|'(?!''))[^'\\]*+)*+(?:''')?+",
     rb'"[^"\\\r\n]*+(?:\\[^\r\n][^"\\\r\n]*+)*+"?+',
@@ -28,18 +28,18 @@ _ASSETS = (
     rb"@[^@\r\n]*+@?+",
 )
 _PATHS = (rb"<[^<>\r\n]*+>?+",)
-_OPAQUE = (*_STRINGS, *_ASSETS, *_COMMENTS, *_PATHS)
+OPAQUE = (*STRINGS, *_ASSETS, *_COMMENTS, *_PATHS)
 
 
 def _either(*patterns: bytes) -> bytes:
     return b"(?:" + b"|".join(patterns) + b")"
 
 
-_STRING = _either(*_STRINGS)
-_SPACE = _either(rb"[ \t]++", _BLOCK_COMMENT)
+_STRING = _either(*STRINGS)
+SPACE = _either(rb"[ \t]++", _BLOCK_COMMENT)
 _PADDING = _either(rb"[\s;]++", *_COMMENTS) + b"*+"
-_NAMED = _SPACE + rb"++(?:[^\s\"'(){}=;,/]++" + _SPACE + b"++)?+" + _STRING
-_BRACE_VALUE = b"=" + _SPACE + rb"*+\{"
+_NAMED = SPACE + rb"++(?:[^\s\"'(){}=;,/]++" + SPACE + b"++)?+" + _STRING
+_BRACE_VALUE = b"=" + SPACE + rb"*+\{"
 
 
 def _tokens(*marked: bytes, plain: Iterable[bytes] = ()) -> re.Pattern[bytes]:
@@ -56,35 +56,35 @@ _STRUCTURE = _tokens(
     rb"\{",
     rb"\}",
     _BRACE_VALUE,
-    b"variantSet" + _SPACE + b"++" + _STRING + _SPACE + b"*+" + _BRACE_VALUE,
+    b"variantSet" + SPACE + b"++" + _STRING + SPACE + b"*+" + _BRACE_VALUE,
     b"def" + _NAMED,
     b"over" + _NAMED,
     b"class" + _NAMED,
-    *_STRINGS,
+    *STRINGS,
     plain=(*_ASSETS, *_COMMENTS, *_PATHS),
 )
 _HEADER = re.compile(
     rb"(?:(?:def|over|class|variantSet)" + _NAMED.replace(_STRING, b"") + b")?+(" + _STRING + b")"
 )
 _BRACKETS = {
-    opener: _tokens(rb"\%c" % opener, rb"\%c" % closer, plain=_OPAQUE)
+    opener: _tokens(rb"\%c" % opener, rb"\%c" % closer, plain=OPAQUE)
     for opener, closer in (b"()", b"[]", b"{}")
 }
 _STATEMENT = re.compile(_PADDING + rb"((?:[^=(;\r\n{}#/\"'@<]++|" + _BLOCK_COMMENT + rb")*+)")
 _BREAK = _tokens(
     *(rb"\(", rb"\[", rb"\{"),
-    *_OPAQUE,
+    *OPAQUE,
     plain=(rb"\)", rb"\]", rb"\}", b";", b"\n", b"\r"),
 )
 _COMMENT = re.compile(_BLOCK_COMMENT)
-_ASSET = _tokens(*_ASSETS, *_PATHS, plain=(*_STRINGS, *_COMMENTS))
+_ASSET = _tokens(*_ASSETS, *_PATHS, plain=(*STRINGS, *_COMMENTS))
 _SAMPLES = re.compile(_BRACE_VALUE + _PADDING)
-_ARRAY = rb"\[" + _either(rb"[^\]\"'@#/<]++", *_OPAQUE) + b"*+"
+_ARRAY = rb"\[" + _either(rb"[^\]\"'@#/<]++", *OPAQUE) + b"*+"
 _SAMPLE = re.compile(
     rb"([-.0-9i](?<![\w.].)(?:[0-9.]++|i?+nf)?+(?:[eE][-+]?+[0-9]++)?+)"
-    + _SPACE
+    + SPACE
     + b"*+:"
-    + _either(rb"[^,\"'@#/<\[]++", _ARRAY, *_OPAQUE)
+    + _either(rb"[^,\"'@#/<\[]++", _ARRAY, *OPAQUE)
     + b"*+,?+"
     + _PADDING
 )
@@ -144,6 +144,11 @@ class TextLayer:
             assets = _assets(self._data, [sample]) if sample else spec.assets
             offset = assets.get(asset, offset)
         return self._position(offset)
+
+    def heading(self, path: str) -> bytes:
+        """What stands before the body of the prim or variant at `path`; empty if it is not here."""
+        spec = self._spec(path)
+        return self._data[spec.start : spec.body - 1] if isinstance(spec, _Scope) else b""
 
     def _spec(self, path: str) -> _Scope | _Property | None:
         if not path.startswith("/"):
@@ -248,8 +253,7 @@ class _Outline:
     def name(self, number: int) -> str:
         header = _HEADER.match(self.data, self.start[number])
         literal = header[1] if header else b""
-        marks = 3 if literal.startswith((b'"""', b"'''")) else 1
-        return literal[marks:-marks].decode("utf-8", "replace")
+        return unquoted(literal)
 
     def inside(self, number: int) -> Iterator[int]:
         """The numbers of the scopes directly inside a scope."""
@@ -327,6 +331,7 @@ class _Scope:
         self._outline = outline
         self._number = number
         self.start = outline.start[number]
+        self.body = outline.body[number]
 
     @cached_property
     def assets(self) -> dict[str, int]:
@@ -351,7 +356,7 @@ class _Scope:
     def properties(self) -> dict[str, _Property]:
         outline = self._outline
         found: dict[str, _Property] = {}
-        for span in outline.own(self._number, outline.body[self._number]):
+        for span in outline.own(self._number, self.body):
             for statement in _statements(outline.data, span):
                 found.setdefault(statement.name, _Property(outline.data)).add(statement)
         return found
@@ -414,6 +419,12 @@ def _assets(data: bytes, spans: Iterable[_Span]) -> dict[str, int]:
                 key = f"{asset}{target}" if follows else target
                 found.setdefault(key, start if follows else token.start())
     return found
+
+
+def unquoted(literal: bytes) -> str:
+    """A string without its marks."""
+    marks = 3 if literal.startswith((b'"""', b"'''")) else 1
+    return literal[marks:-marks].decode("utf-8", "replace")
 
 
 def _asset_path(literal: bytes) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from marks import PRIMS, VARIANTS, find, marked, with_mark
 
-from usdvol_lint.engine.lines import Position, TextLayer
+from usdvol_lint.layertext.lines import Position, TextLayer
 
 VARIANT_PATHS = [
     "/a.p",
