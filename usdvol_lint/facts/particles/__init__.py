@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.copies import Copies
     from usdvol_lint.facts.particles.elements import Elements
     from usdvol_lint.facts.particles.extent import OutsideExtent
+    from usdvol_lint.facts.particles.raw import RawNumbers
     from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.particles.scales import Scales
     from usdvol_lint.facts.particles.surplus import Surplus
@@ -186,17 +187,17 @@ class Particles(Wing):
 
         return are_whole(array)
 
-    def are_logits(self, array: ParticleArray, outside: Elements | None) -> bool:
-        """Whether opacities, of which some are outside of 0 to 1, look like logits."""
-        from usdvol_lint.facts.particles.raw import are_logits
+    def are_raw(self, array: ParticleArray, outside: Elements | None) -> bool:
+        """Whether opacities, some `outside` 0 to 1, look like logits; or scales like logarithms."""
+        from usdvol_lint.facts.particles.raw import are_raw
 
-        return are_logits(array, outside)
+        return are_raw(array, outside)
 
-    def are_logarithms(self, array: ParticleArray, negative: Elements | None) -> bool:
-        """Whether scales, of which some are negative, look like logarithms."""
-        from usdvol_lint.facts.particles.raw import are_logarithms
+    def raw_numbers(self, array: ParticleArray) -> RawNumbers | None:
+        """The numbers beside infinity that look like logits in opacities, or logs in scales."""
+        from usdvol_lint.facts.particles.raw import raw_numbers
 
-        return are_logarithms(array, negative)
+        return raw_numbers(array) if array.has_infinity else None
 
     def longest_side(self, prim: Any) -> float:
         """That of the first authored extent; 0 without one."""
