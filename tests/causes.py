@@ -51,7 +51,10 @@ ABSENT = {
 }
 """What is absent where a code is found."""
 
-OF_ONE_FILE = {"AST002", "AST008", "AST009", "AST015"}
+OF_ONE_FILE = {
+    *("AST002", "AST003", "AST005", "AST008", "AST009", "AST010", "AST011", "AST012", "AST013"),
+    *("AST015", "AST017", "AST018", "GRD001", "GRD002"),
+}
 """Codes about files, which are found once where several fields of a prim name one."""
 
 _MEANT = re.compile(r"did you mean '([^']+)'")

@@ -10,11 +10,12 @@ def hole_in_sequence(field: Prim, facts: Facts) -> Problems:
     holes = facts.files.holes(field)
     if holes and not facts.layers.may_lack_values(field):
         affected = holes.affected
-        if facts.volumes.is_hidden(field, affected.times):
+        alike = facts.files.alike(field, lambda each: facts.volumes.is_hidden(each, affected.times))
+        if facts.volumes.is_hidden(field, affected.times) or not alike.is_first:
             return
         what = "the clip there has no filePath" if holes.clip else "filePath is empty or blocked"
         yield Problem(
-            f"no file at {frame_ranges(affected.times)}, though there are files before and after: {what}",
+            f"no file at {frame_ranges(affected.times)}, though there are files before and after: {what}{alike.others}",
             at=affected.attribute,
             times=affected.times,
             asset=holes.clip,

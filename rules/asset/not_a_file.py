@@ -13,6 +13,8 @@ _ADVICE = {
 
 @rule("AST005", on="FieldAsset", when=file_paths(AssetState.NOT_A_FILE), severity=ERROR, since="0.1")
 def not_a_file(field: Prim, facts: Facts) -> Problems:
-    for found in facts.files.paths(field).by_detail(AssetState.NOT_A_FILE):
+    alike = facts.files.alike(field)
+    for found in facts.files.paths(field).by_detail(AssetState.NOT_A_FILE) if alike.is_first else ():
         fault = FileFault(found.first.detail)
-        yield Problem(f"{found.shown} is {fault}{found.count}", at=found, suggestion=_ADVICE.get(fault))
+        message = f"{found.shown} is {fault}{alike.others}{found.count}"
+        yield Problem(message, at=found, suggestion=_ADVICE.get(fault))

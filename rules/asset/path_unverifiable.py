@@ -11,17 +11,19 @@ from usdvol_lint.rule import ERROR, INFO, WARNING, AssetState, Facts, Prim, Prob
     since="0.1",
 )
 def path_unverifiable(field: Prim, facts: Facts) -> Problems:
-    paths = facts.files.paths(field)
+    paths, alike = facts.files.paths(field), facts.files.alike(field)
+    if not alike.is_first:
+        return
     for live in paths.by_detail(AssetState.LIVE_SESSION):
         yield Problem(
-            f"{live.shown} exists in a running Houdini session alone{live.count}",
+            f"{live.shown} exists in a running Houdini session alone{alike.others}{live.count}",
             at=live,
             suggestion="save the volume to a .vdb file and name that",
         )
     for found in paths.by_detail(AssetState.UNVERIFIABLE):
         if found.first.detail.lower() == "file":
             yield Problem(
-                f"{found.shown} is not found: USD's own resolver does not know 'file:'{found.count}",
+                f"{found.shown} is not found: USD's own resolver does not know 'file:'{alike.others}{found.count}",
                 at=found,
                 severity=WARNING,
                 suggestion="write the path without 'file://'",
@@ -31,4 +33,4 @@ def path_unverifiable(field: Prim, facts: Facts) -> Problems:
         why = f"no resolver here answers for '{found.first.detail}:'"
         if found.first.detail == "?":
             why = f"the file is there, and no resolver here reads '?{query}'"
-        yield Problem(f"{found.shown} was not checked: {why}{found.count}", at=found, severity=INFO)
+        yield Problem(f"{found.shown} was not checked: {why}{alike.others}{found.count}", at=found, severity=INFO)

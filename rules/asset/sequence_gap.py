@@ -6,11 +6,11 @@ from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, 
 @rule("AST011", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def sequence_gap(field: Prim, facts: Facts) -> Problems:
     missing = facts.files.missing_samples(field)
-    if missing:
+    if missing and facts.files.alike(field).is_first:
         samples = "no sample" if len(missing.times) == 1 else "no samples"
         yield Problem(
             f"{samples} at {frame_ranges(missing.times)}, in a run that is regular otherwise "
-            f"({len(missing.times)} missing, {missing.present} there)",
+            f"({len(missing.times)} missing, {missing.present} there){facts.files.alike(field).others}",
             at=field.GetAttribute("filePath"),
             times=missing.times,
             asset=missing.before.authored,

@@ -14,15 +14,15 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         f"the samples are at {format_time(first)}-{format_time(last)}, "
         f"the stage's range is {format_time(start)}-{format_time(end)}"
     )
-    attribute = field.GetAttribute("filePath")
-    if facts.layers.rate_is_unsaid(attribute):
+    attribute, alike = field.GetAttribute("filePath"), facts.files.alike(field)
+    if facts.layers.rate_is_unsaid(attribute) or not alike.is_first:
         return
     if last < start or first > end:
         shift = format_time(start - first)
         is_held = sequence.holds_last if last < start else sequence.holds_first
         effect = "one file is held throughout" if is_held else "no file is shown"
         yield Problem(
-            f"{ranges}: {effect}",
+            f"{ranges}: {effect}{alike.others}",
             at=attribute,
             suggestion=f"if they are to begin with the stage, move them by {shift} with the layer "
             "offset of the sublayer, reference or payload",
@@ -36,7 +36,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         held.append(f"the last file is held from {format_time(last)} on")
     if held:
         yield Problem(
-            f"{ranges}: {' and '.join(held)}",
+            f"{ranges}: {' and '.join(held)}{alike.others}",
             at=attribute,
             suggestion="write the frames that are missing, or correct the range of the stage",
             severity=INFO,

@@ -24,22 +24,26 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
     if still is None or facts.layers.may_lack_values(field):
         return
     staging = facts.volumes.staging(field, time_range) if time_range and not still.is_sampled else None
-    if staging and not staging.is_shown:
+
+    def shown(each: Prim) -> object:
+        return facts.files.still(each, time_range) and (not time_range or facts.volumes.staging(each, time_range))
+
+    alike = facts.files.alike(field, shown)
+    if not alike.is_first or (staging and not staging.is_shown):
         return
     is_staged = staging and still.by_range and not staging.is_still
-    affected = still.affected
     there = f"the files {frame_ranges(still.numbers)} lie beside it" if still.numbers else ""
     if still.is_lost:
-        message = f"all samples name {affected.shown}, which lacks its frame number"
-        message += f": {there}" if there else ""
+        message = f"all samples name {still.affected.shown}, which lacks its frame number"
+        message += f": {there}" * bool(there)
     elif still.is_sampled:
-        message = f"all samples name {affected.shown}, though {there}"
+        message = f"all samples name {still.affected.shown}, though {there}"
     else:
         start, end = map(format_time, time_range or ())
-        message = f"{affected.shown} is held at all times, though {there} and the stage's range is {start}-{end}"
+        message = f"{still.affected.shown} is held at all times, though {there} and the stage's range is {start}-{end}"
     yield Problem(
-        message,
-        at=affected,
+        f"{message}{alike.others}",
+        at=still.affected,
         suggestion=still.advice,
         severity=None if still.is_certain and not is_staged else INFO,
     )

@@ -9,9 +9,10 @@ def _cut(content: Content) -> bool | None:
 
 @rule("GRD002", on="FieldAsset", when=contents(_cut), severity=ERROR, since="0.1")
 def file_truncated(field: Prim, facts: Facts) -> Problems:
-    for _, content, found in facts.grids.contents(field).grouped(_cut):
+    alike = facts.files.alike(field)
+    for _, content, found in facts.grids.contents(field).grouped(_cut) if alike.is_first else ():
         yield Problem(
-            f"{found.shown} is cut off: {content.fault_message}{found.count}",
+            f"{found.shown} is cut off: {content.fault_message}{alike.others}{found.count}",
             at=found,
             suggestion="write it again, or copy it again; look for a full disk",
         )

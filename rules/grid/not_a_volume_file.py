@@ -7,6 +7,10 @@ _AS_IT_IS = "make the prim an OpenVDBAsset, and end the file's name in '.vdb'"
 _CONVERTED = "convert it to OpenVDB, for an OpenVDBAsset: no reader of other files ships with OpenUSD"
 
 
+def _type_of(field: Prim) -> str:
+    return str(field.GetTypeName())
+
+
 def _unread(content: Content) -> str | None:
     return content.unread
 
@@ -24,19 +28,21 @@ def _fault(content: Content) -> tuple[str, bool] | None:
 
 @rule("GRD001", on="FieldAsset", when=contents(_unread, _fault, _stranger), severity=ERROR, since="0.1")
 def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
-    inside = facts.grids.contents(field)
+    inside, alike = facts.grids.contents(field), facts.files.alike(field, _type_of)
+    if not alike.is_first:
+        return
     for unread, _, found in inside.grouped(_unread):
-        yield NotChecked(f"{found.shown} was not looked into: {unread}{found.count}", at=found)
+        yield NotChecked(f"{found.shown} was not looked into: {unread}{alike.others}{found.count}", at=found)
     for (_, is_broken), content, found in inside.grouped(_fault):
         what = "broken" if is_broken else "not a volume file"
         yield Problem(
-            f"{found.shown} is {what}: {content.fault}{found.count}",
+            f"{found.shown} is {what}: {content.fault}{alike.others}{found.count}",
             at=found,
             suggestion="write or copy it again",
         )
     for stranger, content, found in inside.grouped(_stranger):
         yield Problem(
-            f"{found.shown} is {content.foreign}{found.count}",
+            f"{found.shown} is {content.foreign}{alike.others}{found.count}",
             at=found,
             suggestion=_AS_IT_IS if stranger == "openvdb" else _CONVERTED,
             severity=WARNING if content.is_read_by_some else None,

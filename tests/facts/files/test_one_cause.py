@@ -50,3 +50,19 @@ def test_a_broken_file_of_the_other_format_is_of_the_other_format(
     assert [each.code for each in found if each.code in ("AST006", "GRD001", "FLD007")] == [
         "AST006"
     ]
+
+
+def test_fields_of_two_types_that_name_one_file_are_told_apart(
+    lint_text: Lint, tmp_path: Path
+) -> None:
+    shutil.copy(ASSETS / "cloud.vdb", tmp_path / "cloud.f3d")
+    fields = "".join(
+        f'def {kind} "{name}"\n{{\n    asset filePath = @./cloud.f3d@\n}}\n'
+        for name, kind in (("a", "OpenVDBAsset"), ("b", "Field3DAsset"), ("c", "Field3DAsset"))
+    )
+    found = lint_text(f"#usda 1.0\n{fields}").findings
+    assert [
+        (each.code, each.site.prim, ", as in 1 other field" in each.message)
+        for each in found
+        if each.code in ("AST006", "GRD001")
+    ] == [("AST006", "/a", False), ("GRD001", "/b", True)]

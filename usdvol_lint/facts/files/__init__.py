@@ -109,9 +109,12 @@ class Files(Wing):
         """
         return self._missing_folders.sharing(field)
 
-    def alike(self, field: Any) -> Alike:
-        """What is known of other fields of the same prim that name the same files."""
-        return self._namesakes.of(field)
+    def alike(self, field: Any, like: Callable[[Any], Any] | None = None) -> Alike:
+        """What is known of other fields of the same prim that name the same files.
+
+        `like` leaves out those for which it does not give what it gives for the field.
+        """
+        return self._namesakes.of(field, like)
 
     def malformed(self, field: Any) -> Iterator[Malformed]:
         """The samples of `filePath` that not every platform reads alike."""

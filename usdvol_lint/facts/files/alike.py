@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSamples
@@ -33,9 +33,11 @@ class Namesakes:
             if len(group) > 1:
                 self._add(group)
 
-    def of(self, field: Any) -> Alike:
-        """What is known of a field."""
+    def of(self, field: Any, like: Callable[[Any], Any] | None = None) -> Alike:
+        """What is known of a field; others are those for which `like` gives the same."""
         family = self._known.get(field, [field])
+        if like and len(family) > 1:
+            family = [other for other in family if like(other) == like(field)]
         count = len(family) - 1
         words = f", as in {count} other field{'s' * (count > 1)}" if count else ""
         return Alike(family[0] == field, words)
