@@ -23,17 +23,22 @@ class Absence(NamedTuple):
     """Why nothing is at a path, in words that follow it, and which path was probably meant, if any.
 
     `elsewhere`: paths of which none is more probable, the nearest first.
+    `file`: the file that stands where the path has a folder.
     """
 
     reason: str
     similar: str | None
     elsewhere: tuple[str, ...] = ()
+    file: str = ""
 
     @property
     def advice(self) -> str | None:
         """Where such a file is."""
         if self.similar:
             return f"did you mean {quoted(self.similar)}?"
+        if self.file:
+            folder = os.path.dirname(self.file) or "."
+            return f"name a folder in the place of that file, which itself is in {quoted(folder)}"
         more = len(self.elsewhere) - _NAMED
         shown = ", ".join(map(quoted, self.elsewhere[:_NAMED])) + (f" and {more} more" * (more > 0))
         return f"there are files of that name at {shown}" if shown else None
@@ -65,8 +70,7 @@ def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str
     below = path[len(missing) :]
     shown = _with_end(authored, below, "") if below else authored
     if os.path.isfile(folder):
-        file = _with_end(authored, path[len(folder) :], "")
-        return Absence(f": {quoted(file)} is a file, not a folder", None)
+        return _absence_below_file(folder, path, authored)
     similar = None if corrected else _closest_name(disk, folder, name, not_meant)
     has_file = bool(similar) and os.path.exists(f"{folder}/{similar}{below}")
     moved = () if corrected or has_file else tuple(_moved(disk, path, missing, authored))
@@ -121,11 +125,20 @@ def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
 
 def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
     shown, inner = Ar.SplitPackageRelativePathOuter(authored)
-    reason, corrected, elsewhere = find_absence(disk, package, shown)
+    reason, corrected, elsewhere, file = find_absence(disk, package, shown)
     if corrected and corrected.endswith(os.path.splitext(shown)[1]):  # else it corrects a folder
         corrected = str(Ar.JoinPackageRelativePath(corrected, inner))
     inside = tuple(str(Ar.JoinPackageRelativePath(other, inner)) for other in elsewhere)
-    return Absence(reason or f": no package {quoted(shown)}", corrected, inside)
+    return Absence(reason or f": no package {quoted(shown)}", corrected, inside, file)
+
+
+def _absence_below_file(file: str, path: str, authored: str) -> Absence:
+    """Why nothing is at a path below a file; it may be meant to lie beside that."""
+    shown = _with_end(authored, path[len(file) :], "")
+    folder, name = os.path.dirname(file), os.path.basename(path)
+    beside = _with_end(shown, os.path.basename(file), name)
+    meant = beside if os.path.isfile(os.path.join(folder, name)) else None
+    return Absence(f": {quoted(shown)} is a file, not a folder", meant, file=shown)
 
 
 def _closest_name(
