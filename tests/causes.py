@@ -40,6 +40,7 @@ OF_ONE_PRIM = (
 ABSENT = {
     "AST001": "filePath",
     "FLD001": "fieldName",
+    "FLD002": "fieldDataType",
     "SCH007": "extent",
     "ARR001": "positions",
     "ARR017": "radiance:sphericalHarmonicsCoefficients",

@@ -40,4 +40,5 @@ def _says_none(field: Prim, facts: Facts) -> bool:
     values = list(facts.prims.values(field, "fieldDataType"))
     if data_type.Get() or any(values) or ("" not in values and data_type.HasAuthoredValue()):
         return False
-    return not facts.layers.may_lack_values(field)
+    is_told = facts.prims.is_told_as_misspelt(field, "fieldDataType")
+    return not is_told and not facts.layers.may_lack_values(field)

@@ -212,6 +212,17 @@ class Particles(Wing):
         dropped = (name for found in self.apis(prim).dropped for name in found.names)
         return colour_space(prim, used.attribute if used else None, frozenset(dropped))
 
+    def are_grey(self, prim: Any) -> bool:
+        """Whether there are particles, and neither coefficients nor a material colours them."""
+        arrays = self.arrays(prim)
+        is_bare = arrays.lack_coefficients and arrays.most_particles > 0
+        return is_bare and not self.material_is_bound(prim)
+
+    def are_all_in(self, prim: Any, attribute: Any) -> bool:
+        """Whether a particle field has no particles, and another attribute has elements."""
+        is_likely = self.arrays(prim).lack_positions and attribute.GetTypeName().isArray
+        return is_likely and any(map(len, self._prims.values(prim, attribute.GetName())))
+
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""
         from usdvol_lint.facts.particles.apis import material_is_bound

@@ -42,6 +42,11 @@ class Misspelt(NamedTuple):
     hiding: str = ""
 
     @property
+    def pair(self) -> str:
+        """The intended name, or of a half array, `positionsh`, that of the float array."""
+        return self.intended[:-1] if self.intended.endswith("sh") else self.intended
+
+    @property
     def shown(self) -> str:
         """The attribute as messages name it, with its type where the type makes the slip."""
         name = self.attribute.GetName()
