@@ -59,6 +59,8 @@ def unseen_particles(arrays: ParticleArrays) -> Unseen | None:
     if not attributes:
         return None
     count = arrays.most_particles
+    if not count:  # values without any position
+        return None
     transparent, sizeless = masks = [_of_length(count, selected) for _, selected in found]
     numbers = (int(np.count_nonzero(mask)) for mask in (*masks, transparent & sizeless))
     return Unseen(attributes[0], transparent | sizeless, *numbers)
