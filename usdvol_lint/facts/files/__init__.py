@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.classify import AssetReader
     from usdvol_lint.facts.files.corrections import Absence
     from usdvol_lint.facts.files.disk import Disk
+    from usdvol_lint.facts.files.families import Families
     from usdvol_lint.facts.files.gaps import Missing
     from usdvol_lint.facts.files.holes import Holes
     from usdvol_lint.facts.files.in_variants import VariantPath
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
-    from usdvol_lint.facts.files.stillness import Families, Packs, Still
+    from usdvol_lint.facts.files.stillness import Packs, Still
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
 
@@ -176,7 +177,7 @@ class Files(Wing):
 
     @cached_property
     def _families(self) -> Families:
-        from usdvol_lint.facts.files.stillness import Families
+        from usdvol_lint.facts.files.families import Families
 
         return Families(self._disk)
 

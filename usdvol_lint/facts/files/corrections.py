@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import NamedTuple
 
 from pxr import Ar, Sdf
@@ -60,11 +60,7 @@ def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str
         package, inner = Ar.SplitPackageRelativePathOuter(path)
         if not os.path.isfile(package):
             return _absence_of_package(disk, package, authored)
-        similar = None if corrected else _closest_name(disk, package, inner)
-        corrected = _with_inner(authored, inner, similar) if similar else corrected
-        folder = disk.missing_in_package(package, inner)
-        what = f": no folder {quoted(folder)}" if folder else ""
-        return Absence(f"{what} in {quoted(os.path.basename(package))}", corrected)
+        return _absence_inside(disk, package, inner, authored, corrected)
     missing = _first_missing(path)
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
@@ -73,10 +69,10 @@ def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str
         return _absence_below_file(folder, path, authored)
     similar = None if corrected else _closest_name(disk, folder, name, not_meant)
     has_file = bool(similar) and os.path.exists(f"{folder}/{similar}{below}")
-    moved = () if corrected or has_file else tuple(_moved(disk, path, missing, authored))
-    if len(moved) == 1:
-        corrected, moved = moved[0], ()
-    elif similar and not moved:
+    moved: tuple[str, ...] = ()
+    if not (corrected or has_file):
+        corrected, moved = _moved(path, missing, authored, disk.siblings_with)
+    if similar and not (corrected or moved):
         corrected = _with_end(authored, name + below, similar + below if has_file else similar)
     reason = f": no folder {quoted(shown)}" if below else ""
     if os.path.islink(missing):
@@ -123,6 +119,21 @@ def find_frames(disk: Disk, path: str, authored: str) -> list[tuple[int, str]]:
     return [(frame.number, _with_end(authored, name, frame.name)) for frame in found]
 
 
+def _absence_inside(
+    disk: Disk, package: str, inner: str, authored: str, corrected: str | None
+) -> Absence:
+    """Why a package has nothing at a path in it; `corrected` is authored in another case."""
+    folder = disk.missing_in_package(package, inner)
+    moved: tuple[str, ...] = ()
+    if similar := None if corrected else _closest_name(disk, package, inner):
+        corrected = _with_inner(authored, inner, similar)
+    elif not corrected:
+        siblings = disk.listing(package).siblings_with
+        corrected, moved = _moved(inner, folder or inner, authored, siblings)
+    what = f": no folder {quoted(folder)}" if folder else ""
+    return Absence(f"{what} in {quoted(os.path.basename(package))}", corrected, moved)
+
+
 def _absence_of_package(disk: Disk, package: str, authored: str) -> Absence:
     shown, inner = Ar.SplitPackageRelativePathOuter(authored)
     reason, corrected, elsewhere, file = find_absence(disk, package, shown)
@@ -153,10 +164,22 @@ def _closest_name(
     return next(filter(swapped.__contains__, others), None) or closest_match(name, others)
 
 
-def _moved(disk: Disk, path: str, missing: str, authored: str) -> Iterator[str]:
-    """What to write instead, where the very file lies in sibling folders, the nearest first.
+def _moved(
+    path: str, missing: str, authored: str, siblings_with: Callable[[str, str], list[str]]
+) -> tuple[str | None, tuple[str, ...]]:
+    """What to write instead, or what of several, if the very file lies in sibling folders."""
+    bracket = "]" if authored.endswith(f"{path}]") else ""
+    bare = authored.removesuffix(bracket)
+    moved = [other + bracket for other in _in_siblings(path, missing, bare, siblings_with)]
+    return (moved[0], ()) if len(moved) == 1 else (None, tuple(moved))
 
-    That is one beside the folder that is missing; or, where only the file is, beside its own.
+
+def _in_siblings(
+    path: str, missing: str, authored: str, siblings_with: Callable[[str, str], list[str]]
+) -> Iterator[str]:
+    """The path with the name of each sibling folder that has the very file, the nearest first.
+
+    A sibling is one beside the folder that is missing; or, where only the file is, beside its own.
     Where that has a number, its neighbours in other folders are versions or takes of the frame.
     The folder has to be named in the path: what lies beside that of the layer is another asset.
     """
@@ -165,8 +188,8 @@ def _moved(disk: Disk, path: str, missing: str, authored: str) -> Iterator[str]:
         return
     below = path[len(folder) :]
     own_name = os.path.basename(folder)
-    if authored.endswith(own_name + below):
-        for sibling in by_nearness(own_name, disk.siblings_with(folder, below)):
+    if own_name and authored.endswith(own_name + below):
+        for sibling in by_nearness(own_name, siblings_with(folder, below)):
             yield _with_end(authored, own_name + below, sibling + below)
 
 
