@@ -85,7 +85,7 @@ def find_still(
     if len(_timed(paths)) > 1:
         return _animated_in_name_only(paths, sample, families, packs)
     frames = families.around(sample, is_lost=False)
-    if frames is None or time_range is None or not time_range[0] < time_range[1]:
+    if frames is None or time_range is None:
         return None
     if frames.on_disk.keys().isdisjoint((frames.name.number - 1, frames.name.number + 1)):
         return None
