@@ -56,6 +56,7 @@ OF_ONE_FILE = {"AST002", "AST008", "AST009", "AST015"}
 
 _MEANT = re.compile(r"did you mean '([^']+)'")
 _EFFECT = re.compile(r", so nothing gives these splats (.*)")
+_RAW = re.compile(r"these look like (?:the )?(logits|logarithms)")
 _OTHERS = re.compile(r", as in \d+ other fields?")
 
 
@@ -78,7 +79,7 @@ def _have_one_cause(one: Finding, other: Finding) -> bool:
         return True
     if one.site.property != other.site.property or not _meet(one, other):
         return False
-    if one.message == other.message:
+    if one.message == other.message or _raw(one) & _raw(other):
         return True
     # Two opinions may each be wrong.
     is_one_place = len(codes) == 2 or one.site[:5] == other.site[:5]
@@ -115,3 +116,8 @@ def _meet(one: Finding, other: Finding) -> bool:
     """Whether they are found at a common time; what has no times is so at all of them."""
     times, others = set(one.site.times), set(other.site.times)
     return not (times and others and times.isdisjoint(others))
+
+
+def _raw(finding: Finding) -> set[str]:
+    """What numbers are instead of those that the schema asks for, as the advice says."""
+    return set(_RAW.findall(finding.suggestion or ""))

@@ -1,6 +1,6 @@
 """ARR007: no array may hold NaN or infinity."""
 
-from usdvol_lint.rule import ERROR, Facts, ParticleArray, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 
 _FEW = 0.1
 _LOGITS = "these look like logits: the sigmoid, 1 / (1 + exp(-x)), before the export makes 1 of inf and 0 of -inf"
@@ -15,14 +15,16 @@ def non_finite(particles: Prim, facts: Facts) -> Problems:
         found = array.non_finite()
         if not found:
             continue
-        meaning = _meaning_of_infinity(array, facts)
+        raw = facts.particles.raw_numbers(array)
+        meaning = _meaning_of_infinity(array.noun, bool(raw)) if array.has_infinity else ""
         overflows = array.is_half and array.has_infinity and not meaning
         kinds = ("NaN", array.has_nan), ("infinity", array.has_infinity)
         what = " or ".join(name for name, is_there in kinds if is_there)
         yield Problem(
             f"{found.amount_that(*_verbs(array.noun, what))}"
-            f"{', beyond the 65,504 that half goes up to' if overflows else ''}, {found.first}",
-            at=found,
+            f"{', beyond the 65,504 that half goes up to' if overflows else ''}, {found.first}"
+            + (f", and {raw.words}" if raw else ""),
+            at=raw.at if raw else found,
             suggestion=meaning + _NAN * array.has_nan
             if meaning
             else f"author the float array {array.float_name!r}, or smaller values"
@@ -40,10 +42,7 @@ def _verbs(noun: str, what: str) -> tuple[str, str]:
     return f"is {kind}", f"are {kind}"
 
 
-def _meaning_of_infinity(array: ParticleArray, facts: Facts) -> str:
-    if array.noun == "opacities" and array.has_infinity:
-        return _LOGITS if facts.particles.are_logits(array, array.outside(-1e-3, 1 + 1e-3)) else _OPACITIES
-    are_logarithms = array.noun == "scales" and array.has_infinity
-    if are_logarithms and facts.particles.are_logarithms(array, array.outside(0.0, float("inf"))):
-        return _LOGARITHMS
-    return ""
+def _meaning_of_infinity(noun: str, is_raw: bool) -> str:
+    if noun == "opacities":
+        return _LOGITS if is_raw else _OPACITIES
+    return _LOGARITHMS if is_raw else ""

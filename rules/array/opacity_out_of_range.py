@@ -7,12 +7,13 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 def opacity_out_of_range(particles: Prim, facts: Facts, *, tolerance: float = 1e-3) -> Problems:
     for array in facts.particles.arrays(particles).used("opacities"):
         found = array.outside(-tolerance, 1 + tolerance)
-        if found and array.low and array.high:
+        is_raw = facts.particles.are_raw(array, found)
+        if found and array.low and array.high and not (is_raw and array.has_infinity):  # ARR007 says it
             (low,), (high,) = array.low, array.high
             yield Problem(
                 f"{found.amount} outside of 0 to 1, from {low:.6g} to {high:.6g}, {found.first}",
                 at=found,
-                suggestion=_LOGITS if facts.particles.are_logits(array, found) else _remedy(low, high, found.share),
+                suggestion=_LOGITS if is_raw else _remedy(low, high, found.share),
             )
 
 

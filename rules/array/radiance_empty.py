@@ -6,7 +6,9 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, lacks, rul
 @rule("ARR017", on="ParticleField", severity=WARNING, since="0.1")
 def radiance_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
-    if not facts.particles.are_grey(particles) or facts.layers.may_lack_values(particles):
+    if not arrays.are_colourless or facts.particles.material_is_bound(particles):
+        return
+    if facts.layers.may_lack_values(particles):
         return
     if facts.particles.is_misspelt(particles, "radiance:sphericalHarmonicsCoefficients"):
         return  # SCH004 says it

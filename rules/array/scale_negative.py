@@ -7,13 +7,14 @@ from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rul
 def scale_negative(particles: Prim, facts: Facts) -> Problems:
     for array in facts.particles.arrays(particles).used("scales"):
         found = array.outside(0.0, float("inf"))
-        if found and array.low and array.high:
+        is_raw = facts.particles.are_raw(array, found)
+        if found and array.low and array.high and not (is_raw and array.has_infinity):  # ARR007 says it
             low, high, are_most = min(array.low), max(array.high), found.share > 0.5
             yield Problem(
                 f"{found.amount} below 0, from {low:.6g} to {high:.6g}, {found.first}",
                 at=found,
                 severity=None if are_most else WARNING,
                 suggestion="these look like the logarithms of a PLY file: apply exp(x) before the export"
-                if facts.particles.are_logarithms(array, found)
+                if is_raw
                 else "author sizes from 0",
             )

@@ -40,8 +40,9 @@ def _loss(slip: Any, prim: Prim, facts: Facts) -> str:
 def _is_elsewhere(slip: Any, prim: Prim, facts: Facts) -> bool:
     if slip.pair == "filePath":
         return facts.files.paths(prim).is_only_declared or bool(facts.files.unlisted_clips(prim))
-    if slip.pair == "extent":
-        return prim not in facts.prims.without_extent
+    if slip.pair in ("extent", "fieldName", "fieldDataType"):
+        return slip.pair == "extent" and prim not in facts.prims.without_extent
     if slip.pair == "positions":
-        return not facts.particles.are_all_in(prim, slip.attribute)
-    return not slip.pair.startswith("field") and not facts.particles.are_grey(prim)
+        is_likely = facts.particles.arrays(prim).lack_positions and slip.attribute.GetTypeName().isArray
+        return not is_likely or not any(map(len, facts.prims.values(prim, slip.attribute.GetName())))
+    return not facts.particles.arrays(prim).are_colourless or facts.particles.material_is_bound(prim)

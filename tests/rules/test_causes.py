@@ -47,6 +47,10 @@ NO_API = found(
         (NO_API, found("PRT001", "/Splat")),
         (found("PRT002", "/Splat"), NO_API),
         (
+            found("ARR007", "/Splat.opacities", advice="these look like logits: the sigmoid"),
+            found("ARR008", "/Splat.opacities", advice="these look like the logits of a PLY file"),
+        ),
+        (
             found("SCH004", "/Splat.extents", advice="did you mean 'extent'?"),
             found("SCH007", "/A", "no extent: Volume </A>, ParticleField </Splat>"),
         ),
@@ -70,6 +74,10 @@ def test_one_cause_is_seen(findings: tuple[Finding, Finding]) -> None:
         (MISSPELT, found("FLD001", "/cloud/density")),
         (MISSPELT, found("AST001", "/cloud/heat")),
         (NO_API, found("PRT003", "/Splat")),
+        (
+            found("ARR007", "/Splat.opacities", advice="author 1 for inf"),
+            found("ARR008", "/Splat.opacities", advice="these look like the logits of a PLY file"),
+        ),
         (found("ARR002", "/Splat.scales"), found("ARR003", "/Splat.opacities")),
     ],
 )

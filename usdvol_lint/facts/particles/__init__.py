@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.copies import Copies
     from usdvol_lint.facts.particles.elements import Elements
     from usdvol_lint.facts.particles.extent import OutsideExtent
+    from usdvol_lint.facts.particles.raw import RawNumbers
     from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.particles.scales import Scales
     from usdvol_lint.facts.particles.surplus import Surplus
@@ -186,17 +187,17 @@ class Particles(Wing):
 
         return are_whole(array)
 
-    def are_logits(self, array: ParticleArray, outside: Elements | None) -> bool:
-        """Whether opacities, of which some are outside of 0 to 1, look like logits."""
-        from usdvol_lint.facts.particles.raw import are_logits
+    def are_raw(self, array: ParticleArray, outside: Elements | None) -> bool:
+        """Whether opacities, some `outside` 0 to 1, look like logits; or scales like logarithms."""
+        from usdvol_lint.facts.particles.raw import are_raw
 
-        return are_logits(array, outside)
+        return are_raw(array, outside)
 
-    def are_logarithms(self, array: ParticleArray, negative: Elements | None) -> bool:
-        """Whether scales, of which some are negative, look like logarithms."""
-        from usdvol_lint.facts.particles.raw import are_logarithms
+    def raw_numbers(self, array: ParticleArray) -> RawNumbers | None:
+        """The numbers beside infinity that look like logits in opacities, or logs in scales."""
+        from usdvol_lint.facts.particles.raw import raw_numbers
 
-        return are_logarithms(array, negative)
+        return raw_numbers(array) if array.has_infinity else None
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
         """The colour space of the coefficients: their own, or the nearest name above them."""
@@ -204,17 +205,6 @@ class Particles(Wing):
 
         used = self.arrays(prim).coefficients
         return colour_space(prim, used.attribute if used else None, self.apis(prim).dropped)
-
-    def are_grey(self, prim: Any) -> bool:
-        """Whether there are particles, and neither coefficients nor a material colours them."""
-        arrays = self.arrays(prim)
-        is_bare = arrays.lack_coefficients and arrays.most_particles > 0
-        return is_bare and not self.material_is_bound(prim)
-
-    def are_all_in(self, prim: Any, attribute: Any) -> bool:
-        """Whether a particle field has no particles, and another attribute has elements."""
-        is_likely = self.arrays(prim).lack_positions and attribute.GetTypeName().isArray
-        return is_likely and any(map(len, self._prims.values(prim, attribute.GetName())))
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""

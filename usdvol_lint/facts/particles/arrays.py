@@ -166,9 +166,9 @@ class ParticleArrays:
         return self._lack(POSITIONS, schema.POSITIONS_API)
 
     @property
-    def lack_coefficients(self) -> bool:
-        """Whether there certainly is no coefficient at any time, though their API is applied."""
-        return self._lack(COEFFICIENTS, schema.HARMONICS_API)
+    def are_colourless(self) -> bool:
+        """Whether particles with the API of coefficients certainly have none at any time."""
+        return self._lack(COEFFICIENTS, schema.HARMONICS_API) and self.most_particles > 0
 
     def lack(self, name: str) -> bool:
         """Whether there certainly is no element of an array at any time, by its float name."""
