@@ -93,8 +93,15 @@ class Files(Wing):
         """
         from usdvol_lint.facts.files.corrections import find_absence
 
-        not_meant = (by.realPath, self._stage.GetRootLayer().realPath) if by else ()
-        return find_absence(self._disk, path, authored, not_meant)
+        root = self._stage.GetRootLayer().realPath
+        not_meant, reader = ((by.realPath, root), "") if by else ((), root)
+        return find_absence(self._disk, path, authored, not_meant, reader)
+
+    def frames_there(self, field: Any) -> str | None:
+        """Which frames of a sequence are there, where others are not, and what to do with these."""
+        from usdvol_lint.facts.files.absences import frames_there
+
+        return frames_there(self.sequence(field))
 
     @fact
     def missing(self, field: Any) -> Affected | None:

@@ -39,14 +39,22 @@ class Absence(NamedTuple):
         if self.file:
             folder = os.path.dirname(self.file) or "."
             return f"name a folder in the place of that file, which itself is in {quoted(folder)}"
+        if len(self.elsewhere) == 1:
+            return (
+                f"there is a file of that name at {quoted(self.elsewhere[0])}: did it move there?"
+            )
         more = len(self.elsewhere) - _NAMED
         shown = ", ".join(map(quoted, self.elsewhere[:_NAMED])) + (f" and {more} more" * (more > 0))
         return f"there are files of that name at {shown}" if shown else None
 
 
-def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str] = ()) -> Absence:
+def find_absence(
+    disk: Disk, path: str, authored: str, not_meant: Collection[str] = (), reader: str = ""
+) -> Absence:
     """Why nothing is at an absolute path; `authored` is the text that it comes from.
 
+    `reader`: the layer of the stage, if one; where the text leads from the folder of another, the
+    reason names the absolute place.
     `not_meant`: absolute paths of files that it certainly does not mean.
     Of what is no path on disk, such as a URI for an installed resolver, nothing is known.
     """
@@ -64,7 +72,9 @@ def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str
     missing = _first_missing(path)
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
-    shown = _with_end(authored, below, "") if below else authored
+    led_to = os.path.normpath(os.path.join(os.path.dirname(reader), authored))
+    is_at_home = not reader or led_to == path
+    shown = (_with_end(authored, below, "") if below else authored) if is_at_home else missing
     if os.path.isfile(folder):
         return _absence_below_file(folder, path, authored)
     similar = None if corrected else _closest_name(disk, folder, name, not_meant)
@@ -74,7 +84,11 @@ def find_absence(disk: Disk, path: str, authored: str, not_meant: Collection[str
         corrected, moved = _moved(path, missing, authored, disk.siblings_with)
     if similar and not (corrected or moved):
         corrected = _with_end(authored, name + below, similar + below if has_file else similar)
+    if below and not corrected and not moved:
+        moved = tuple(_in_folders_of(disk, folder, name + below, authored))
     reason = f": no folder {quoted(shown)}" if below else ""
+    if not below and not is_at_home:
+        reason = f" in {quoted(folder)}"
     if os.path.islink(missing):
         reason = f": {_broken_link(missing)}"
     return Absence(reason, corrected, moved)
@@ -191,6 +205,16 @@ def _in_siblings(
     if own_name and authored.endswith(own_name + below):
         for sibling in by_nearness(own_name, siblings_with(folder, below)):
             yield _with_end(authored, own_name + below, sibling + below)
+
+
+def _in_folders_of(disk: Disk, folder: str, below: str, authored: str) -> Iterator[str]:
+    """What to write instead, where folders in the last one that is there have a file of the name.
+
+    That is where a cache is that was moved or renamed.
+    """
+    file = below[below.rindex("/") :]
+    for inside in disk.folders_with(folder, file) if authored.endswith(below) else ():
+        yield _with_end(authored, below, inside + file)
 
 
 def _first_missing(path: str) -> str:
