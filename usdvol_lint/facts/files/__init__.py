@@ -176,11 +176,8 @@ class Files(Wing):
             return None  # nearly always
         clips = self._clips.reaching(field)
         paths = self.paths(field)
-        found = find_still(paths, self._families, self._find_packs, clips, time_range)
+        found = find_still(paths, self._families, lambda: self._packs, clips, time_range)
         return None if found and hidden_animation(paths.attribute, clips) else found
-
-    def _find_packs(self) -> Packs:
-        return self._packs
 
     @cached_property
     def _families(self) -> Families:
