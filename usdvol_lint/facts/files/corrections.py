@@ -72,9 +72,6 @@ def find_absence(
     missing = _first_missing(path)
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
-    led_to = os.path.normpath(os.path.join(os.path.dirname(reader), authored))
-    is_at_home = not reader or led_to == path
-    shown = (_with_end(authored, below, "") if below else authored) if is_at_home else missing
     if os.path.isfile(folder):
         return _absence_below_file(folder, path, authored)
     similar = None if corrected else _closest_name(disk, folder, name, not_meant)
@@ -86,12 +83,20 @@ def find_absence(
         corrected = _with_end(authored, name + below, similar + below if has_file else similar)
     if below and not corrected and not moved:
         moved = tuple(_in_folders_of(disk, folder, name + below, authored))
-    reason = f": no folder {quoted(shown)}" if below else ""
-    if not below and not is_at_home:
-        reason = f" in {quoted(folder)}"
+    return Absence(_reason(path, missing, authored, reader), corrected, moved)
+
+
+def _reason(path: str, missing: str, authored: str, reader: str) -> str:
+    """Why nothing is at a path of which this is the topmost part that is missing."""
     if os.path.islink(missing):
-        reason = f": {_broken_link(missing)}"
-    return Absence(reason, corrected, moved)
+        return f": {_broken_link(missing)}"
+    below = path[len(missing) :]
+    led_to = os.path.normpath(os.path.join(os.path.dirname(reader), authored))
+    is_at_home = not reader or led_to == path
+    if not below:
+        return "" if is_at_home else f" in {quoted(os.path.dirname(missing))}"
+    shown = _with_end(authored, below, "") if is_at_home else missing
+    return f": no folder {quoted(shown)}"
 
 
 def missing_folder(disk: Disk, path: str) -> str | None:
