@@ -10,7 +10,7 @@ def scales_too_large(particles: Prim, facts: Facts) -> Problems:
     scales = facts.particles.scales(particles)
     if not scales or scales.array.most < _MANY or scales.low < 0 or scales.are_spread_as_exp:
         return  # ARR009 or ARR019 says the last two
-    side = facts.particles.longest_side(particles)
+    side = facts.prims.limits(particles).longest_side
     if 0 < side < 10 * scales.high and scales.mean > side / 10:
         yield Problem(
             f"the mean of all scales, {scales.mean:.3g}, is more than a tenth of the extent, {side:.6g}",

@@ -17,5 +17,5 @@ def file_missing(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"no file at {missing.shown}{absence.reason}{below if fields else alike.others}{missing.count}",
             at=missing,
-            suggestion=absence.advice,
+            suggestion=absence.advice or facts.files.frames_there(field),
         )

@@ -8,7 +8,7 @@ from usdvol_lint.schema import ABSTRACT_TYPES, FIELD_ASSET
 def abstract_type(prim: Prim, facts: Facts) -> Problems:
     name = prim.GetTypeName()
     if name in ABSTRACT_TYPES:
-        is_for_index = name == FIELD_ASSET and facts.volumes.is_for_index(prim)
+        is_for_index = name == FIELD_ASSET and facts.grids.is_for_index(prim)
         yield Problem(
             f"type {name!r} is abstract, so this prim is no field to USD"
             + (": only NVIDIA IndeX reads it" if is_for_index else ""),

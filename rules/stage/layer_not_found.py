@@ -16,25 +16,25 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             continue
         layer = f"the {missing.arc} {quoted(missing.asset)}"
         where = f" (on {len(missing.prims)} prims)" if len(missing.prims) > 1 else ""
-        if missing.is_uri or missing.is_schema:
+        scheme = missing.file_scheme
+        if missing.is_schema or (missing.is_uri and not scheme):
             who = "resolver here answers for" if missing.is_uri else "search path here leads to"
-            yield NotChecked(
-                f"no {who} {layer}, what it holds was not checked{where}",
-                at=missing.prim,
-                spec=missing.spec,
-                asset=missing.asset,
-            )
+            said = f"no {who} {layer}, what it holds was not checked{where}"
+            yield NotChecked(said, at=missing.prim, spec=missing.spec, asset=missing.asset)
             continue
         reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"
+        if scheme:
+            reason = "is not found: USD's own resolver does not know 'file:'"
         absence = None if missing.reason else facts.files.absence(missing.path, missing.asset, by=missing.spec.layer)
+        advice = absence.advice if absence else None
         concerns_ours = facts.layers.may_bring_ours(missing.asset, str(missing.spec.path))
         yield Problem(
             f"{layer} {reason}; what it holds was not checked{where}",
             at=missing.prim,
             spec=missing.spec,
             asset=missing.asset,
-            severity=None if concerns_ours else WARNING,
-            suggestion=absence.advice if absence else None,
+            severity=None if concerns_ours and not scheme else WARNING,
+            suggestion=f"write the path without {quoted(scheme)}" if scheme else advice,
         )
     unloaded = [str(prim.GetPath()) for prim in facts.layers.unloaded]
     if unloaded:

@@ -14,7 +14,7 @@ def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5
     found = facts.volumes.shortfall(volume, relative_slack)
     if found:
         grid = found.worst.shown
-        reach = f"{grid} reaches out of the extent"
+        reach = f"{grid} may be cut off where it reaches out of the extent,"
         cut = f"the extent encloses the voxel centres of {grid} and cuts voxels off"
         nothing = f"the extent is the empty range, and {grid} has voxels"
         missed = cut if found.only_half_voxels else reach

@@ -168,7 +168,11 @@ def test_infos_are_shown_to_those_who_ask(
             "--output-format json --output gone/x.json .",
             "--output gone/x.json: there is no folder gone",
         ),
-        ("--output a --output b .", "2 times --output, but 1 times --output-format"),
+        (
+            "--output a --output b .",
+            "--output is given twice, --output-format never: name a format for each file, "
+            "in the same order",
+        ),
         (
             "--output-format json --output-format full .",
             "only one report can go to standard output: give the others an --output",

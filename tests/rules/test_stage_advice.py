@@ -128,7 +128,12 @@ def splats(line: str) -> str:
         ),
         ("STG003", "", "no prims at all in this layer", ""),
         ("STG003", "(subLayers = [@./empty.usda@])", "in this layer, nor in its sublayers", ""),
-        ("VOL013", cloud("(0, 0, 0), (0.1, 0.1, 0.1)"), "reaches out of the extent by 0.5", ""),
+        (
+            "VOL013",
+            cloud("(0, 0, 0), (0.1, 0.1, 0.1)"),
+            "may be cut off where it reaches out of the extent, by 0.5",
+            "",
+        ),
         (
             "VOL013",
             cloud("(0.2, 0.2, 0.2), (0.6, 0.6, 0.6)"),

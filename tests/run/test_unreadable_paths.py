@@ -58,10 +58,11 @@ def test_pipes(tmp_path: Path) -> None:
     assert troubles(ran) == {
         "fog.usda": (GOOD, 2, 1, None),
         "hangs.usda": (
-            "not done after 1.5 s, ended there",
+            "stopped after 1.5 s, the limit for one stage",
             None,
             None,
-            "look for a layer that is a pipe or a corrupt file, or give it more with --timeout",
+            "a large stage or a slow disk needs more: raise --timeout, or look at less with "
+            "--content first --times ends; a pipe or a corrupt layer never ends",
         ),
         "pipe.usda": ("not a regular file (a pipe, socket or device)", None, None, None),
         "zzz.usda": (GOOD, 2, 1, None),

@@ -30,7 +30,10 @@ def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Des
     """
     named = list(formats) or [default]
     if len(files) > len(named):
-        raise UsageError(f"{len(files)} times --output, but {len(named)} times --output-format")
+        raise UsageError(
+            f"--output is given {_times(len(files))}, --output-format {_times(len(formats))}: "
+            "name a format for each file, in the same order"
+        )
     if len(named) - len(files) > 1:
         raise UsageError("only one report can go to standard output: give the others an --output")
     if len({os.path.abspath(file) for file in files}) < len(files):
@@ -42,6 +45,10 @@ def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Des
     if files and all(d.file and d.format in MACHINE_FORMATS for d in destinations):
         destinations.append(Destination("full", None))
     return destinations
+
+
+def _times(number: int) -> str:
+    return {0: "never", 1: "once", 2: "twice"}.get(number, f"{number} times")
 
 
 def check_writable(destinations: Sequence[Destination]) -> None:

@@ -134,8 +134,9 @@ class Worker:
 
     def _timed_out(self, limit: float) -> Trouble:
         return Trouble(
-            f"not done after {limit:g} s, ended there",
-            "look for a layer that is a pipe or a corrupt file, or give it more with --timeout",
+            f"stopped after {limit:g} s, the limit for one stage",
+            "a large stage or a slow disk needs more: raise --timeout, or look at less with "
+            "--content first --times ends; a pipe or a corrupt layer never ends",
         )
 
     def _crashed(self) -> Trouble:

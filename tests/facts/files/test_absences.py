@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 from stages import findings, volume, write
 
-from usdvol_lint.facts.files.corrections import Absence, find_absence
+from usdvol_lint.facts.files.corrections import Absence, find_absence, missing_folder
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.model import StageReport
@@ -145,3 +146,11 @@ def test_a_file_that_is_not_meant(tmp_path: Path) -> None:
         path = f"{tmp_path}/{name}"
         assert find_absence(Disk(), path, f"./{name}").similar == "./shot.usda"
         assert find_absence(Disk(), path, f"./{name}", [str(own)]) == Absence("", None)
+
+
+def test_beside_a_package_is_no_folder_in_it(tmp_path: Path) -> None:
+    with ZipFile(tmp_path / "shot.usdz", "w") as package:
+        package.writestr("shot.usda", "#usda 1.0\n")
+    path = f"{tmp_path}/shot.usdz[../smoke/a.vdb]"
+    assert missing_folder(Disk(), path) is None
+    assert find_absence(Disk(), path, "../smoke/a.vdb") == Absence(" in 'shot.usdz'", None)

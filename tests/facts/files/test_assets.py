@@ -184,7 +184,7 @@ def test_bare_names_are_looked_for_beside_their_layer(lint_text: Lint, tmp_path:
     (tmp_path / "shot" / "b.usda").write_text(volume("asset filePath = @smoke.$F4.vdb@"))
     stage = "#usda 1.0\n(\n    subLayers = [@./shot/{}.usda@]\n)\n"
     assert said(lint_text(stage.format("a"), "a.usda")) == [
-        "AST002 no file at 'clod.vdb' -> did you mean 'cloud.vdb'?"
+        f"AST002 no file at 'clod.vdb' in '{tmp_path}/shot' -> did you mean 'cloud.vdb'?"
     ]
     assert said(lint_text(stage.format("b"), "b.usda")) == [
         "AST003 no file at 'smoke.$F4.vdb': USD does not replace '$F4' -> 1 file found: author "

@@ -45,7 +45,10 @@ def test_each_instance_stands_where_it_stands(moved: str, lint: Lint) -> None:
         for name in ("one", "two", "three")
     )
     found = only(lint(SHARED + instances, "VOL013"))
-    assert f"moved as its field is, in </{moved}/cloud> reaches out of the extent" in found.message
+    assert (
+        f"moved as its field is, in </{moved}/cloud> may be cut off where it reaches out of the "
+        "extent, by" in found.message
+    )
     assert found.suggestion == "move the field below the Volume, or give both the same transform"
     found = only(lint(SHARED + instances, "VOL015"))
     assert f"its space is moved by (-1, -2, -3) in </{moved}/cloud> in relation" in found.message

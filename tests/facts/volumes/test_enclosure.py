@@ -72,7 +72,8 @@ def test_slack_is_an_option(lint: Lint) -> None:
 def test_words_of_a_static_extent(lint: Lint) -> None:
     found = only(lint(volume("float3[] extent = [(0.2, 0.15, 0.15), (0.5, 0.5, 0.65)]")))
     assert found.message == (
-        "the grid 'density' of </cloud/density> reaches out of the extent by 0.1 on +x, +y"
+        "the grid 'density' of </cloud/density> may be cut off where it reaches out of the extent, "
+        "by 0.1 on +x, +y"
     )
     assert found.suggestion == "write 'float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]'"
     assert (found.site.property, found.site.line, found.site.frames) == ("extent", 4, None)
@@ -119,7 +120,7 @@ def test_frames(extent: str, files: dict[float, str], frames: str | None, lint: 
 
 def test_words_of_frames(lint: Lint) -> None:
     found = only(lint(volume(WHOLE, samples({1: SMALL, 2: LARGE, 3: LARGE}))))
-    assert found.message.endswith("by 0.05 on every side (most at frame 2, at 2 of 3 times)")
+    assert found.message.endswith("by 0.05 on every side (worst at frame 2, at 2 of 3 times)")
 
 
 @pytest.mark.parametrize(
@@ -197,6 +198,21 @@ def test_numbers_at_the_ends_of_their_range(lint: Lint) -> None:
         assert only(found).code == "VOL013"
 
 
+def test_a_grid_further_away_than_an_extent_can_reach(lint: Lint) -> None:
+    """No box can be advised, and it is not the extent that is empty."""
+    said = {"name": vdbwriter.string("density"), **vdbwriter.bounds((0, 0, 0), (9, 9, 9))}
+    moved = vdbwriter.affine(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e300, 1e300, 1e300, 1)
+    Path("far.vdb").write_bytes(vdbwriter.vdb(vdbwriter.Grid(metadata=said, transform=moved)))
+    found = only(lint(volume(f"float3[] extent = {POINT}", "asset filePath = @./far.vdb@")))
+    assert found.message == (
+        "the grid 'density' of </cloud/density> may be cut off where it reaches out of the extent, "
+        "by 1e+300 on +x, +y, +z"
+    )
+    assert found.suggestion == (
+        "export the grid again: its transform takes it further than an extent can reach"
+    )
+
+
 def test_the_turned_box_of_the_voxels_not_the_box_of_the_turned_box(lint: Lint) -> None:
     """A grid that is turned back by its field stands straight again."""
     root = math.sqrt(0.5)
@@ -220,7 +236,8 @@ def test_a_scaled_field_is_named_with_its_transform(lint: Lint) -> None:
     size = 'double3 xformOp:scale = (2, 2, 2)\n uniform token[] xformOpOrder = ["xformOp:scale"]'
     found = only(lint(volume(WHOLE, more=size)))
     assert found.message.startswith(
-        "the grid 'density' of </cloud/density>, moved as its field is, reaches out of the extent"
+        "the grid 'density' of </cloud/density>, moved as its field is, may be cut off where it "
+        "reaches out of the extent, by"
     )
 
 
@@ -238,7 +255,10 @@ def test_one_finding_for_several_fields(lint: Lint) -> None:
     found = only(
         lint(f'def Volume "v" {{\n float3[] extent = [(0, 0, 0), (0.6, 1, 1)]\n{rels}{fields}}}')
     )
-    assert found.message == "the grid 'density' of </v/b> reaches out of the extent by 0.1 on +x"
+    assert found.message == (
+        "the grid 'density' of </v/b> may be cut off where it reaches out of the extent, "
+        "by 0.1 on +x"
+    )
     found = only(
         lint(f'def Volume "v" {{\n float3[] extent = [(0, 0, 0), (0.5, 1, 1)]\n{rels}{fields}}}')
     )

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.classify import AssetReader
     from usdvol_lint.facts.files.corrections import Absence
     from usdvol_lint.facts.files.disk import Disk
+    from usdvol_lint.facts.files.families import Families
     from usdvol_lint.facts.files.gaps import Missing
     from usdvol_lint.facts.files.holes import Holes
     from usdvol_lint.facts.files.in_variants import VariantPath
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.files.marks import PathMarks
     from usdvol_lint.facts.files.order import OutOfOrder
     from usdvol_lint.facts.files.sequences import SampleSequence
-    from usdvol_lint.facts.files.stillness import Families, Packs, Still
+    from usdvol_lint.facts.files.stillness import Packs, Still
     from usdvol_lint.facts.prims.tables import Table, Tables
     from usdvol_lint.facts.usd.clips import Clips
 
@@ -92,8 +93,15 @@ class Files(Wing):
         """
         from usdvol_lint.facts.files.corrections import find_absence
 
-        not_meant = (by.realPath, self._stage.GetRootLayer().realPath) if by else ()
-        return find_absence(self._disk, path, authored, not_meant)
+        root = self._stage.GetRootLayer().realPath
+        not_meant, reader = ((by.realPath, root), "") if by else ((), root)
+        return find_absence(self._disk, path, authored, not_meant, reader)
+
+    def frames_there(self, field: Any) -> str | None:
+        """Which frames of a sequence are there, where others are not, and what to do with these."""
+        from usdvol_lint.facts.files.absences import frames_there
+
+        return frames_there(self.sequence(field))
 
     @fact
     def missing(self, field: Any) -> Affected | None:
@@ -110,10 +118,7 @@ class Files(Wing):
         return self._missing_folders.sharing(field)
 
     def alike(self, field: Any, like: Callable[[Any], Any] | None = None) -> Alike:
-        """What is known of other fields of the same prim that name the same files.
-
-        `like` leaves out those for which it does not give what it gives for the field.
-        """
+        """Of other fields of the prim that name the same files, and that `like` says the same of."""
         return self._namesakes.of(field, like)
 
     def malformed(self, field: Any) -> Iterator[Malformed]:
@@ -171,15 +176,12 @@ class Files(Wing):
             return None  # nearly always
         clips = self._clips.reaching(field)
         paths = self.paths(field)
-        found = find_still(paths, self._families, self._find_packs, clips, time_range)
+        found = find_still(paths, self._families, lambda: self._packs, clips, time_range)
         return None if found and hidden_animation(paths.attribute, clips) else found
-
-    def _find_packs(self) -> Packs:
-        return self._packs
 
     @cached_property
     def _families(self) -> Families:
-        from usdvol_lint.facts.files.stillness import Families
+        from usdvol_lint.facts.files.families import Families
 
         return Families(self._disk)
 

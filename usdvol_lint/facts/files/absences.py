@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable
 from itertools import chain
+from math import isnan
 from typing import Any
 
 from usdvol_lint.facts.files.assets import Affected, AssetSamples
@@ -14,8 +15,10 @@ from usdvol_lint.facts.files.letter_case import recased
 from usdvol_lint.facts.files.malformed import hides_file
 from usdvol_lint.facts.files.origins import outside_package
 from usdvol_lint.facts.files.paths import split_path
+from usdvol_lint.facts.files.sequences import SampleSequence
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.instances import as_shown
+from usdvol_lint.model import frame_ranges
 
 
 def unexplained(paths: AssetSamples, disk: Disk, *, has_packages: bool) -> Affected | None:
@@ -39,6 +42,24 @@ def common_missing_folder(missing: Affected, disk: Disk) -> str | None:
     """The topmost missing folder above all missing files, if their paths have one folder."""
     folders = {split_path(sample.path)[0] for sample in missing.samples}
     return missing_folder(disk, missing.anchored()) if len(folders) == 1 else None
+
+
+def frames_there(sequence: SampleSequence | None) -> str | None:
+    """Which frames are there, by the numbers in their names, and what to do with the others."""
+    if sequence is None or sequence.numbering is None:
+        return None
+    numbers = sequence.numbering.numbers
+    there, gone = (
+        sorted(
+            {n for n, each in zip(numbers, sequence.samples, strict=True) if each.state is state}
+        )
+        for state in (AssetState.FILE, AssetState.MISSING)
+    )
+    if not there or not gone or any(map(isnan, (*there, *gone))):
+        return None
+    frames, others = ("frame" + "s" * (len(each) > 1) for each in (there, gone))
+    is_there = f"{frames} {frame_ranges(there)} {'are' if len(there) > 1 else 'is'} there"
+    return f"{is_there}: simulate or copy {others} {frame_ranges(gone)} again"
 
 
 class MissingFolders:

@@ -75,6 +75,11 @@ class Disk:
             name for name in self._siblings[folder] if os.path.isfile(f"{parent}/{name}{below}")
         ]
 
+    def folders_with(self, folder: str, below: str) -> tuple[str, ...]:
+        """The names of the folders in one that have a file at the path `below`, `/a.vdb`."""
+        is_top = os.path.dirname(folder) == folder
+        return () if is_top else self._all_folders.with_file(folder, below)
+
     def in_case(self, path: str, count: int) -> str | None:
         """An absolute path with its last `count` names as the folders on disk spell them.
 

@@ -50,6 +50,22 @@ class Listing:
             groups[_numbers(name)].append(name)
         return groups
 
+    def names_in(self, folder: str) -> Iterator[str]:
+        """The names of the files in a folder of a package; of all that is listed, if it is ""."""
+        start = f"{folder}/" if folder else ""
+        inside = (name.removeprefix(start) for name in self.names if name.startswith(start))
+        return (name for name in inside if "/" not in name)
+
+    def siblings_with(self, folder: str, below: str) -> list[str]:
+        """The folders beside one in a package that have a file at the path `below`, `/a.vdb`."""
+        start = folder[: folder.rfind("/") + 1]
+        found = (
+            name.removeprefix(start).removesuffix(below)
+            for name in self.names
+            if name.startswith(start) and name.endswith(below)
+        )
+        return [name for name in found if "/" not in name]
+
     def numbered_like(self, name: str) -> Sequence[str]:
         """The names whose numbers are the same as in `name`."""
         return self._by_numbers.get(_numbers(name), ())

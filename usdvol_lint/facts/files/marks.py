@@ -12,7 +12,7 @@ from usdvol_lint.facts.files.states import AssetState, PathMark
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.schema import FILE_EXTENSIONS
 
-_NUMBERED = re.compile(r"[0-9]{3}\.[A-Za-z]\w*$")
+_NUMBERED = re.compile(r"[0-9]{3}\.[A-Za-z]\w*\]?$")
 _UNPLAIN = re.compile(r"(?s)/|.*[\\:~\s]")
 
 

@@ -18,6 +18,12 @@ class Place(NamedTuple):
     name: str
     is_packaged: bool
 
+    @property
+    def split(self) -> tuple[str, str]:
+        """The folder in the package, empty at its top and on disk, and the name in there."""
+        inside, _, name = self.name.rpartition("/")
+        return inside, name
+
     def beside(self, name: str) -> str:
         """The path of another file in the same list."""
         if self.is_packaged:

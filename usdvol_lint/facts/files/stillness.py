@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 from pxr import Sdf
 
 from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
-from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.frame_names import FrameName, read_frame_name, read_lost_number
-from usdvol_lint.facts.files.paths import is_packaged, split_path
+from usdvol_lint.facts.files.families import Families, Family, Frames, read_family
+from usdvol_lint.facts.files.paths import FORMAT_ARGUMENTS
+from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.instances import shown
@@ -24,9 +24,6 @@ _FEWEST = 5
 _SHOWN = 5
 _STAND_INS = frozenset({"proxy", "guide"})
 """The purposes of what stands in for the picture itself."""
-
-Family = tuple[str, str, str]
-"""What files have in common that differ in their frame numbers alone: folder, name around it."""
 
 
 class Still(NamedTuple):
@@ -47,34 +44,6 @@ class Still(NamedTuple):
     advice: str
 
 
-class _Frames(NamedTuple):
-    """The name of a file, and what is on disk of its sequence, by number."""
-
-    name: FrameName
-    family: Family
-    on_disk: Mapping[int, str]
-
-
-class Families:
-    """The files on disk of which a file may be one frame, looked for once for all of them."""
-
-    def __init__(self, disk: Disk) -> None:
-        self._disk = disk
-        self._on_disk: dict[tuple[Family, int], Mapping[int, str]] = {}
-
-    def around(self, sample: AssetSample, *, is_lost: bool) -> _Frames | None:
-        """The name of a file as that of a frame, and the frames beside it; None if it is none."""
-        folder, name = split_path(sample.resolved)
-        frame = read_lost_number(name) if is_lost else read_frame_name(name)
-        if frame is None:
-            return None
-        family = (folder, frame.before, frame.after)
-        key = family, len(frame.digits)
-        if key not in self._on_disk:
-            self._on_disk[key] = frame.among(self._disk.listing(folder).names)
-        return _Frames(frame, family, self._on_disk[key])
-
-
 class Packs:
     """Which files of one family several fields show, each its own: they are no frames.
 
@@ -87,16 +56,16 @@ class Packs:
         for paths in every:
             timed = _timed(paths)
             if sample := _only_file(paths):
-                if found := _family(sample.resolved):
+                if found := read_family(sample.resolved):
                     self._shown[found[1]].add(found[0].number)
-            elif timed and (found := _family(timed[0].resolved)):
+            elif timed and (found := read_family(timed[0].resolved)):
                 self._played.add(found[1])
 
-    def are_played(self, frames: _Frames) -> bool:
+    def are_played(self, frames: Frames) -> bool:
         """Whether another field shows one file of a family after the other."""
         return frames.family in self._played
 
-    def are_shown(self, frames: _Frames, field: Any) -> bool:
+    def are_shown(self, frames: Frames, field: Any) -> bool:
         """Whether other fields, or other variants above this one, name other files of a family."""
         others = self._shown[frames.family] | set(_in_variants(field, frames.family))
         return bool(others - {frames.name.number})
@@ -111,12 +80,12 @@ def find_still(
 ) -> Still | None:
     """The file of a sequence that is shown at all times, or None if there is none."""
     sample = _only_file(paths)
-    if sample is None or is_packaged(sample.resolved):
+    if sample is None:
         return None
     if len(_timed(paths)) > 1:
         return _animated_in_name_only(paths, sample, families, packs)
     frames = families.around(sample, is_lost=False)
-    if frames is None or time_range is None or not time_range[0] < time_range[1]:
+    if frames is None or time_range is None:
         return None
     if frames.on_disk.keys().isdisjoint((frames.name.number - 1, frames.name.number + 1)):
         return None
@@ -162,7 +131,7 @@ def _animated_in_name_only(
 def _still(
     paths: AssetSamples,
     sample: AssetSample,
-    frames: _Frames,
+    frames: Frames,
     times: Mapping[int, float],
     is_certain: bool,
     by_range: bool = False,
@@ -195,12 +164,6 @@ def _only_file(paths: AssetSamples) -> AssetSample | None:
     return timed[0] if all(sample.path == timed[0].path for sample in timed) else None
 
 
-def _family(resolved: str) -> tuple[FrameName, Family] | None:
-    folder, name = split_path(resolved)
-    frame = read_frame_name(name)
-    return (frame, (folder, frame.before, frame.after)) if frame else None
-
-
 def _times(paths: AssetSamples) -> list[float]:
     """The times of the samples in their layer; a clip's are those of the stage."""
     times = [sample.time or 0.0 for sample in _timed(paths)]
@@ -217,7 +180,7 @@ def _to_layer(paths: AssetSamples, sample: AssetSample) -> Any:
     return opinion.offset.GetInverse() if opinion else Sdf.LayerOffset()
 
 
-def _fills(frames: _Frames, time_range: tuple[float, float]) -> bool:
+def _fills(frames: Frames, time_range: tuple[float, float]) -> bool:
     """Whether the numbers run without a gap over all of a range that is long enough."""
     start, end = map(round, time_range)
     is_plain = len(frames.name.digits) >= 4 or frames.name.has_dots
@@ -225,7 +188,7 @@ def _fills(frames: _Frames, time_range: tuple[float, float]) -> bool:
     return is_plain and is_long and all(n in frames.on_disk for n in range(start, end + 1))
 
 
-def _may_be_held(paths: AssetSamples, frames: _Frames, packs: Packs) -> bool:
+def _may_be_held(paths: AssetSamples, frames: Frames, packs: Packs) -> bool:
     """Whether one frame may do: for a proxy or guide, or beside a field that plays them all."""
     from pxr import UsdGeom  # costs start-up time
 
@@ -233,7 +196,7 @@ def _may_be_held(paths: AssetSamples, frames: _Frames, packs: Packs) -> bool:
     return purpose in _STAND_INS or packs.are_played(frames)
 
 
-def _is_animated_below(paths: AssetSamples, frames: _Frames, clips: Sequence[ClipSet]) -> bool:
+def _is_animated_below(paths: AssetSamples, frames: Frames, clips: Sequence[ClipSet]) -> bool:
     """Whether weaker time samples or clips name two or more files of the sequence."""
     named: set[int] = set()
     for spec in paths.attribute.GetPropertyStack():
@@ -272,12 +235,13 @@ def _numbers(spec: Any, value: Any, family: Family) -> set[int]:
     """The number of the file that a value in a layer names, if it is of the family."""
     if not isinstance(value, Sdf.AssetPath) or not value.path:
         return set()
-    found = _family(spec.layer.ComputeAbsolutePath(value.path).replace(os.sep, "/"))
+    path, _, _ = value.path.partition(FORMAT_ARGUMENTS)
+    found = read_family(spec.layer.ComputeAbsolutePath(path).replace(os.sep, "/"))
     return {found[0].number} if found and found[1] == family else set()
 
 
 def _advice(
-    paths: AssetSamples, sample: AssetSample, frames: _Frames, times: Mapping[int, float]
+    paths: AssetSamples, sample: AssetSample, frames: Frames, times: Mapping[int, float]
 ) -> str:
     """The time samples to author, in the time of the layer."""
     opinion = strongest_opinion(paths.attribute, sample.time)
@@ -285,9 +249,10 @@ def _advice(
         return "author a time sample for each frame"
     if is_from_clips(paths.attribute, sample.time):
         return "name in each clip the file of its frame"
-    stem = sample.path.removesuffix(split_path(sample.resolved)[1])
+    before, _, after = sample.path.rpartition(place_of(sample.resolved).split[1])
     pairs = [
-        f"{format_time(time)}: @{stem}{frames.on_disk[number]}@" for number, time in times.items()
+        f"{format_time(time)}: @{before}{frames.on_disk[number]}{after}@"
+        for number, time in times.items()
     ]
     if len(pairs) > _SHOWN:
         pairs[_SHOWN - 1 : -1] = ["…"]

@@ -98,3 +98,9 @@ class Grids(Wing):
         from usdvol_lint.facts.grids.reader import ContentReader
 
         return ContentReader(self._volume_files, self._content, self._advance)
+
+    def is_for_index(self, field: Any) -> bool:
+        """Whether a field or the prim above it has settings of NVIDIA IndeX."""
+        from usdvol_lint.facts.grids.nvidia_index import is_for_index
+
+        return is_for_index(field)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 ARCS = ("sublayer", "reference", "payload")
 """The composition arcs that name a layer, in the words of USD's errors."""
 _SCHEMA = re.compile(r"\w+/schema\.usda")
+_FILE_SCHEME = re.compile(r"file:(//)?", re.IGNORECASE)
 
 
 class MissingLayer(NamedTuple):
@@ -47,6 +48,12 @@ class MissingLayer(NamedTuple):
     def is_uri(self) -> bool:
         """Whether the authored path is a URI."""
         return is_uri(self.asset)
+
+    @property
+    def file_scheme(self) -> str:
+        """What makes the path the URI of a file, which USD's own resolver does not know; or ""."""
+        scheme = _FILE_SCHEME.match(self.asset) if self.is_uri else None
+        return scheme[0] if scheme else ""
 
     @property
     def is_schema(self) -> bool:

@@ -14,6 +14,8 @@ from usdvol_lint.facts.layers.error_texts import LayerArc, as_reason
 from usdvol_lint.facts.usd.clips import ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, sayings, without_parser_rule
 
+_COMPRESSED = frozenset({".sc", ".gz", ".bz2", ".xz", ".zst"})
+
 
 def missing_clips(clip_sets: Iterable[ClipSet]) -> Iterator[tuple[LayerArc, Any]]:
     """The layers that clip sets name and USD can't open, each with the prim of its clip set."""
@@ -56,7 +58,14 @@ def unopened_reason(path: str, reported: Iterable[str]) -> str:
 def unread_extension(path: str) -> str:
     """The extension of a file that is there and whole, if no plugin here reads it; else ""."""
     is_there = os.path.isabs(path) and file_fault(path) is None
-    return extension_of(path) if is_there and not Sdf.FileFormat.FindByExtension(path) else ""
+    return _format_of(path) if is_there and not Sdf.FileFormat.FindByExtension(path) else ""
+
+
+def _format_of(path: str) -> str:
+    """The extension of a file, of a compressed one with that of what is in it: `.bgeo.sc`."""
+    extension = extension_of(path)
+    inner = extension_of(path[: -len(extension)]) if extension in _COMPRESSED else ""
+    return inner + extension if inner[1:2].isalpha() else extension
 
 
 def _why_not_open(resolved: str) -> str:

@@ -138,8 +138,8 @@ class Particles(Wing):
             return None  # and NumPy need not be imported
         from usdvol_lint.facts.particles.extent import positions_outside_extent
 
-        relative_slack = half_slack if positions.is_half else slack
-        return positions_outside_extent(self.arrays(prim), extent, relative_slack, clamp)
+        share = half_slack if positions.is_half else slack
+        return positions_outside_extent(self.arrays(prim), extent, share, clamp)
 
     def kernels_outside_extent(
         self, prim: Any, share: float, clamp: float
@@ -199,19 +199,12 @@ class Particles(Wing):
 
         return raw_numbers(array) if array.has_infinity else None
 
-    def longest_side(self, prim: Any) -> float:
-        """That of the first authored extent; 0 without one."""
-        limits = self._prims.limits(prim)
-        box = limits.at(next(iter(limits.times), None))
-        return max(end - begin for begin, end in zip(*box, strict=True)) if box else 0.0
-
     def colour_space(self, prim: Any) -> ColourSpace | None:
         """The colour space of the coefficients: their own, or the nearest name above them."""
         from usdvol_lint.facts.particles.colour_spaces import colour_space
 
         used = self.arrays(prim).coefficients
-        dropped = (name for found in self.apis(prim).dropped for name in found.names)
-        return colour_space(prim, used.attribute if used else None, frozenset(dropped))
+        return colour_space(prim, used.attribute if used else None, self.apis(prim).dropped)
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 from pxr import Gf
 
+from usdvol_lint.facts.usd.dropped import DroppedList
 from usdvol_lint.facts.usd.kinds import raw_apis
 from usdvol_lint.schema import COLOUR_SPACES
 from usdvol_lint.spelling import closest_name
@@ -44,14 +45,14 @@ class _Applied(NamedTuple):
 
 
 def colour_space(
-    prim: Any, coefficients: Any = None, dropped: frozenset[str] = frozenset()
+    prim: Any, coefficients: Any = None, dropped: Iterable[DroppedList] = ()
 ) -> ColourSpace | None:
     """The coefficients' own colour space, or the nearest name on the prim or above.
 
     A name without its API is passed over by USD; it is told where no nearer one counts.
-    `dropped`: APIs of the prim of which PRT009 tells that they are not applied.
+    `dropped`: lists of APIs of the prim of which PRT009 tells that they are not applied.
     """
-    applied = _Applied(prim, dropped)
+    applied = _Applied(prim, frozenset(name for each in dropped for name in each.names))
     if coefficients and coefficients.HasColorSpace():
         return _described(coefficients, str(coefficients.GetColorSpace()), prim, True, applied)
     for holder in _upward(prim):

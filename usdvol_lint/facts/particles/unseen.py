@@ -55,10 +55,12 @@ def unseen_particles(arrays: ParticleArrays) -> Unseen | None:
         (array, find(lambda sample: True) if array and array.is_read_whole else _NONE)
         for array, find in _telling(arrays, 0.0)
     ]
-    attributes = [array.attribute for array, selected in found if array and selected.any()]
+    count = arrays.most_particles
+    attributes = [array.attribute for array, rows in found if array and rows[:count].any()]
     if not attributes:
         return None
-    count = arrays.most_particles
+    if not count:  # values without any position
+        return None
     transparent, sizeless = masks = [_of_length(count, selected) for _, selected in found]
     numbers = (int(np.count_nonzero(mask)) for mask in (*masks, transparent & sizeless))
     return Unseen(attributes[0], transparent | sizeless, *numbers)

@@ -32,7 +32,6 @@ class Prims(Wing):
 
     def __init__(self, tables: Tables, kinds: PrimKinds, clips: Clips, drawn: Drawn) -> None:
         super().__init__(tables)
-        self._drawn = drawn
         self._kinds = kinds
         self._clips = clips
         self._drawn = drawn

@@ -60,6 +60,12 @@ class Limits:
         return self._samples.keys()
 
     @property
+    def longest_side(self) -> float:
+        """That of the first box; 0 without one."""
+        box = self.at(next(iter(self.times), None))
+        return max(end - begin for begin, end in zip(*box, strict=True)) if box else 0.0
+
+    @property
     def are_authored(self) -> bool:
         """Whether at least one value is a box."""
         return self._default is not None or (bool(self._samples) and any(self._samples.values()))

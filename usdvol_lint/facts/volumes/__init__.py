@@ -198,12 +198,6 @@ class Volumes(Wing):
         """Whether a live Volume targets a prim, also one that is no live field."""
         return prim.GetPath() in self._users.other_targets
 
-    def is_for_index(self, field: Any) -> bool:
-        """Whether a field or the prim above it has settings of NVIDIA IndeX."""
-        from usdvol_lint.facts.volumes.nvidia_index import is_for_index
-
-        return is_for_index(field)
-
     @cached_property
     def _targets_of_unknown_type(self) -> frozenset[Any]:
         """The paths of the prims of unregistered types that Volumes target."""

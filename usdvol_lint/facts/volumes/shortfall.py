@@ -23,11 +23,13 @@ from usdvol_lint.facts.volumes.hulls import GridBoxes, bounds_in_volume
 from usdvol_lint.facts.volumes.placement import Placement
 from usdvol_lint.facts.volumes.targets import Target
 from usdvol_lint.model import format_time, quoted
-from usdvol_lint.volumefile import Grid, Matrix
+from usdvol_lint.volumefile import Bounds, Grid, Matrix
 from usdvol_lint.volumefile.transform import IDENTITY
 
 _MOST_SAMPLES = 6
 _STATEMENT = "float3[] extent = "
+_BEYOND_FLOAT = 1e38
+_OUT_OF_REACH = "export the grid again: its transform takes it further than an extent can reach"
 
 
 class Moment(NamedTuple):
@@ -109,6 +111,10 @@ class Overhang(NamedTuple):
         return max(amount for _, amount in self.sides)
 
     @property
+    def least(self) -> float:
+        return min(amount for _, amount in self.sides)
+
+    @property
     def amounts(self) -> str:
         """As in `0.1 on -x, +x; 0.25 on +z`."""
         sides: dict[str, list[str]] = {}
@@ -149,14 +155,14 @@ class Shortfall:
     @property
     def is_of_empty_extent(self) -> bool:
         """Whether the extent is USD's empty range, which encloses nothing."""
-        return self.worst.most > 1e38
+        return len(self.worst.sides) == 2 * AXES and self.worst.least > _BEYOND_FLOAT
 
     @property
     def count(self) -> str:
         """In words how many times and fields this concerns; empty for one of each."""
         words = []
         if len(self.times) > 1 and self.worst.time is not None:
-            words.append(f"most at frame {format_time(self.worst.time)}")
+            words.append(f"worst at frame {format_time(self.worst.time)}")
         if self.checked > 1:
             default = ", the default time among them" if self.at_default else ""
             times = len(self.times) + self.at_default
@@ -186,9 +192,9 @@ def find_shortfall(
             if not encloses(limit, whole, slack):
                 inner = bounds_in_volume(moment.grid, moment.matrix, 0.0)
                 if inner and (sides := sides_outside(limit, inner, slack)):
-                    centres.add(placed, moment, sides)
+                    centres.add(placed, moment, sides, whole)
                 else:
-                    halves.add(placed, moment, sides_outside(limit, whole, slack))
+                    halves.add(placed, moment, sides_outside(limit, whole, slack), whole)
     tally = centres if centres.worst else halves
     if tally.worst is None:
         return None
@@ -212,14 +218,17 @@ class _Tally:
     times: set[Time] = field(default_factory=set)
     fields: set[str] = field(default_factory=set)
     worst: Overhang | None = None
+    reach: float = 0.0
+    """How far from the origin the boxes reach."""
 
     @property
     def timed(self) -> tuple[float, ...]:
         return tuple(sorted(time for time in self.times if time is not None))
 
-    def add(self, placed: PlacedField, moment: Moment, sides: Sides) -> None:
+    def add(self, placed: PlacedField, moment: Moment, sides: Sides, whole: Bounds) -> None:
         self.times.add(moment.time)
         self.fields.add(placed.shown)
+        self.reach = max(self.reach, magnitude(whole))
         displaced = moment.matrix is not IDENTITY
         overhang = Overhang(
             placed.shown, moment.grid.label, sides, moment.time, displaced, placed.shown_at
@@ -230,6 +239,8 @@ class _Tally:
 
 def _remedy(limits: Limits, fields: Sequence[PlacedField], boxes: GridBoxes, tally: _Tally) -> str:
     """The extents to write: at the times in question, for samples hide a default, or for all."""
+    if tally.reach > _BEYOND_FLOAT:
+        return _OUT_OF_REACH
     if not limits.times or len(tally.times) > _MOST_SAMPLES:
         instead = " in the place of the time samples" if limits.times else ""
         return f"write '{fitting(fields, boxes, limits.times)}'{instead}"

@@ -1,0 +1,133 @@
+"""Particles, extents, types and clips in one stage of a run, and what they lack in another."""
+
+from __future__ import annotations
+
+import pytest
+from partlayers import (
+    ACTIVE,
+    BOUND,
+    COLOUR,
+    EXTENT,
+    FILE,
+    MANIFEST,
+    NAME,
+    PATHS,
+    RANGE,
+    REFERENCE,
+    ROOT_PRIM,
+    SPLAT,
+    WHOLE,
+    Files,
+    Judge,
+    check_completed,
+    clip,
+    clips,
+    field,
+    layer,
+    over,
+    splats,
+    sublayers,
+    volume,
+)
+
+COMPLETED: dict[str, tuple[Files, set[str]]] = {
+    "positions in the shot": (
+        {
+            "asset": layer(splats(EXTENT), 'defaultPrim = "splats"'),
+            "shot": layer(splats(SPLAT + COLOUR, REFERENCE, "def")),
+        },
+        {"asset ARR001 warning"},
+    ),
+    "positions in half precision, and colours": (
+        {
+            "asset": layer(splats(EXTENT), 'defaultPrim = "splats"'),
+            "colour": layer(splats(f"{EXTENT}\n{SPLAT}"), 'defaultPrim = "splats"'),
+            "shot": layer(
+                splats(
+                    SPLAT.replace("point3f[] positions", "point3h[] positionsh") + COLOUR,
+                    REFERENCE,
+                    "def",
+                )
+                + over("more", COLOUR, "(prepend references = @./colour.usda@)", "def")
+            ),
+        },
+        {"asset ARR001 warning", "colour ARR017 warning"},
+    ),
+    "an extent": (
+        {
+            "asset": layer(volume(BOUND.replace(EXTENT, "") + field(f"{NAME}\n{FILE}")), ROOT_PRIM),
+            "shot": layer(over("smoke", EXTENT, REFERENCE, "def")),
+        },
+        {"asset SCH007 warning"},
+    ),
+    "a hint of the model above": (
+        {
+            "asset": layer(volume(BOUND.replace(EXTENT, "") + field(f"{NAME}\n{FILE}")), ROOT_PRIM),
+            "shot": layer(
+                over(
+                    "set",
+                    "float3[] extentsHint = [(-1, -1, -1), (3, 3, 3)]\n"
+                    + over("smoke", "", REFERENCE, "def"),
+                    '(kind = "component")',
+                    "def Xform",
+                )
+            ),
+        },
+        {"asset SCH007 warning"},
+    ),
+    "prims that another layer defines": (
+        {
+            "fx": layer(over("set", over("fx", WHOLE), what="def Xform")),
+            "layout": layer(over("set", over("fx", "", what="def Xform"), what="def Xform")),
+            "other": layer(over("effects", WHOLE) + over("efects", "", what="def Xform")),
+            "sets": layer(over("effects", "", what="def Xform")),
+            "all": layer("", sublayers("other", "sets")),
+            "shot": layer("", sublayers("fx", "layout")),
+        },
+        {"fx STG005 info", "other STG005 warning"},
+    ),
+    "a type": (
+        {
+            "asset": layer(WHOLE.replace("def Volume", "def"), ROOT_PRIM),
+            "shot": layer(over("smoke", "", REFERENCE, "def Volume")),
+        },
+        {"asset SCH014 warning"},
+    ),
+    "an empty sublayer": (
+        {"empty": layer(""), "shot": layer(WHOLE, sublayers("empty"))},
+        {"empty STG003 warning"},
+    ),
+    "what the clips need": (
+        {
+            "asset": layer(
+                clips(PATHS, "def Volume", BOUND + field(NAME)),
+                *RANGE,
+                ROOT_PRIM,
+            ),
+            "c1": clip(1, "over"),
+            "c2": clip(2, "over"),
+            "shot": layer(
+                clips(ACTIVE).replace("(clips", "(prepend references = @./asset.usda@\nclips"),
+                *RANGE,
+            ),
+        },
+        {"asset AST016 error"},
+    ),
+    "clips with their manifest": (
+        {
+            "c1": clip(1),
+            "c2": clip(2),
+            "manifest": layer(over("smoke", field("asset filePath"), what="def Volume")),
+            "topology": layer(volume(BOUND + field(f"{NAME}\nasset filePath")), *RANGE),
+            "result": layer(
+                clips(f"{PATHS}\n{ACTIVE}\n{MANIFEST}", "over"), sublayers("topology"), *RANGE
+            ),
+        },
+        {"c1 FLD001 warning", "c1 SCH007 warning", "manifest AST001 info", "topology AST001 info"},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", COMPLETED)
+def test_what_another_stage_has_is_not_told(judge: Judge, name: str) -> None:
+    check_completed(judge, *COMPLETED[name])

@@ -1,0 +1,124 @@
+"""What is wrong in one stage of a run is told, whatever the others have."""
+
+from __future__ import annotations
+
+import pytest
+from partlayers import (
+    BASE,
+    BOUND,
+    COLOUR,
+    EXTENT,
+    FILE,
+    NAME,
+    REFERENCE,
+    ROOT_PRIM,
+    SPLAT,
+    WHOLE,
+    Files,
+    Judge,
+    field,
+    layer,
+    over,
+    splats,
+    sublayers,
+    volume,
+)
+
+WRONG = "asset filePath = @./pufff.0001.vdb@"
+STAYS: dict[str, tuple[Files, list[str]]] = {
+    "a part that nobody composes": (
+        {"asset": layer(BASE, ROOT_PRIM), "shot": layer(WHOLE)},
+        ["asset AST001 error"],
+    ),
+    "a part without a stage that completes it": (
+        {"asset": layer(BASE, ROOT_PRIM), "shot": layer(over("smoke", "", REFERENCE, "def"))},
+        ["asset AST001 error", "shot AST001 error"],
+    ),
+    "a declaration that no stage gives a value": (
+        {
+            "asset": layer(volume(BOUND + field(f"{NAME}\nasset filePath")), ROOT_PRIM),
+            "shot": layer(over("smoke", "", REFERENCE, "def")),
+        },
+        ["asset AST001 info", "shot AST001 error"],
+    ),
+    "what is wrong in a part, and put right elsewhere": (
+        {
+            "asset": layer(volume(BOUND + field(f"{NAME}\n{WRONG}")), ROOT_PRIM),
+            "shot": layer(over("smoke", over("density", FILE), REFERENCE, "def")),
+        },
+        ["asset AST002 error"],
+    ),
+    "a wrong name that another stage brings": (
+        {
+            "asset": layer(BASE, ROOT_PRIM),
+            "shot": layer(over("smoke", over("density", WRONG), REFERENCE, "def")),
+        },
+        ["shot AST002 error"],
+    ),
+    "an empty path that another stage brings": (
+        {
+            "asset": layer(BASE, ROOT_PRIM),
+            "shot": layer(over("smoke", over("density", "asset filePath = @@"), REFERENCE, "def")),
+        },
+        ["shot AST001 error"],
+    ),
+    "a shot that lacks what another shot brings to their asset": (
+        {
+            "asset": layer(BASE, ROOT_PRIM),
+            "bare": layer(over("smoke", "", REFERENCE, "def")),
+            "shot": layer(over("smoke", over("density", FILE), REFERENCE, "def")),
+        },
+        ["bare AST001 error"],
+    ),
+    "one of two places of an asset": (
+        {
+            "asset": layer(BASE, ROOT_PRIM),
+            "shot": layer(
+                over("one", over("density", FILE), REFERENCE, "def")
+                + over("two", "", REFERENCE, "def")
+            ),
+        },
+        ["shot AST001 error"],
+    ),
+    "a version that the shot does not select": (
+        {
+            "asset": layer(
+                volume(
+                    BOUND
+                    + field(NAME)
+                    + 'variantSet "version" = {\n"v1" {\n'
+                    + over("density", FILE)
+                    + "}\n}\n",
+                    meta='(prepend variantSets = "version")',
+                ),
+                ROOT_PRIM,
+            ),
+            "shot": layer(over("smoke", "", REFERENCE, "def")),
+        },
+        ["asset AST001 info", "shot AST001 info"],
+    ),
+    "a target that is nowhere": (
+        {
+            "cache": layer(over("fx", field(f"{NAME}\n{FILE}"), what="def Scope")),
+            "rig": layer(
+                over("fx", volume(f"{EXTENT}\nrel field:density = </fx/denstiy>"), what="def Scope")
+            ),
+            "shot": layer("", sublayers("cache", "rig")),
+        },
+        ["cache VOL012 info", "rig VOL001 error", "shot VOL001 error"],
+    ),
+    "positions without extent": (
+        {
+            "asset": layer(splats(""), 'defaultPrim = "splats"'),
+            "shot": layer(splats(SPLAT + COLOUR, REFERENCE, "def")),
+        },
+        ["asset SCH007 warning", "shot SCH007 warning"],
+    ),
+    "an empty stage": ({"empty": layer(""), "shot": layer(WHOLE)}, ["empty STG003 warning"]),
+}
+
+
+@pytest.mark.parametrize("name", STAYS)
+def test_what_is_wrong_is_told(judge: Judge, name: str) -> None:
+    layers, wanted = STAYS[name]
+    assert judge(layers) == wanted
