@@ -118,7 +118,7 @@ class Files(Wing):
         return self._missing_folders.sharing(field)
 
     def alike(self, field: Any, like: Callable[[Any], Any] | None = None) -> Alike:
-        """Of other fields of the prim that name the same files, and that `like` says the same of."""
+        """What is known of other fields of the prim with the same files, alike in `like` too."""
         return self._namesakes.of(field, like)
 
     def malformed(self, field: Any) -> Iterator[Malformed]:
