@@ -21,9 +21,24 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
             suggestion=f"begin the samples of all arrays at {filled}, and until then author visibility 'invisible'",
         )
         return
+    if arrays.emptied:
+        message, advice = emptied(arrays.emptied.is_from_clips)
+        yield Problem(message, at=arrays.emptied.attribute, suggestion=advice)
+        return
     yield Problem(
         "no particles at any time",
         at=arrays.positions.attribute if arrays.positions else particles,
         suggestion="author positions, or in half precision positionsh",
         absent=[lacks(particles, "positions")],
     )
+
+
+def emptied(from_clips: bool) -> tuple[str, str]:
+    """What to say of time samples without particles, which hide a default that has some."""
+    if from_clips:
+        where = "the value clips"
+        advice = "write positions into the clips as time samples, or take them out of the manifest"
+    else:
+        where = "the time samples"
+        advice = "author particles in the time samples, or remove these"
+    return f"no particles at any time: {where} of 'positions' hold none, and hide its default", advice

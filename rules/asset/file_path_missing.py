@@ -10,18 +10,27 @@ def file_path_missing(field: Prim, facts: Facts) -> Problems:
     if paths.names_a_path or is_told or facts.layers.may_lack_values(field):
         return
     absent = [lacks(field, "filePath")]
+    hidden = "but the default time" if paths.hidden_default else ""
     if empty := facts.files.empty_clip(field):
-        advice = "write the values into the clip itself: USD does not compose what a clip refers to"
-        message = f"no filePath: {empty.words}"
-        yield Problem(message, at=paths.attribute, spec=empty.spec, suggestion=advice, absent=absent)
+        yield Problem(
+            f"no filePath{f' at any time {hidden}' if hidden else ''}: {empty.words}",
+            at=paths.attribute,
+            spec=empty.spec,
+            suggestion=empty.advice,
+            absent=absent,
+        )
         return
     what = "is empty" if paths.of(AssetState.EMPTY) else "is blocked" if paths.samples else "has no value"
+    what += f" at all times {hidden}" if hidden else ""
     variant = None if paths.samples else facts.files.unselected_path(field)
     is_open = variant is not None and not variant.selected
+    advice = "author the path of the file that holds the field"
+    if hidden:
+        advice = "author files in the time samples, or remove these"
     yield Problem(
         (f"filePath {what}" if paths.attribute.IsAuthored() else "no filePath") + (variant.words if variant else ""),
         at=paths.attribute,
         severity=INFO if is_open or paths.is_only_declared else None,
-        suggestion=variant.advice if variant else "author the path of the file that holds the field",
+        suggestion=variant.advice if variant else advice,
         absent=absent,
     )

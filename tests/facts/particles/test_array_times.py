@@ -69,6 +69,31 @@ def test_only_chosen_times_are_looked_at(
     )
 
 
+@pytest.mark.parametrize("policy", ["first", "all"])
+def test_a_first_sample_without_particles_says_nothing_of_those_not_looked_at(
+    policy: str, catalog: Catalog, tmp_path: Path
+) -> None:
+    path = tmp_path / "stage.usda"
+    path.write_text(
+        f"""#usda 1.0
+def {SPLAT} "Splats"
+{{
+    float3[] extent = [(0, 0, 0), (1, 1, 1)]
+    point3f[] positions = [(0, 0, 0)]
+    point3f[] positions.timeSamples = {{
+        1: [],
+        2: [],
+    }}
+    uniform int {DEGREE} = 0
+    float3[] {SH} = [(1, 1, 1)]
+}}
+"""
+    )
+    engine = Engine(catalog.rules, activate(Config(), catalog), Depth(times=policy))
+    codes = [finding.code for finding in engine.lint(str(path)).findings]
+    assert codes == (["ARR001"] if policy == "all" else [])
+
+
 def least(particles: Field) -> float:
     return float(min(arrays["opacities"].min() for arrays in particles.frames))
 

@@ -18,6 +18,7 @@ from usdvol_lint.facts.usd.values import Occurrences
 from usdvol_lint.model import frame_ranges, quoted
 
 _LAYERS_NAMED = 3
+_NOTHING = frozenset({AssetState.EMPTY, AssetState.BLOCKED})
 _PATH_OF = attrgetter("path")
 
 
@@ -100,8 +101,20 @@ class AssetSamples(NamedTuple):
 
     @property
     def names_a_path(self) -> bool:
-        """Whether any value is neither empty nor blocked."""
-        return not self.states <= {AssetState.EMPTY, AssetState.BLOCKED}
+        """Whether any value is neither empty nor blocked, of the time samples where there are some.
+
+        These hide the default at all times but the default time.
+        """
+        if self.states.isdisjoint(_NOTHING):
+            return bool(self.states)
+        counted = self.samples if self.hidden_default is None else self.samples[1:]
+        return any(sample.state not in _NOTHING for sample in counted)
+
+    @property
+    def hidden_default(self) -> AssetSample | None:
+        """The default where there are time samples beside it."""
+        samples = self.samples
+        return samples[0] if len(samples) > 1 and samples[0].time is None else None
 
     @property
     def is_only_declared(self) -> bool:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import islice
+from itertools import chain, islice
 from typing import Any, NamedTuple
 
 from pxr import Sdf
@@ -12,15 +13,18 @@ from pxr import Sdf
 from usdvol_lint import schema
 from usdvol_lint.facts.files.paths import anchored_to
 from usdvol_lint.facts.files.places import names_listed, place_of
+from usdvol_lint.facts.layers.held_otherwise import bring_anything, held_otherwise, path_in_clips
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clip_faults import (
     ClipFault,
     Keys,
     find_fault,
     keys_without_set,
+    misnamed_sets,
     used_sets,
 )
 from usdvol_lint.facts.usd.clips import Clips, ClipSet, open_layer
+from usdvol_lint.facts.usd.held import attribute_paths
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.model import format_time, quoted
 
@@ -69,22 +73,45 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
         for bearer in clips.bearers(prim):
             below.setdefault(bearer, []).append(prim)
     for bearer, ours in below.items():
-        for unused in _unused(bearer, clips.on(bearer)):
-            attributes = tuple(
-                attribute
-                for prim in ours
-                for attribute in without_samples(tables, prim)
-                if _is_lost(unused, attribute)
-            )
-            if attributes:
-                yield LostClips(
-                    bearer,
-                    unused.name,
-                    unused.fault,
-                    attributes,
-                    unused.spec,
-                    _advice(unused, attributes[0]),
-                )
+        if _is_undecided(bearer):
+            continue
+        sound = tuple(_sound(bearer, clips.on(bearer)))
+        for unused in chain(_refused(bearer, clips.on(bearer)), _misdirected(sound)):
+            attributes = chain.from_iterable(without_samples(tables, prim) for prim in ours)
+            if lost := tuple(each for each in attributes if _is_lost(unused, each)):
+                yield _loss(unused, lost, _advice(unused, lost[0]))
+        for each in sound:
+            yield from _held_otherwise(each, _without_any(tables, ours))
+
+
+def _loss(unused: _Clips, attributes: Sequence[Any], advice: str | None) -> LostClips:
+    return LostClips(unused.prim, unused.name, unused.fault, tuple(attributes), unused.spec, advice)
+
+
+def _without_any(tables: Tables, prims: Iterable[Any]) -> Iterator[Any]:
+    """The paths and arrays of ours of prims on which no attribute of ours is animated."""
+    for prim in prims:
+        table, _ = tables.find(prim)
+        names = schema.attributes_of(table.authored.schemas)
+        attributes = list(filter(None, map(prim.GetAttribute, names)))
+        if not any(attribute.GetNumTimeSamples() for attribute in attributes):
+            types = Sdf.ValueTypeNames
+            for attribute in attributes:
+                type_name = attribute.GetTypeName()
+                if type_name.isArray or type_name == types.Asset:
+                    yield attribute
+
+
+def _held_otherwise(sound: _Clips, attributes: Iterable[Any]) -> Iterator[LostClips]:
+    """What sound clips hold under other names or as defaults, by what is wrong with it."""
+    found: dict[ClipFault, list[Any]] = defaultdict(list)
+    for attribute in attributes:
+        path = path_in_clips(attribute, sound.prim, sound.keys["primPath"])
+        fault = held_otherwise(attribute, path, sound.layers)
+        if fault and not _is_outranked(sound, attribute):
+            found[fault].append(attribute)
+    for fault, lost in found.items():
+        yield _loss(sound._replace(fault=fault), lost, fault.advice)
 
 
 def without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
@@ -96,29 +123,41 @@ def without_samples(tables: Tables, prim: Any) -> Iterator[Any]:
             yield attribute
 
 
-def _unused(prim: Any, read: Iterable[ClipSet]) -> Iterator[_Clips]:
-    """The clip sets on a prim that USD does not use; `read` are those that say what they need."""
-    if _is_undecided(prim):
-        return
+def _refused(prim: Any, read: Iterable[ClipSet]) -> Iterator[_Clips]:
+    """The clip sets on a prim that USD refuses; `read` are those that say what they need."""
     found = {clip_set.name: clip_set.clips for clip_set in read}
     loose = keys_without_set(prim)
     if loose:
         what = f"hold {', '.join(sorted(loose))} outside of the dictionary of a clip set"
         advice = "put them into one, as in clips = { dictionary default = { … } }"
         yield _read(prim, "", loose, ClipFault("clips", what, advice), ())
-    for name, keys in used_sets(prim).items():
-        fault = find_fault(keys)
-        clips = found.get(name, ())
-        unused = _read(prim, name, keys, fault or ClipFault("primPath", "", None), clips)
+    faulty = ((name, keys, find_fault(keys)) for name, keys in used_sets(prim).items())
+    for name, keys, fault in chain(misnamed_sets(prim), faulty):
         if fault:
-            yield unused
-        elif unused.layers and not any(_has_prim(layer, keys) for layer in unused.layers):
-            what = f"has the primPath {quoted(keys['primPath'])}, which no clip has"
-            yield unused._replace(fault=ClipFault("primPath", what, None))
+            yield _read(prim, name, keys, fault, found.get(name, ()))
 
 
-def _has_prim(layer: Any, keys: Keys) -> bool:
-    return bool(layer.GetPrimAtPath(keys["primPath"]))
+def _sound(prim: Any, read: Iterable[ClipSet]) -> Iterator[_Clips]:
+    """The other clip sets on a prim, as far as clips of theirs open."""
+    found = {clip_set.name: clip_set.clips for clip_set in read}
+    for name, keys in used_sets(prim).items():
+        if not find_fault(keys):
+            none = ClipFault("primPath", "", None)
+            clips = _read(prim, name, keys, none, found.get(name, ()))
+            if clips.layers:
+                yield clips
+
+
+def _misdirected(sound: Iterable[_Clips]) -> Iterator[_Clips]:
+    """Those of sound clip sets whose path leads to nothing in the clips, or to something else."""
+    for clips in sound:
+        path = clips.keys["primPath"]
+        what = f"has the primPath {quoted(path)}"
+        if not any(layer.GetPrimAtPath(path) for layer in clips.layers):
+            yield clips._replace(fault=ClipFault("primPath", f"{what}, which no clip has", None))
+        elif not bring_anything(clips.prim, path, clips.layers):
+            what += ", below which its clips hold nothing for this prim"
+            yield clips._replace(fault=ClipFault("primPath", what, None))
 
 
 def _is_undecided(prim: Any) -> bool:
@@ -151,6 +190,8 @@ def _read(prim: Any, name: str, keys: Keys, fault: ClipFault, clips: Sequence[An
 def _author(prim: Any, name: str, key: str) -> Any:
     """The strongest spec that authors a key of the clip set, or any of the set, or that of all."""
     stack = [spec for spec in prim.GetPrimStack() if spec.HasInfo("clips")]
+    if key == "clipSets":
+        return next(spec for spec in prim.GetPrimStack() if spec.HasInfo(key))
     with_set = [spec for spec in stack if name in spec.GetInfo("clips")] or stack
     authors = (spec for spec in with_set if name and key in spec.GetInfo("clips").get(name, {}))
     return next(authors, with_set[0])
@@ -191,7 +232,7 @@ def _is_lost(unused: _Clips, attribute: Any) -> bool:
     if not unused.layers and not unused.manifest:
         # Nothing says what the clips would hold.
         return "assetPaths" not in unused.keys and attribute.GetName() == _FILE_PATH
-    return any(_holders(unused, attribute))
+    return next(_holders(unused, attribute), None) is not None
 
 
 def _holders(unused: _Clips, attribute: Any) -> Iterator[str]:
@@ -203,24 +244,10 @@ def _holders(unused: _Clips, attribute: Any) -> Iterator[str]:
         at = f"{prim_path}{suffix}"
         yield from (prim_path for layer in layers if prim_path and layer.GetAttributeAtPath(at))
         return
-    for layer in layers:
-        yield from (
-            path.removesuffix(suffix)
-            for path in _attribute_paths(layer, attribute.GetName())
-            if path.endswith(suffix)
-        )
-
-
-def _attribute_paths(layer: Any, name: str) -> list[str]:
-    """The paths of all attributes of this name in a layer."""
-    found: list[str] = []
-
-    def visit(path: Any) -> None:
-        if path.IsPropertyPath() and path.name == name:
-            found.append(str(path))
-
-    layer.Traverse(Sdf.Path.absoluteRootPath, visit)
-    return found
+    name = attribute.GetName()
+    found = [path for layer in layers for path in attribute_paths(layer, name)]
+    if f"{unused.keys.get('primPath')}{suffix}" not in found:
+        yield from (path.removesuffix(suffix) for path in found if path.endswith(suffix))
 
 
 def _is_outranked(unused: _Clips, attribute: Any) -> bool:
@@ -240,10 +267,11 @@ def _is_outranked(unused: _Clips, attribute: Any) -> bool:
 def _advice(unused: _Clips, attribute: Any) -> str | None:
     """What to write, where the clips say so themselves."""
     if unused.fault.key == "primPath":
-        paths = dict.fromkeys(filter(None, _holders(unused, attribute)))
-        return (
-            f"did you mean {quoted(next(iter(paths)))}?" if len(paths) == 1 else unused.fault.advice
-        )
+        paths = set(_holders(unused, attribute))
+        if paths == {""}:
+            return "put what clips and manifest hold below one prim, and name that as primPath"
+        paths.discard("")
+        return f"did you mean {quoted(*paths)}?" if len(paths) == 1 else unused.fault.advice
     if unused.fault.key == "active" and "active" not in unused.keys:
         return _active(unused, attribute) or unused.fault.advice
     return unused.fault.advice

@@ -23,6 +23,7 @@ from usdvol_lint.facts.particles.ranges import (
     joined,
     norm_range,
 )
+from usdvol_lint.facts.usd.clips import is_from_clips
 from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.usd.values import Value
 
@@ -49,8 +50,9 @@ class ParticleArray:
     """An array attribute with the samples that are to be checked, the default first.
 
     `float_name` is the name of the float array of its pair, `noun` what its elements are called.
-    `most` is the greatest number of elements of a sample; it `is_populated` if that is not 0.
+    `most` is the greatest number of elements of a sample.
     `total` is how many time samples USD has; `is_read_whole` says that these are all of them.
+    It `is_populated` if a sample has elements; the default is one only where no time sample is.
     Values are read anew for each question about all of them, so that one at a time is in memory.
     `with_counts` makes a histogram of scales and of opacities while their ranges are found.
     """
@@ -70,9 +72,10 @@ class ParticleArray:
         self.noun = _NOUNS.get(self.float_name, self.float_name)
         self.samples = samples
         self.most = max((sample.size for sample in samples), default=0)
-        self.is_populated = self.most > 0
         self.total = total
-        self.is_read_whole = total == sum(sample.time is not None for sample in samples)
+        timed = [sample.size for sample in samples if sample.time is not None]
+        self.is_read_whole = total == len(timed)
+        self.is_populated = any(timed) if timed and self.is_read_whole else self.most > 0
         sizes = ((each.time, None if each.is_blocked else each.size) for each in samples)
         self.sizes = StepSamples(sizes)
         self._with_counts = with_counts
@@ -82,6 +85,11 @@ class ParticleArray:
     def begins_populated(self) -> bool:
         """Whether there is an element at USD's earliest time."""
         return bool(self.sizes.at(-inf))
+
+    @property
+    def is_from_clips(self) -> bool:
+        """Whether its first time sample is one of value clips."""
+        return is_from_clips(self.attribute)
 
     @property
     def ranges(self) -> tuple[tuple[ArraySample, Range], ...]:

@@ -88,8 +88,8 @@ class Pair(NamedTuple):
         if not self.is_known:
             return None  # a half array of another type
         times = [(sample.time, sample.size) for sample in array.samples if sample.time is not None]
-        filled = next(time for time, size in times if size)
-        return LateArray(array, times[0][0], filled)
+        filled = next((time for time, size in times if size), None)
+        return None if filled is None else LateArray(array, times[0][0], filled)
 
 
 class ParticleArrays:
@@ -169,6 +169,12 @@ class ParticleArrays:
     def are_colourless(self) -> bool:
         """Whether particles with the API of coefficients certainly have none at any time."""
         return self._lack(COEFFICIENTS, schema.HARMONICS_API) and self.most_particles > 0
+
+    @property
+    def emptied(self) -> ParticleArray | None:
+        """The positions whose default has particles, and none of whose time samples has any."""
+        array = self.positions
+        return array if array and self.lack_positions and array.most else None
 
     def lack(self, name: str) -> bool:
         """Whether there certainly is no element of an array at any time, by its float name."""

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from pxr import Sdf, Usd, Vt
 
 from usdvol_lint.model import format_time, quoted
+from usdvol_lint.nearest import closest_match
 
 _TYPES: dict[str, tuple[type | tuple[type, ...], str]] = {
     "active": (Vt.Vec2dArray, "double2[]"),
@@ -40,10 +41,15 @@ class ClipFault(NamedTuple):
     is_block: bool = False
 
 
+def authored_sets(prim: Any) -> dict[str, Keys]:
+    """The clip sets authored on a prim, by name."""
+    clips = Usd.ClipsAPI(prim).GetClips() or {}
+    return {name: keys for name, keys in clips.items() if isinstance(keys, dict)}
+
+
 def used_sets(prim: Any) -> dict[str, Keys]:
     """The clip sets authored on a prim, by name, without those that `clipSets` leaves out."""
-    clips = Usd.ClipsAPI(prim).GetClips() or {}
-    sets = {name: keys for name, keys in clips.items() if isinstance(keys, dict)}
+    sets = authored_sets(prim)
     # ClipsAPI.GetClipSets ends the process where the list is authored in a sublayer, and the prim's
     # metadata lack the sets that count because nothing leaves them out (26.11).
     chosen = [spec.GetInfo("clipSets") for spec in _stack(prim) if spec.HasInfo("clipSets")]
@@ -64,6 +70,23 @@ def _is_chosen(name: str, lists: Iterable[Any]) -> bool:
         if name in each.GetAddedOrExplicitItems():
             return True
     return True
+
+
+def misnamed_sets(prim: Any) -> Iterator[tuple[str, Keys, ClipFault]]:
+    """The clip sets that an explicit list leaves out, where it names one that is not there."""
+    chosen = next((spec for spec in _stack(prim) if spec.HasInfo("clipSets")), None)
+    names = chosen.GetInfo("clipSets").explicitItems if chosen else ()
+    sets = authored_sets(prim)
+    strange = [name for name in names if name not in sets]
+    if not strange:
+        return
+    for name in sorted(sets.keys() - set(names)):
+        meant = closest_match(name, strange, cutoff=0.75)
+        what = (
+            f"is not in clipSets, which name {quoted(meant or strange[0])}, a set that is not there"
+        )
+        advice = f"name {quoted(name)} in clipSets"
+        yield name, sets[name], ClipFault("clipSets", what, advice, is_block=not meant)
 
 
 def keys_without_set(prim: Any) -> Keys:
