@@ -72,10 +72,11 @@ def test_none_where_not_all_files_are_looked_into(content: str, lint: Lint) -> N
     [
         "rel field:heat = </cloud/gone>",
         "rel field:heat = [</cloud/density>, </cloud/gone>]",
-        'rel field:heat = </cloud/heat>\n def FieldBase "heat" {\n}\n',
+        "rel field:heat",
+        "rel field:heat = None",
         'rel field:heat = </cloud/heat>\n def OpenVDBAsset "heat" {\n}\n',
     ],
-    ids=["no field", "several", "no file", "no path"],
+    ids=["no field", "several", "no target", "blocked", "no path"],
 )
 def test_none_where_a_field_is_not_known(more: str, lint: Lint) -> None:
     assert offered(volume(more), lint) == TODAY

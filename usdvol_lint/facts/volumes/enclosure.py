@@ -65,13 +65,13 @@ class Enclosure:
         """
         from usdvol_lint.facts.volumes.shortfall import fitting_all
 
-        targets = [target for _, target in bindings.with_files()]
-        if not bindings.is_sound or len(targets) < len(bindings.bindings):
+        if not bindings.is_sound:
             return None
         if any(displacement(volume, target.prim) for _, target in bindings.outside(volume)):
             return None
         fields = self._placed_fields(volume, bindings)
-        is_whole = {field.shown for field in fields} == {target.shown for target in targets}
+        bound = {target.shown for binding in bindings.bindings for target in binding.targets}
+        is_whole = {field.shown for field in fields} == bound
         return fitting_all(fields, self._boxes) if is_whole else None
 
     def unmeasured(self, volume: Any, bindings: FieldBindings) -> UnmeasuredGrids | None:
