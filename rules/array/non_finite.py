@@ -21,7 +21,8 @@ def non_finite(particles: Prim, facts: Facts) -> Problems:
         what = " or ".join(name for name, is_there in kinds if is_there)
         yield Problem(
             f"{found.amount_that(*_verbs(array.noun, what))}"
-            f"{', beyond the 65,504 that half goes up to' if overflows else ''}, {found.first}",
+            f"{', beyond the 65,504 that half goes up to' * overflows}, {found.first}"
+            f"{', so the extent is not finite either' * array.spoils(facts.prims.extents(particles))}",
             at=found,
             suggestion=meaning + _NAN * array.has_nan
             if meaning
@@ -44,6 +45,5 @@ def _meaning_of_infinity(array: ParticleArray, facts: Facts) -> str:
     if array.noun == "opacities" and array.has_infinity:
         return _LOGITS if facts.particles.are_logits(array, array.outside(-1e-3, 1 + 1e-3)) else _OPACITIES
     are_logarithms = array.noun == "scales" and array.has_infinity
-    if are_logarithms and facts.particles.are_logarithms(array, array.outside(0.0, float("inf"))):
-        return _LOGARITHMS
-    return ""
+    are_raw = are_logarithms and facts.particles.are_logarithms(array, array.outside(0.0, float("inf")))
+    return _LOGARITHMS * are_raw
