@@ -77,6 +77,8 @@ def _have_one_cause(one: Finding, other: Finding) -> bool:
         return True
     if one.site.prim != other.site.prim:
         return _name_one_file(one, other)
+    if _is_of_positions(one, other) or _is_of_positions(other, one):
+        return True
     codes = {one.code, other.code}
     if len(codes) == 2 and any(codes <= group for group in OF_ONE_PRIM):
         return True
@@ -96,6 +98,14 @@ def _explains(cause: Finding, effect: Finding) -> bool:
     absent = ABSENT[effect.code]
     is_of_prim = effect.site.prim == cause.site.prim or f"<{cause.site.prim}>" in effect.message
     return is_of_prim and not _taken(cause).isdisjoint((absent, f"{absent}h"))
+
+
+def _is_of_positions(cause: Finding, effect: Finding) -> bool:
+    """Whether an extent is not finite because positions at the same times are not."""
+    names = str(cause.site.property).removesuffix("h"), effect.site.property
+    is_pair = (cause.code, effect.code, *names) == ("ARR007", "SCH008", "positions", "extent")
+    is_covered = set(effect.site.times) <= set(cause.site.times)
+    return is_pair and is_covered and "is not finite" in effect.message
 
 
 def _taken(finding: Finding) -> set[str | None]:

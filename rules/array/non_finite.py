@@ -22,7 +22,8 @@ def non_finite(particles: Prim, facts: Facts) -> Problems:
         what = " or ".join(name for name, is_there in kinds if is_there)
         yield Problem(
             f"{found.amount_that(*_verbs(array.noun, what))}"
-            f"{', beyond the 65,504 that half goes up to' if overflows else ''}, {found.first}"
+            f"{', beyond the 65,504 that half goes up to' * overflows}, {found.first}"
+            f"{', so the extent is not finite either' * array.spoils(facts.prims.extents(particles))}"
             + (f", and {raw.words}" if raw else ""),
             at=raw.at if raw else found,
             suggestion=meaning + _NAN * array.has_nan

@@ -2,6 +2,8 @@
 
 from usdvol_lint.rule import ERROR, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
+_ORDER = ", each with its real part first: (w, x, y, z)"
+
 
 @rule("SCH003", on=OURS, when=When(Prims.may_be_mistyped, bool), severity=ERROR, since="0.1")
 def attribute_type_mismatch(prim: Prim, facts: Facts) -> Problems:
@@ -13,5 +15,5 @@ def attribute_type_mismatch(prim: Prim, facts: Facts) -> Problems:
             at=attribute,
             spec=spec,
             severity=WARNING if only_role else None,
-            suggestion=f"author it as {wanted!r}",
+            suggestion=f"author it as {wanted!r}" + _ORDER * ("quat" in wanted and "quat" not in found),
         )

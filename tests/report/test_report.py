@@ -105,6 +105,11 @@ def test_json_does_not_depend_on_presentation() -> None:
             "1 error in 1 of 2 stages; no volumes or particle fields found in 1.2 s",
         ),
         (
+            (CLEAN._replace(stats={"volumes": 0, "variant_selections": 2}),),
+            "no findings in 1 stage; no volumes or particle fields as variants are selected, "
+            "2 other selections checked in 1.2 s",
+        ),
+        (
             (UNREADABLE, CLEAN, TIMED_OUT),
             "no findings in 3 stages; 1 volume, 1 file checked in 1.2 s; "
             "2 stages could not be checked",
@@ -115,7 +120,7 @@ def test_json_does_not_depend_on_presentation() -> None:
             "23 volumes, 2 particle fields, 62,409 files checked in 1.2 s",
         ),
     ],
-    ids=["none", "clean", "one", "no-volumes", "unchecked", "infos"],
+    ids=["none", "clean", "one", "no-volumes", "other-variants", "unchecked", "infos"],
 )
 def test_verdict(stages: tuple[StageReport, ...], expected: str) -> None:
     assert verdict(report(*stages), Options()) == expected

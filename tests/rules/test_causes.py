@@ -58,6 +58,11 @@ NO_API = found(
             found("AST002", message="no file at 'a.vdb', as in 2 other fields"),
             found("AST002", "/cloud/heat.filePath", "no file at 'a.vdb'"),
         ),
+        (found("ARR007", "/Splat.positions"), found("SCH008", "/Splat.extent", "is not finite")),
+        (
+            found("SCH008", "/Splat.extent", "is not finite", times=(2,)),
+            found("ARR007", "/Splat.positionsh", times=(1, 2)),
+        ),
     ],
 )
 def test_one_cause_is_seen(findings: tuple[Finding, Finding]) -> None:
@@ -79,6 +84,12 @@ def test_one_cause_is_seen(findings: tuple[Finding, Finding]) -> None:
             found("ARR008", "/Splat.opacities", advice="these look like the logits of a PLY file"),
         ),
         (found("ARR002", "/Splat.scales"), found("ARR003", "/Splat.opacities")),
+        (
+            found("ARR007", "/Splat.positions", times=(1,)),
+            found("SCH008", "/Splat.extent", "is not finite", times=(2,)),
+        ),
+        (found("ARR007", "/Splat.positions"), found("SCH008", "/Splat.extent", "is inverted")),
+        (found("ARR007", "/Splat.scales"), found("SCH008", "/Splat.extent", "is not finite")),
     ],
 )
 def test_two_causes_are_two_findings(findings: tuple[Finding, Finding]) -> None:

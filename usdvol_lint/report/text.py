@@ -77,7 +77,15 @@ def _checked_counts(stats: Mapping[str, int]) -> str:
         (stats.get("particle_fields", 0), "particle field"),
         (stats.get("files_checked", 0), "file"),
     )
-    return f"{counts} checked" if counts else "no volumes or particle fields found"
+    if counts:
+        return f"{counts} checked"
+    others = stats.get("variant_selections", 0)
+    if others:
+        return (
+            "no volumes or particle fields as variants are selected, "
+            f"{_count(others, 'other selection')} checked"
+        )
+    return "no volumes or particle fields found"
 
 
 def _verdict_style(report: Report) -> str:

@@ -21,7 +21,7 @@ from usdvol_lint.model import format_time
 
 _FEWEST = 5
 """A range of fewer frames than these proves nothing, however well the files fit."""
-_SHOWN = 5
+_MOST = 1000
 _STAND_INS = frozenset({"proxy", "guide"})
 """The purposes of what stands in for the picture itself."""
 
@@ -254,6 +254,5 @@ def _advice(
         f"{format_time(time)}: @{before}{frames.on_disk[number]}{after}@"
         for number, time in times.items()
     ]
-    if len(pairs) > _SHOWN:
-        pairs[_SHOWN - 1 : -1] = ["…"]
+    pairs[_MOST:] = ["…"] * (len(pairs) > _MOST)
     return f"author filePath.timeSamples = {{ {', '.join(pairs)} }}"

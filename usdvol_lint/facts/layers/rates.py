@@ -8,14 +8,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
+from usdvol_lint.facts.prims.animated import animated
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
-from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
-from usdvol_lint.facts.usd.values import sample_times
-from usdvol_lint.schema import OURS
 
 _USUAL = 24.0
 """The rate that USD takes for that of a layer that says none."""
@@ -65,7 +63,7 @@ def unsaid_rates(
     layers = _without_rate(stage) if rate != _USUAL else frozenset()
     own = rate / _USUAL
     found: dict[Any, dict[Any, list[Displaced]]] = defaultdict(lambda: defaultdict(list))
-    for attribute, times in _animated(tables) if layers else ():
+    for attribute, times in animated(tables) if layers else ():
         layer, offset = _source(attribute, times[0], clips)
         if layer in layers and not _is_undone(attribute.GetPrim(), layer, offset.scale, own):
             start = offset.offset
@@ -90,24 +88,6 @@ def _without_rate(stage: Any) -> frozenset[Any]:
         for layer in stage.GetUsedLayers(includeClipLayers=False)
         if not layer.HasTimeCodesPerSecond() and not layer.HasFramesPerSecond()
     )
-
-
-def _animated(tables: Tables) -> Iterator[tuple[Any, list[float]]]:
-    """The attributes of ours that have two time samples at least, and the times of these."""
-    for prims, authored in tables.authored(*OURS):
-        for name in authored.declared:
-            for prim in prims:
-                attribute = prim.GetAttribute(name)
-                times = _times(attribute)
-                if len(times) > 1:
-                    yield attribute, times
-
-
-def _times(attribute: Any) -> list[float]:
-    try:
-        return sample_times(attribute)
-    except UNREADABLE:  # clips that do not open: reported by another rule
-        return []
 
 
 def _source(attribute: Any, time: float, clips: Clips) -> tuple[Any | None, Any]:

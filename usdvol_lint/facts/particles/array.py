@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from math import inf
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from pxr import Usd
 from usdvol_lint.facts.particles import matches
 from usdvol_lint.facts.particles.chunks import Row, Rows, rows_of
 from usdvol_lint.facts.particles.counts import NO_COUNTS
-from usdvol_lint.facts.particles.elements import Elements
+from usdvol_lint.facts.particles.elements import Elements, as_text
 from usdvol_lint.facts.particles.matches import Mask, Matches
 from usdvol_lint.facts.particles.ranges import (
     Range,
@@ -25,7 +26,7 @@ from usdvol_lint.facts.particles.ranges import (
 )
 from usdvol_lint.facts.usd.clips import is_from_clips
 from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.facts.usd.values import Value
+from usdvol_lint.facts.usd.values import Value, Values
 
 _NO_NORM = 1e-12
 """The least squared length of a quaternion that can still be normalised."""
@@ -136,6 +137,12 @@ class ParticleArray:
         return (min(low), max(high)) if low and high else None
 
     @property
+    def shown_span(self) -> str:
+        """The least and the greatest finite number in each column as messages show them, or ""."""
+        low, high = self.low, self.high
+        return f"{as_text(low)} to {as_text(high)}" if low and high else ""
+
+    @property
     def has_nan(self) -> bool:
         return any(measured.has_nan for _, measured in self.ranges)
 
@@ -146,6 +153,12 @@ class ParticleArray:
     def non_finite(self) -> Elements | None:
         """The elements that contain NaN or infinity."""
         return self._elements((sample, measured.non_finite) for sample, measured in self.ranges)
+
+    def spoils(self, extents: Values) -> bool:
+        """Whether these are positions that are not finite whenever one of the extents is not."""
+        held = dict(extents.grouped(attrgetter("is_finite"))).get(False)
+        found = self.non_finite() if held and self.noun == "positions" else None
+        return bool(held and found and found.include_times_of(held))
 
     def outside(self, low: float, high: float) -> Elements | None:
         """The elements with a finite number outside of the limits."""

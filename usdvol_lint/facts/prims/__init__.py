@@ -69,9 +69,14 @@ class Prims(Wing):
         attribute = prim.GetAttribute("extent")
         hidden = self.hidden_animation(attribute) if attribute else None
         box = self.limits(prim).at(None) if hidden else None
-        if not hidden or not box or not outside_box(box, hidden.values(), relative_slack):
-            return None
-        return hidden
+        is_outside = hidden and box and outside_box(box, hidden.values(), relative_slack)
+        return hidden if is_outside else None
+
+    def animated_times(self) -> list[float]:
+        """The times at which Volumes, fields and particle fields have samples, in order."""
+        from usdvol_lint.facts.prims.animated import animated
+
+        return sorted({time for _, times in animated(self.tables) for time in times})
 
     @column
     def authored(self, table: Table) -> Sequence[Authored]:
@@ -113,9 +118,8 @@ class Prims(Wing):
 
     def is_told_as_misspelt(self, prim: Any, name: str) -> bool:
         """Whether SCH004 tells that an attribute is probably meant to be the one of this name."""
-        return any(slip.intended == name for slip in self.misspelt(prim)) and not self.encoding(
-            prim
-        )
+        is_meant = any(slip.intended == name for slip in self.misspelt(prim))
+        return is_meant and not self.encoding(prim)
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The values of a prim's attributes that are tokens the schema does not allow."""

@@ -6,13 +6,15 @@ from typing import Any
 
 from pxr import Usd
 
-from usdvol_lint.facts.usd.calls import get_attribute, has_value
+from usdvol_lint.facts.usd.calls import get_attribute
 from usdvol_lint.facts.usd.instances import instances_of
+from usdvol_lint.facts.usd.values import read_values
 
 
 def has_bounds(prim: Any) -> bool:
     """Whether USD can tell the bounds of a prim: from its extent, a model's hint, or a plugin."""
-    if has_value(get_attribute(prim, "extent")) or _is_hinted(prim):
+    values = read_values(get_attribute(prim, "extent"))
+    if any(value is not None for _, value in values) or _is_hinted(prim):
         return True
     from pxr import UsdGeom  # costs start-up time, and is rarely needed
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import inf
+from math import inf, isfinite
 from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Usd, Vt
@@ -17,6 +17,7 @@ from usdvol_lint.volumefile import Bounds
 Corner: TypeAlias = tuple[float, float, float]
 
 _ORIGIN = (0.0, 0.0, 0.0)
+_LIKELY = 1e6
 _LARGEST = 3.4028234663852886e38
 _EMPTY_RANGE: Bounds = ((_LARGEST,) * 3, (-_LARGEST,) * 3)
 """What USD writes as the extent of nothing: its minimum is above its maximum, but it is valid."""
@@ -33,6 +34,22 @@ class Extent(NamedTuple):
     def is_empty_range(self) -> bool:
         """Whether it is what USD writes as the extent of nothing."""
         return self.size == 2 and (self.low, self.high) == _EMPTY_RANGE
+
+    @property
+    def is_finite(self) -> bool:
+        return all(map(isfinite, self.low + self.high))
+
+    @property
+    def in_order(self) -> str:
+        """Its corners, with the lesser number of each axis first, as in a layer.
+
+        Empty where numbers are so large that they hardly are corners.
+        """
+        if max(map(abs, self.low + self.high)) > _LIKELY:
+            return ""
+        corners = (map(choose, self.low, self.high) for choose in (min, max))
+        written = (", ".join(f"{number:.7g}" for number in corner) for corner in corners)
+        return f"[({next(written)}), ({next(written)})]"
 
 
 class Limits:

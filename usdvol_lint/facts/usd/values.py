@@ -42,6 +42,10 @@ class Occurrences:
         """Whether the default is one of the values."""
         return self.samples[0].time is None
 
+    def include_times_of(self, others: Occurrences) -> bool:
+        """Whether there is one of these at each time, the default too, at which others are."""
+        return {each.time for each in others.samples} <= {each.time for each in self.samples}
+
     @property
     def asset(self) -> str | None:
         """The authored asset path whose line a finding should point to."""

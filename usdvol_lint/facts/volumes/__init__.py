@@ -129,14 +129,11 @@ class Volumes(Wing):
             return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
-        for volume in volumes:
-            self._used.add(
-                usage.accounted_for(volume, self.bindings(volume), self._kinds, self._field_index)
-            )
+        self._used.add(usage.accounted_for(volumes, self.bindings, self._kinds, self._field_index))
         others = [prim for prim in layers.undrawn if self._prims.is_a(prim, schema.VOLUME)]
         others += (each.prim for each in layers.retyped)
-        for prim in (*others, *(each.prim for each in self.lookalikes)):
-            self._used.add(usage.accounted_for_by_other(prim, self._kinds))
+        others += (each.prim for each in self.lookalikes)
+        self._used.add(usage.accounted_for_by_others(others, self._kinds))
         return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
 
     @cached_property
@@ -183,6 +180,10 @@ class Volumes(Wing):
     def shortfall(self, volume: Any, relative_slack: float) -> Shortfall | None:
         """By how much an authored extent fails to enclose the grids of a Volume, if it does."""
         return self._enclosure.shortfall(volume, self.bindings(volume), relative_slack)
+
+    def fitting_extent(self, volume: Any) -> str | None:
+        """The statement of an extent around all grids of a Volume, where all of them are known."""
+        return self._enclosure.fitting(volume, self.bindings(volume))
 
     def unmeasured_grids(self, volume: Any) -> UnmeasuredGrids | None:
         """The grids with which the authored extent of a Volume can't be compared, if there are."""

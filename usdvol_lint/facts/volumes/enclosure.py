@@ -13,11 +13,16 @@ from usdvol_lint.facts.prims.tables import Table, Tables
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.volumes.bindings import BoundFields, FieldBindings
 from usdvol_lint.facts.volumes.hulls import GridBoxes, Hulls
-from usdvol_lint.facts.volumes.placement import UNTRANSFORMED, Placement, read_placements
+from usdvol_lint.facts.volumes.placement import (
+    UNTRANSFORMED,
+    Placement,
+    displacement,
+    read_placements,
+)
 from usdvol_lint.facts.volumes.targets import Target
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.volumes.shortfall import Shortfall
+    from usdvol_lint.facts.volumes.shortfall import PlacedField, Shortfall
     from usdvol_lint.facts.volumes.unmeasured import UnmeasuredGrids
 
 
@@ -45,17 +50,29 @@ class Enclosure:
         self, volume: Any, bindings: FieldBindings, relative_slack: float
     ) -> Shortfall | None:
         """By how much an authored extent fails to enclose the grids of a Volume, if it does."""
-        from usdvol_lint.facts.volumes.shortfall import PlacedField, find_shortfall
+        from usdvol_lint.facts.volumes.shortfall import find_shortfall
 
         limits = self._prims.limits(volume)
         if not limits.are_authored:
             return None
-        fields = [
-            PlacedField(target, self._files.paths(field), timeline, placement, shown_at)
-            for target, field, timeline in self._with_grids(bindings)
-            for shown_at, placement in read_placements(volume, target.prim)
-        ]
+        fields = self._placed_fields(volume, bindings)
         return find_shortfall(limits, fields, self._boxes, relative_slack)
+
+    def fitting(self, volume: Any, bindings: FieldBindings) -> str | None:
+        """The statement of an extent around all grids of a Volume, if each of them is known.
+
+        None also where a field does not move with the Volume: then no extent is the remedy.
+        """
+        from usdvol_lint.facts.volumes.shortfall import fitting_all
+
+        if not bindings.is_sound:
+            return None
+        if any(displacement(volume, target.prim) for _, target in bindings.outside(volume)):
+            return None
+        fields = self._placed_fields(volume, bindings)
+        bound = {target.shown for binding in bindings.bindings for target in binding.targets}
+        is_whole = {field.shown for field in fields} == bound
+        return fitting_all(fields, self._boxes) if is_whole else None
 
     def unmeasured(self, volume: Any, bindings: FieldBindings) -> UnmeasuredGrids | None:
         """The grids with which the authored extent of a Volume can't be compared, if there are."""
@@ -66,6 +83,16 @@ class Enclosure:
             return None
         fields = [(target.shown, timeline) for target, _, timeline in self._with_grids(bindings)]
         return find_unmeasured(limits.attribute, fields)
+
+    def _placed_fields(self, volume: Any, bindings: FieldBindings) -> list[PlacedField]:
+        """The fields of a Volume in some of whose files the grids were found."""
+        from usdvol_lint.facts.volumes.shortfall import PlacedField
+
+        return [
+            PlacedField(target, self._files.paths(field), timeline, placement, shown_at)
+            for target, field, timeline in self._with_grids(bindings)
+            for shown_at, placement in read_placements(volume, target.prim)
+        ]
 
     def _placed(self, volume: Any, fields: BoundFields) -> list[tuple[Timeline, Placement]]:
         """The files of each bound field over time, with the field's placement."""

@@ -8,6 +8,7 @@ from functools import cache, cached_property
 from typing import Any, ClassVar, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSamples
+from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.boxes import (
     AXES,
@@ -16,6 +17,7 @@ from usdvol_lint.facts.prims.boxes import (
     extent_around,
     magnitude,
     sides_outside,
+    union,
 )
 from usdvol_lint.facts.prims.extents import Limits
 from usdvol_lint.facts.usd.steps import StepSamples, Time
@@ -65,6 +67,15 @@ class PlacedField:
     def shown(self) -> str:
         """The path of the field as the stage shows it."""
         return self._target.shown
+
+    def has_known_grids(self, boxes: GridBoxes) -> bool:
+        """Whether each file was looked into, and has the grid, whose box and place are known."""
+        samples = self._paths.samples
+        named = [sample.time for sample in samples if sample.state is not AssetState.BLOCKED]
+        return all(
+            moment and (moment.grid.is_empty or boxes.whole(moment.grid, moment.matrix))
+            for moment in map(self.at, (*named, *self._transform_times))
+        )
 
     def moments(self, more_times: Iterable[float]) -> Iterator[Moment]:
         """The moments at which grid or placement change, and those at `more_times`.
@@ -255,8 +266,23 @@ def _remedy(limits: Limits, fields: Sequence[PlacedField], boxes: GridBoxes, tal
     return f"write {', '.join(samples)}"
 
 
+def fitting_all(fields: Sequence[PlacedField], boxes: GridBoxes) -> str | None:
+    """The same, if the grids are known at all times, have voxels, and an extent can reach them."""
+    if not all(field.has_known_grids(boxes) for field in fields):
+        return None
+    wholes = list(_wholes(fields, boxes))
+    is_within_reach = bool(wholes) and magnitude(union(wholes)) <= _BEYOND_FLOAT
+    return fitting(fields, boxes) if is_within_reach else None
+
+
 def fitting(fields: Sequence[PlacedField], boxes: GridBoxes, times: Iterable[float] = ()) -> str:
     """The statement of an extent that encloses all grids at all times, also at these."""
+    return _STATEMENT + extent_around(_wholes(fields, boxes, times))
+
+
+def _wholes(
+    fields: Sequence[PlacedField], boxes: GridBoxes, times: Iterable[float] = ()
+) -> Iterator[Bounds]:
+    """The boxes of all grids at all times, also at these."""
     moments = (moment for placed in fields for moment in placed.moments(times))
-    wholes = (boxes.whole(grid, matrix) for _, grid, matrix in moments)
-    return _STATEMENT + extent_around(filter(None, wholes))
+    yield from filter(None, (boxes.whole(grid, matrix) for _, grid, matrix in moments))

@@ -88,23 +88,28 @@ def targets_of_unknown_type(
 
 
 def accounted_for(
-    volume: Any, bindings: FieldBindings, kinds: PrimKinds, index: FieldIndex
+    volumes: Iterable[Any],
+    bindings: Callable[[Any], FieldBindings],
+    kinds: PrimKinds,
+    index: FieldIndex,
 ) -> Iterator[Any]:
-    """The paths of the fields that a faulty Volume probably intends to use.
+    """The paths of the fields that faulty Volumes probably intend to use.
 
-    These are the fields below it, and those that its relationships were intended to target.
+    These are the fields below one, and those that its relationships were intended to target.
     """
-    if not bindings.is_sound:
-        yield from (in_prototype(field).GetPath() for field in _fields_below(volume, kinds))
-        yield from filter(None, map(index.intended_by, bindings.bindings))
+    for volume in volumes:
+        if not bindings(volume).is_sound:
+            yield from (in_prototype(field).GetPath() for field in _fields_below(volume, kinds))
+            yield from filter(None, map(index.intended_by, bindings(volume).bindings))
 
 
-def accounted_for_by_other(prim: Any, kinds: PrimKinds) -> Iterator[Any]:
-    """The paths of the fields that a prim would use if it were a Volume that is drawn."""
-    yield from (in_prototype(field).GetPath() for field in _fields_below(prim, kinds))
-    for relationship in prim.GetAuthoredPropertiesInNamespace(schema.FIELD_NAMESPACE):
-        if isinstance(relationship, Usd.Relationship):
-            yield from _as_walked(prim.GetStage(), relationship.GetForwardedTargets())
+def accounted_for_by_others(prims: Iterable[Any], kinds: PrimKinds) -> Iterator[Any]:
+    """The paths of the fields that prims would use if they were Volumes that are drawn."""
+    for prim in prims:
+        yield from (in_prototype(field).GetPath() for field in _fields_below(prim, kinds))
+        for relationship in prim.GetAuthoredPropertiesInNamespace(schema.FIELD_NAMESPACE):
+            if isinstance(relationship, Usd.Relationship):
+                yield from _as_walked(prim.GetStage(), relationship.GetForwardedTargets())
 
 
 def any_targets(stage: Any, field: Any, out_of_reach: Iterable[Any]) -> bool:
