@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from tools import coverage
+from tools import coverage, words
 from usdvol_lint.command.cli import help_text
 from usdvol_lint.packs.catalog import Catalog, load
 from usdvol_lint.run.testing import all_words
@@ -48,13 +48,15 @@ def main(arguments: list[str]) -> int:
     check = "--check" in arguments
     catalog = load()
     pages = {code: page for code in catalog.rules if (page := catalog.page(code))}
+    beside_pages = all_words(RULES)
     generated = {
         RULES / "README.md": rule_index(catalog),
         coverage.TARGET: coverage.coverage(
             coverage.read_introduction(), coverage.read_sentences(), pages
         ),
         HELP: help_text(),
-        **all_words(RULES),
+        **beside_pages,
+        words.TARGET: words.all_on_one_page(catalog, beside_pages.values()),
     }
     stale = [
         path

@@ -1,0 +1,135 @@
+"""docs/words.txt: all that the tool says to its users, on one page, to be read aloud."""
+
+from __future__ import annotations
+
+import io
+import re
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import chdir, redirect_stderr
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from usdvol_lint.command import cli
+from usdvol_lint.config import Config
+from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.packs.examples import words_of
+from usdvol_lint.run.lint import lint
+from usdvol_lint.run.testing import portable
+
+ROOT = Path(__file__).parent.parent
+DATA = ROOT / "tools" / "words.toml"
+TARGET = ROOT / "docs" / "words.txt"
+
+_HEAD = """\
+All that usdvol-lint says: of the examples on the pages of rules, and of the bad input that
+tools/words.toml lists. Made by `make generate`, to be read aloud: each message says what was found,
+what was wanted, and what to do.
+"""
+_FINDING = re.compile(
+    r"^  \S.*?: (?P<code>[A-Z]{3}\d{3}) (?P<level>error|warning|info)\b.*\n"
+    r"    (?P<said>.*\n(?:    help: .*\n)?)",
+    re.MULTILINE,
+)
+_RULE = """\
+from usdvol_lint.rule import ERROR, rule
+
+
+@rule("{code}", on={on}, severity=ERROR, since="1")
+def {name}(prim, facts):
+    yield from ()
+"""
+_ROUGH = ROOT / "tests" / "packs" / "rough"
+_VOLUME = (
+    '#usda 1.0\ndef Volume "{name}"\n{{\n    float3[] extent = [(0, 0, 0), (1, 1, 1)]\n'
+    "    rel field:d = </{name}/d>\n"
+    '    def OpenVDBAsset "d"\n    {{\n        token fieldName = "d"\n    }}\n}}\n'
+)
+_LIMIT = 5.0
+"""Seconds after which a stage that hangs is given up, which others must not need."""
+
+
+def all_on_one_page(catalog: Catalog, words: Iterable[str]) -> str:
+    """The page, of what stands in the files of words beside the pages of rules."""
+    data = tomllib.loads(DATA.read_text(encoding="utf-8"))
+    return "\n".join([_HEAD, *by_code(catalog, words), *_of_bad_input(data)])
+
+
+def by_code(catalog: Catalog, words: Iterable[str]) -> Iterator[str]:
+    """A paragraph for each code, family by family: each thing that is said, once."""
+    said: dict[str, dict[str, None]] = {}
+    for text in words:
+        for found in _FINDING.finditer(text):
+            said.setdefault(found["code"], {})[f"  {found['level']}: {found['said']}"] = None
+    for code in sorted(said):
+        rule = catalog.rules[code]
+        yield f"{code} {rule.name}\n{''.join(said[code])}"
+
+
+def _of_bad_input(data: Mapping[str, Any]) -> Iterator[str]:
+    with TemporaryDirectory() as temporary, chdir(temporary):
+        here = Path.cwd()
+        (here / "smoke.usda").write_text("#usda 1.0\n", encoding="utf-8")
+        (here / "pyproject.toml").write_text("", encoding="utf-8")
+        yield _paragraph("The command line", map(_said_to, data["commands"]))
+        yield _paragraph("A configuration file", map(_said_of_settings, data["configurations"]))
+        packs = (_said_of_pack(name, modules) for name, modules in data["packs"].items())
+        yield _paragraph("A pack of rules", packs)
+        yield _paragraph("A stage", _said_of_stages(data["stages"], here))
+
+
+def _paragraph(title: str, entries: Iterable[str]) -> str:
+    return "\n".join([f"{title}\n", *entries])
+
+
+def _said_to(arguments: str, shown: str = "") -> str:
+    """What the command line says before it looks at a stage."""
+    said = io.StringIO()
+    with redirect_stderr(said):
+        cli.main(arguments.split())
+    words = said.getvalue().replace(f"{Path.cwd()}/", "").rstrip("\n").splitlines()
+    title = shown or f"usdvol-lint {arguments}".rstrip()
+    return "".join(f"  {line}\n" for line in (title, *(f"  {word}" for word in words)))
+
+
+def _said_of_settings(text: str) -> str:
+    Path("usdvol-lint.toml").write_text(f"{text}\n", encoding="utf-8")
+    return _said_to("--show-settings --config usdvol-lint.toml", text)
+
+
+def _said_of_pack(name: str, modules: Mapping[str, str]) -> str:
+    folder = Path(name)
+    folder.mkdir()
+    for module, text in modules.items():
+        (folder / f"{module}.py").write_text(_module(text), encoding="utf-8")
+    holds = "; ".join(modules.values())
+    return _said_to(f"--isolated --pack {name} smoke.usda", f"--pack {name}: {holds}")
+
+
+def _module(text: str) -> str:
+    """The text of a module; of `{rule} CODE name types`, that of a rule which finds nothing."""
+    if not text.startswith("{rule}"):
+        return text
+    _, code, name, *types = text.split()
+    return _RULE.format(code=code, name=name, on=repr(tuple(types)))
+
+
+def _said_of_stages(stages: Mapping[str, Mapping[str, Any]], here: Path) -> Iterator[str]:
+    for name, made in stages.items():
+        _write(Path(name), made)
+    config = Config(packs=(str(_ROUGH),), select=("RGH",), timeout=_LIMIT)
+    for stage in lint(stages, config).stages:
+        yield words_of(portable(stage.findings, here))
+
+
+def _write(path: Path, made: Mapping[str, Any]) -> None:
+    """What stands for a stage; nothing, if it is to be missing."""
+    if "link" in made:
+        path.symlink_to(made["link"])
+    elif "bytes" in made:
+        path.write_bytes(bytes.fromhex(made["bytes"]).ljust(made.get("size", 0), b"\0"))
+    elif "prim" in made:
+        path.write_text(_VOLUME.format(name=made["prim"]), encoding="utf-8")
+    elif "text" in made:
+        path.write_text(made["text"], encoding="utf-8")
