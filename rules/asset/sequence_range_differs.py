@@ -18,15 +18,10 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     if facts.layers.rate_is_unsaid(attribute):
         return
     if last < start or first > end:
-        shift = format_time(start - first)
         is_held = sequence.holds_last if last < start else sequence.holds_first
         effect = "one file is held throughout" if is_held else "no file is shown"
-        yield Problem(
-            f"{ranges}: {effect}",
-            at=attribute,
-            suggestion=f"if they are to begin with the stage, move them by {shift} with the layer "
-            "offset of the sublayer, reference or payload",
-        )
+        shift = f"if they are to begin with the stage, {sequence.advice_on_shift(start - first)}"
+        yield Problem(f"{ranges}: {effect}", at=attribute, suggestion=sequence.rate_at_fault((start, end)) or shift)
         return
     # A sample holds until the next would come, so every second frame covers the one after it.
     held = []
@@ -38,6 +33,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{ranges}: {' and '.join(held)}",
             at=attribute,
-            suggestion="write the frames that are missing, or correct the range of the stage",
+            suggestion=sequence.rate_at_fault((start, end))
+            or "write the frames that are missing, or correct the range of the stage",
             severity=INFO,
         )

@@ -69,6 +69,19 @@ class SampleSequence:
         """The most frequent step."""
         return self.steps[0] if self.is_even else most_frequent(self.steps)
 
+    def advice_on_shift(self, shift: float) -> str:
+        """How to move the samples, wherever they are authored."""
+        from usdvol_lint.facts.files.moving import advice_on_shift
+
+        return advice_on_shift(self.paths.attribute, self.times[0], shift)
+
+    def rate_at_fault(self, time_range: tuple[float, float]) -> str | None:
+        """The scale of a rate, in words, but for which the samples would cover a time range."""
+        from usdvol_lint.facts.files.moving import rate_at_fault
+
+        ends = (self.times[0], self.times[-1])
+        return rate_at_fault(self.paths.attribute, ends, self.step, time_range)
+
     def exists(self, sample: AssetSample, path: str) -> bool:
         """Whether there would be a file if the sample had this path."""
         folder, name = split_path(path)
