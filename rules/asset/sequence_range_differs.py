@@ -9,9 +9,14 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     if sequence is None or facts.layers.time_range is None or not sequence.is_animated:
         return
     start, end = facts.layers.time_range
+    far_off = sequence.far_off((start, end))
+    samples = "the samples"
+    if far_off:
+        samples = f"all samples but {len(sequence.times) - len(far_off.times)}"
+        sequence = far_off
     first, last = sequence.times[0], sequence.times[-1]
     ranges = (
-        f"the samples are at {format_time(first)}-{format_time(last)}, "
+        f"{samples} are at {format_time(first)}-{format_time(last)}, "
         f"the stage's range is {format_time(start)}-{format_time(end)}"
     )
     attribute = field.GetAttribute("filePath")
