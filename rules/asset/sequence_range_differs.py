@@ -9,23 +9,27 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     if sequence is None or facts.layers.time_range is None or not sequence.is_animated:
         return
     start, end = facts.layers.time_range
+    far_off = sequence.far_off((start, end))
+    samples = "the samples"
+    if far_off:
+        samples = f"all samples but {len(sequence.times) - len(far_off.times)}"
+        sequence = far_off
     first, last = sequence.times[0], sequence.times[-1]
     ranges = (
-        f"the samples are at {format_time(first)}-{format_time(last)}, "
+        f"{samples} are at {format_time(first)}-{format_time(last)}, "
         f"the stage's range is {format_time(start)}-{format_time(end)}"
     )
     attribute, alike = field.GetAttribute("filePath"), facts.files.alike(field)
     if facts.layers.rate_is_unsaid(attribute) or not alike.is_first:
         return
     if last < start or first > end:
-        shift = format_time(start - first)
         is_held = sequence.holds_last if last < start else sequence.holds_first
         effect = "one file is held throughout" if is_held else "no file is shown"
+        shift = f"if they are to begin with the stage, {sequence.advice_on_shift(start - first)}"
         yield Problem(
             f"{ranges}: {effect}{alike.others}",
             at=attribute,
-            suggestion=f"if they are to begin with the stage, move them by {shift} with the layer "
-            "offset of the sublayer, reference or payload",
+            suggestion=sequence.rate_at_fault((start, end)) or shift,
         )
         return
     # A sample holds until the next would come, so every second frame covers the one after it.
@@ -38,6 +42,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{ranges}: {' and '.join(held)}{alike.others}",
             at=attribute,
-            suggestion="write the frames that are missing, or correct the range of the stage",
+            suggestion=sequence.rate_at_fault((start, end))
+            or "write the frames that are missing, or correct the range of the stage",
             severity=INFO,
         )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import os
+from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from functools import cached_property
@@ -68,6 +70,38 @@ class SampleSequence:
     def step(self) -> float:
         """The most frequent step."""
         return self.steps[0] if self.is_even else most_frequent(self.steps)
+
+    def far_off(self, time_range: tuple[float, float]) -> SampleSequence | None:
+        """The samples outside of a time range that their frame numbers lie in, behind a long gap.
+
+        None unless those within it, at least one, name one file, and these several.
+        """
+        start, end = time_range
+        times, low, high = self.times, bisect_left(self.times, start), bisect_right(self.times, end)
+        ends = ((low, self.samples[:low]), (high, self.samples[high:]))
+        sides = [(index, samples) for index, samples in ends if samples]
+        if low == high or len(sides) != 1:
+            return None
+        index, outside = sides[0]
+        shown = {sample.path for sample in self.samples[low:high]}
+        if times[index] - times[index - 1] <= end - start or len(shown) != 1 or "" in shown:
+            return None
+        found = SampleSequence(self.paths, outside)
+        numbers = found.numbering.numbers if found.numbering else [math.nan]
+        return found if all(start <= number <= end for number in numbers) else None
+
+    def advice_on_shift(self, shift: float) -> str:
+        """How to move the samples, wherever they are authored."""
+        from usdvol_lint.facts.files.moving import advice_on_shift
+
+        return advice_on_shift(self.paths.attribute, self.times[0], shift)
+
+    def rate_at_fault(self, time_range: tuple[float, float]) -> str | None:
+        """The scale of a rate, in words, but for which the samples would cover a time range."""
+        from usdvol_lint.facts.files.moving import rate_at_fault
+
+        ends = (self.times[0], self.times[-1])
+        return rate_at_fault(self.paths.attribute, ends, self.step, time_range)
 
     def exists(self, sample: AssetSample, path: str) -> bool:
         """Whether there would be a file if the sample had this path."""
