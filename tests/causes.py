@@ -109,9 +109,12 @@ def _is_of_positions(cause: Finding, effect: Finding) -> bool:
 
 
 def _taken(finding: Finding) -> set[str | None]:
-    """What a misspelt name or another type takes from a prim."""
+    """What a misspelt name, another type or the lack of an API takes from a prim."""
     if finding.code == "SCH003":
         return {finding.site.property}
+    if finding.code == "PRT007":
+        name = finding.site.property or ""
+        return {name, name.partition(":")[0]}
     if finding.code == "SCH004":
         return set(_MEANT.findall(finding.suggestion or ""))
     effect = _EFFECT.search(finding.message) if finding.code == "PRT006" else None

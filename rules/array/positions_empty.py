@@ -9,8 +9,8 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
     late = arrays.late_positions
     if not (arrays.lack_positions or late) or facts.layers.may_lack_values(particles):
         return
-    if facts.particles.is_misspelt(particles, "positions"):
-        return  # SCH004 says it
+    if facts.particles.is_misspelt(particles, "positions") or (not late and facts.layers.hides_ours(particles)):
+        return  # SCH004 says it, or SCH012
     if late:
         filled = format_time(late.filled)
         yield Problem(

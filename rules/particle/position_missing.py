@@ -9,7 +9,8 @@ def position_missing(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
     if POSITION_BASE not in apis.applied and not facts.particles.is_told_elsewhere(particles, POSITION_BASE):
         yield Problem(
-            f"nothing gives these splats positions: the API schema for positions is not applied{apis.doubt}",
+            "nothing gives these splats positions: the API schema for positions is not applied"
+            f"{apis.unread(particles, POSITION_BASE)}{apis.doubt}",
             at=particles,
             severity=WARNING if apis.third_party else None,
             suggestion=apis.remedy(

@@ -1,10 +1,8 @@
 """SCH012: a type in a stronger layer hides a Volume, field or particle field."""
 
 from usdvol_lint.rule import ERROR, INFO, STAGE, UNKNOWN_TYPE, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
-from usdvol_lint.schema import FIELD_ASSET
+from usdvol_lint.schema import BUILT_IN_APIS, FIELD_ASSET, PARTICLE_FIELD
 from usdvol_lint.spelling import misspelt_type
-
-_GROUPS = ("Xform", "Scope")
 
 
 @rule("SCH012", on=STAGE, severity=ERROR, since="0.1")
@@ -21,15 +19,16 @@ def type_hidden(stage: Prim, facts: Facts) -> Problems:
             if not misspelt_type(type_name) and not facts.prims.encoding(prim):
                 yield NotChecked(f"{what}; this USD does not know {type_name!r}", at=prim)
             continue
-        may_stand_in = not retyped.is_field and type_name not in _GROUPS
         lost = "it is no field" if retyped.is_field else "nothing is drawn"
-        if facts.prims.is_a(prim, FIELD_ASSET):
+        if retyped.is_field and facts.prims.is_a(prim, FIELD_ASSET):
             lost = "its file is one for the hidden type"
+        elif retyped.hidden_type in BUILT_IN_APIS and facts.prims.is_a(prim, PARTICLE_FIELD):
+            lost = "the APIs that are built into it are gone"
         yield Problem(
-            what if may_stand_in else f"{what}: {lost}",
+            what if retyped.stands_in else f"{what}: {lost}",
             at=prim,
-            severity=INFO if may_stand_in else None,
-            suggestion=None if may_stand_in else _remedy(retyped.stronger),
+            severity=INFO if retyped.stands_in else None,
+            suggestion=None if retyped.stands_in else _remedy(retyped.stronger),
         )
 
 

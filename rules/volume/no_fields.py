@@ -9,6 +9,8 @@ def no_fields(volume: Prim, facts: Facts) -> Problems:
     fields = facts.volumes.bindings(volume)
     if fields.bindings or fields.undeclared or facts.layers.may_lack(volume):
         return
+    if facts.layers.hides_ours(volume):
+        return  # SCH012 says it
     unbound = facts.volumes.unbound_fields(volume)
     names = [str(field.GetPath().MakeRelativePath(volume.GetPath())) for field in unbound]
     yield Problem(

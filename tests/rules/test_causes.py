@@ -46,6 +46,8 @@ NO_API = found(
         (HALF, found("ARR001", "/Splat")),
         (NO_API, found("PRT001", "/Splat")),
         (found("PRT002", "/Splat"), NO_API),
+        (found("PRT001", "/Splat"), found("PRT007", "/Splat.positionsh")),
+        (found("PRT007", "/Splat.radiance:sphericalHarmonicsDegree"), found("PRT003", "/Splat")),
         (
             found("ARR007", "/Splat.opacities", advice="these look like logits: the sigmoid"),
             found("ARR008", "/Splat.opacities", advice="these look like the logits of a PLY file"),
@@ -79,6 +81,7 @@ def test_one_cause_is_seen(findings: tuple[Finding, Finding]) -> None:
         (MISSPELT, found("FLD001", "/cloud/density")),
         (MISSPELT, found("AST001", "/cloud/heat")),
         (NO_API, found("PRT003", "/Splat")),
+        (found("PRT001", "/Splat"), found("PRT007", "/Splat.scales")),
         (
             found("ARR007", "/Splat.opacities", advice="author 1 for inf"),
             found("ARR008", "/Splat.opacities", advice="these look like the logits of a PLY file"),

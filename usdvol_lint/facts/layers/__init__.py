@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
     from usdvol_lint.facts.layers.instancing import LostOverrides
     from usdvol_lint.facts.layers.rates import UnsaidRate
-    from usdvol_lint.facts.layers.retyping import Retyped
     from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
+    from usdvol_lint.facts.prims.retyped import Retyped
     from usdvol_lint.facts.prims.tables import Tables
     from usdvol_lint.facts.usd.arcs import Arcs, Layered
     from usdvol_lint.facts.usd.clips import Clips

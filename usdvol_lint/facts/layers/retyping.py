@@ -4,51 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from os.path import splitext
-from typing import Any, NamedTuple
+from typing import Any
 
 from usdvol_lint import schema
+from usdvol_lint.facts.prims.retyped import Retyped, retyped_ours
 from usdvol_lint.facts.usd.arcs import Layered
 from usdvol_lint.facts.usd.calls import get_type
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-from usdvol_lint.paths import display
-
-
-class Retyped(NamedTuple):
-    """A prim with a type that hides one of ours.
-
-    `hidden` is the spec with our type; `stronger` are those with another, strongest first.
-    `is_field`: whether our type is that of a field, which is not drawn itself.
-    """
-
-    prim: Any
-    hidden: Any
-    stronger: tuple[Any, ...]
-    is_field: bool
-
-    @property
-    def hidden_type(self) -> str:
-        """Our type."""
-        return str(self.hidden.typeName)
-
-    @property
-    def hidden_in(self) -> str:
-        """The layer that gives the prim our type."""
-        return display(self.hidden.layer.realPath or self.hidden.layer.identifier)
+from usdvol_lint.facts.usd.untyped import GROUP_TYPES
 
 
 def retyped_prims(layered: Iterable[Layered], kinds: PrimKinds) -> dict[Any, Retyped]:
     """By path: the prims that would be a Volume, field or particle field but for a stronger type.
 
     What USD takes a prim for counts, so a type with a fallback of ours hides nothing.  One of ours
-    hides that the prim is a field of another type, if it names a file as that one does.
+    hides that the prim is a field of another type, if it names a file as that one does, and any
+    other of ours whose data it has in vain.
     """
     found = []
     for prim, specs, _ in layered:
         type_name = get_type(prim)
         if type_name in schema.FILE_EXTENSIONS:
             found.append(_retyped_field(prim, specs, type_name))
-        elif type_name and not _is_ours(kinds, (type_name,)):
+        elif type_name and _is_ours(kinds, (type_name,)):
+            found.append(retyped_ours(prim, specs, kinds))
+        elif type_name:
             found.append(_retyped(prim, specs, kinds))
     by_path = {each.prim.GetPath(): each for each in found if each}
     return dict(sorted(by_path.items()))
@@ -59,7 +40,8 @@ def _retyped(prim: Any, specs: list[Any], kinds: PrimKinds) -> Retyped | None:
     for number, spec in enumerate(typed):
         if _is_ours(kinds, (spec.typeName,)):
             is_field = schema.FIELD in kinds.names((spec.typeName,))
-            return Retyped(prim, spec, tuple(typed[:number]), is_field)
+            stands_in = not is_field and get_type(prim) not in GROUP_TYPES
+            return Retyped(prim, spec, tuple(typed[:number]), is_field, stands_in)
     return None
 
 
@@ -69,7 +51,7 @@ def _retyped_field(prim: Any, specs: list[Any], type_name: str) -> Retyped | Non
             extension = schema.FILE_EXTENSIONS[spec.typeName]
             stronger = tuple(each for each in specs[:number] if each.typeName)
             is_meant = _names_file(prim, specs[number:], extension)
-            return Retyped(prim, spec, stronger, is_field=True) if is_meant else None
+            return Retyped(prim, spec, stronger, True, False) if is_meant else None
     return None
 
 

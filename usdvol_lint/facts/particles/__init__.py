@@ -68,11 +68,21 @@ class Particles(Wing):
         """The APIs that are not applied though attributes of theirs are authored, with these."""
         from usdvol_lint.facts.particles.apis import attributes_without_api
 
-        return attributes_without_api(prim, self.apis(prim))
+        return iter(()) if self._is_retyped(prim) else attributes_without_api(prim, self.apis(prim))
 
     def is_told_elsewhere(self, prim: Any, base: str) -> bool:
-        """Whether PRT006 or PRT009 says why a base API is missing: the name of one with it."""
-        return self.apis(prim).is_lost(base) and not self._prims.encoding(prim)
+        """Whether PRT006, PRT009 or SCH012 says why a base API is missing."""
+        is_lost = self.apis(prim).is_lost(base) and not self._prims.encoding(prim)
+        return is_lost or self._is_retyped(prim)
+
+    def _is_retyped(self, prim: Any) -> bool:
+        authored = self._prims.authored(prim)
+        if not authored.lacks_apis or not authored.is_layered:
+            return False
+        from usdvol_lint.facts.prims.retyped import retyped_ours
+
+        retyped = retyped_ours(prim, prim.GetPrimStack(), self._kinds)
+        return retyped is not None and not retyped.stands_in
 
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:

@@ -68,6 +68,17 @@ class ParticleApis(NamedTuple):
                 return f"write {intended!r} for {name!r}"
         return otherwise
 
+    def unread(self, prim: Any, base: str) -> str:
+        """What to add to a message about a missing base API: the attributes that nobody reads."""
+        names = [
+            repr(attribute.GetName())
+            for api, attributes in _without_api(prim, self)
+            if base in schema.API_INCLUDES[api]
+            for attribute in attributes
+        ]
+        verb = "is" if len(names) == 1 else "are"
+        return f", so {' and '.join(names)} {verb} not read" if names else ""
+
     @property
     def doubt(self) -> str:
         """What to add to a message about something missing: who else may provide it."""
@@ -96,7 +107,16 @@ def read_particle_apis(
 
 
 def attributes_without_api(prim: Any, apis: ParticleApis) -> Iterator[tuple[str, list[Any]]]:
-    """The attributes that are authored on a prim though no schema of it declares them, by API."""
+    """The attributes that are authored on a prim though no schema of it declares them, by API.
+
+    Left out are those of an API whose base is missing too, which PRT001 and PRT003 tell.
+    """
+    for api, attributes in _without_api(prim, apis):
+        if set(apis.applied).issuperset(schema.API_INCLUDES[api]):
+            yield api, attributes
+
+
+def _without_api(prim: Any, apis: ParticleApis) -> Iterator[tuple[str, list[Any]]]:
     declared = frozenset(prim.GetPrimDefinition().GetPropertyNames())
     for api, names in schema.API_ATTRIBUTES.items():
         if not apis.has(api):
