@@ -163,8 +163,8 @@ def test_the_range_in_words(lint_text: Lint) -> None:
     [outside] = said(lint_text(sampled(samples, header)), "AST012")
     assert outside[2:] == (
         "the samples are at 1-100, the stage's range is 1001-1100: one file is held throughout",
-        "if they are to begin with the stage, move them by 1000 with the layer offset of the "
-        "sublayer, reference or payload",
+        "if they are to begin with the stage, change their times by 1000: no layer offset moves "
+        "the stage's own layer",
     )
     inside = [(1009 + time, path) for time, path in samples[:50]]
     [held] = said(lint_text(sampled(inside, header)), "AST012")

@@ -81,7 +81,7 @@ def misnamed_sets(prim: Any) -> Iterator[tuple[str, Keys, ClipFault]]:
     if not strange:
         return
     for name in sorted(sets.keys() - set(names)):
-        meant = closest_match(name, strange, cutoff=0.75)
+        meant = closest_match(name, strange, cutoff=0.8)
         what = (
             f"is not in clipSets, which name {quoted(meant or strange[0])}, a set that is not there"
         )
