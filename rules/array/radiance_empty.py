@@ -8,10 +8,9 @@ def radiance_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     if not arrays.are_colourless or facts.particles.material_is_bound(particles):
         return
-    if facts.layers.may_lack_values(particles):
+    is_told = facts.particles.is_misspelt(particles, "radiance:sphericalHarmonicsCoefficients")  # by SCH004
+    if is_told or facts.layers.may_lack_values(particles):
         return
-    if facts.particles.is_misspelt(particles, "radiance:sphericalHarmonicsCoefficients"):
-        return  # SCH004 says it
     has_colour = particles.GetAttribute("primvars:displayColor").HasAuthoredValue()
     yield Problem(
         "no spherical harmonics coefficients at any time, so every particle is mid-grey"

@@ -2,14 +2,10 @@
 
 from usdvol_lint.rule import OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, rule
 
+_UNIFORM = When(Prims.authored, lambda authored: bool(authored.uniform))
 
-@rule(
-    "SCH006",
-    on=OURS,
-    when=When(Prims.authored, lambda authored: bool(authored.uniform)),
-    severity=WARNING,
-    since="0.1",
-)
+
+@rule("SCH006", on=OURS, when=_UNIFORM, severity=WARNING, since="0.1")
 def uniform_attribute_animated(prim: Prim, facts: Facts) -> Problems:
     for name in facts.prims.authored(prim).uniform:
         values = facts.prims.values(prim, name)
