@@ -12,7 +12,7 @@ def array_too_long(particles: Prim, facts: Facts) -> Problems:
             message = "the end of all arrays is not read"
             advice = "if the end is spare, cut it off; if positions were left out, leave the same out of all arrays"
         else:
-            message = "if some were left out of the others, every later one has those of another"
+            message = "if particles were left out of the other arrays, every later one has the values of another"
             advice = "leave the same particles out of all arrays; cut the end off only if it is spare"
         remedy = facts.particles.misfitting_default(particles, surplus.arrays[0])
         yield Problem(f"{surplus.words}: {message}", at=surplus.misfits, suggestion=remedy or advice)

@@ -16,7 +16,7 @@ def colour_space_unknown(particles: Prim, facts: Facts) -> Problems:
     elif space.similar:
         advice.append(f"did you mean {quoted(space.similar)}?")
     elif not space.is_known:
-        advice.append("name one of GfColorSpaceNames, or define it with ColorSpaceDefinitionAPI")
+        advice.append("name one that USD has, such as 'lin_rec709_scene', or define it with ColorSpaceDefinitionAPI")
     yield Problem(
         f"USD knows no colour space {quoted(space.name)}"
         if space.is_applied

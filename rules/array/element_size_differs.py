@@ -13,7 +13,7 @@ def element_size_differs(particles: Prim, facts: Facts) -> Problems:
         size = array.attribute.GetMetadata("elementSize")
         if array.attribute.HasAuthoredMetadata("elementSize") and size != each:
             yield Problem(
-                f"elementSize {size}, and degree {degree.value} takes {each:,} coefficients",
+                f"elementSize {size}, and degree {degree.value} takes {each:,} coefficient{'s' * (each != 1)}",
                 at=array.attribute,
                 suggestion=f"author elementSize = {each}, or leave it out",
             )

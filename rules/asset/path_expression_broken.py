@@ -2,6 +2,8 @@
 
 from usdvol_lint.rule import ERROR, WARNING, AssetState, Facts, Prim, Problem, Problems, file_paths, quoted, rule
 
+_ADVICE = 'correct it, as in @`"./${NAME}.vdb"`@, or write a path without backticks'
+
 
 @rule(
     "AST004",
@@ -17,6 +19,7 @@ def path_expression_broken(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"the expression {quoted(broken.first.authored)} can't be evaluated: {reason}{broken.count}",
             at=broken,
+            suggestion=_ADVICE,
         )
     for unset in paths.by_detail(AssetState.UNSET_VARIABLE):
         variables = unset.first.detail

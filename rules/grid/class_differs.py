@@ -3,6 +3,7 @@
 from usdvol_lint.rule import INFO, WARNING, Content, Facts, Prim, Problem, Problems, contents, rule
 
 _CLAIMS = ("levelSet", "fogVolume", "staggered")
+_UNSAID = "set the class of the grid where the file is written"
 
 
 def _difference(content: Content) -> tuple[str, str] | None:
@@ -22,6 +23,6 @@ def class_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"fieldClass is {claimed!r}, but grid {content.label} in {found.shown} {what}{found.count}",
             at=found,
-            suggestion=f"author fieldClass {held!r}, or correct the grid" if known else None,
+            suggestion=f"author fieldClass {held!r}, or correct the grid" if known else _UNSAID,
             severity=None if known else INFO,
         )

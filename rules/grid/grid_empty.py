@@ -14,4 +14,5 @@ def grid_empty(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"grid {quoted(label)} in {found.shown} has no active voxels{found.count}",
             at=found,
+            suggestion="leave it, if the frame is meant to be empty; otherwise look at the source of the simulation",
         )

@@ -23,7 +23,7 @@ def grid_missing(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"no grid {quoted(name)}{where} in {found.shown}, which holds {content.holds}{found.count}",
             at=found,
-            suggestion=_similar(name, content) or (_choice(name, field, found, facts) if has_grids else None),
+            suggestion=_similar(name, content) or _choice(name, has_grids, field, found, facts),
         )
 
 
@@ -40,7 +40,9 @@ def _similar(name: str, content: Content) -> str | None:
     return f"did you mean {quoted(meant)}?" if meant else None
 
 
-def _choice(name: str, field: Prim, found: Any, facts: Facts) -> str:
+def _choice(name: str, has_grids: bool, field: Prim, found: Any, facts: Facts) -> str:
+    if not has_grids:
+        return f"export it again with a grid {quoted(name)}, without voxels where there is nothing to show"
     if len(found.samples) < len(facts.files.paths(field).samples):
         return f"export a grid {quoted(name)} to these files too"
     return f"set fieldName to a grid that is there, or export a grid {quoted(name)}"

@@ -13,6 +13,6 @@ def grids_change(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{affected.shown} {changes.difference}, unlike most of the sequence{affected.count}",
             at=affected,
-            suggestion="look whether the frames come from one simulation",
+            suggestion="look at their dates: frames that are left over from another export have to be exported again",
             severity=None if changes.is_asked_for else INFO,
         )

@@ -4,7 +4,7 @@ from usdvol_lint.rule import ERROR, WARNING, Content, Facts, NotChecked, Prim, P
 
 _FAULTS = ("not-a-volume-file", "not-a-file")
 _AS_IT_IS = "make the prim an OpenVDBAsset, and end the file's name in '.vdb'"
-_CONVERTED = "convert it to OpenVDB, for an OpenVDBAsset: no reader of other files ships with OpenUSD"
+_CONVERTED = "convert it to OpenVDB, and name it with an OpenVDBAsset: OpenUSD has no reader of other files"
 
 
 def _type_of(field: Prim) -> str:

@@ -12,7 +12,8 @@ def _nonlinear(content: Content) -> str | None:
 def transform_nonlinear(field: Prim, facts: Facts) -> Problems:
     for label, _, found in facts.grids.contents(field).grouped(_nonlinear):
         yield Problem(
-            f"grid {quoted(label)} in {found.shown} has a frustum for its transform{found.count}",
+            f"grid {quoted(label)} in {found.shown} "
+            f"has a frustum for its transform, and Storm draws it as if it had none{found.count}",
             at=found,
             suggestion="resample it to a grid with a linear transform",
         )

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 from usdvol_lint.rule import WARNING, Content, ContentClass, Facts, Grids, Prim, Problem, Problems, When, rule
 
+_NEWER = "write it again with the version of the library that your renderers have"
+_OLDER = "open it with the program that wrote it, and write it again with a newer one"
+
 
 @dataclass(frozen=True)
 class _Unsupported:
@@ -35,9 +38,9 @@ def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> boo
 @rule("GRD010", on="FieldAsset", when=When(Grids.content_classes, _some_are_unsupported), severity=WARNING, since="0.1")
 def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
     unsupported = _Unsupported(newest)
-    for _, content, found in facts.grids.contents(field).grouped(unsupported):
+    for (_, is_newer), content, found in facts.grids.contents(field).grouped(unsupported):
         yield Problem(
             f"{found.shown}: {unsupported.reason(content)}{found.count}",
             at=found,
-            suggestion="write it again with another version of the library",
+            suggestion=_NEWER if is_newer else _OLDER,
         )

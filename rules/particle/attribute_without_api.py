@@ -9,7 +9,7 @@ def attribute_without_api(particles: Prim, facts: Facts) -> Problems:
     for api, attributes in facts.particles.without_api(particles):
         names = ", ".join(repr(attribute.GetName()) for attribute in attributes)
         yield Problem(
-            f"{names} without {api!r}{apis.doubt}",
+            f"{names} {'is' if len(attributes) == 1 else 'are'} not read: {api!r} is not applied{apis.doubt}",
             at=attributes[0],
             severity=INFO if apis.third_party else None,
             suggestion=f"apply {api}",

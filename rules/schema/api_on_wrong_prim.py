@@ -13,7 +13,7 @@ def api_on_wrong_prim(prim: Prim, facts: Facts) -> Problems:
     names = ", ".join(repr(api) for api in facts.particles.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS)
     if not facts.prims.is_a(prim, UNKNOWN_TYPE):
         yield Problem(
-            f"{names} on {type_name!r}" if type_name else f"{names} on a prim without a type",
+            f"{names} on {repr(type_name) if type_name else 'a prim without a type'}, so no particles are drawn",
             at=prim,
             suggestion="make the type ParticleField or ParticleField3DGaussianSplat",
         )

@@ -8,7 +8,7 @@ def nested_gprim(prim: Prim, facts: Facts) -> Problems:
     above = facts.prims.gprim_above(prim)
     if above:
         yield Problem(
-            f"{prim.GetTypeName()} below {_named(above, facts)}, which is a Gprim too",
+            f"{prim.GetTypeName()} below {_named(above, facts)}, which is a Gprim too, and Gprims do not nest",
             at=prim,
             suggestion="move it beside that prim, below a common Xform",
         )
@@ -16,7 +16,7 @@ def nested_gprim(prim: Prim, facts: Facts) -> Problems:
         held = "" if gprim == place else f", which holds {_named(gprim, facts)},"
         what = gprim.GetTypeName() if gprim == place else "an instance"
         yield Problem(
-            f"{what}{held} below {_named(prim, facts)}, which is a Gprim too",
+            f"{what}{held} below {_named(prim, facts)}, which is a Gprim too, and Gprims do not nest",
             at=place,
             spec=None if gprim == place else place.GetPrimStack()[0],
             suggestion=f"move it beside the {prim.GetTypeName()}, below a common Xform",

@@ -30,4 +30,5 @@ def _of_prim(prim: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{name!r} is not finite: {next(iter(values))}{values.count}",
             at=values,
+            suggestion="author finite numbers, or export it again",
         )

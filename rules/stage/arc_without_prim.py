@@ -32,16 +32,16 @@ def _said(empty: Any) -> str:
     return f"the {empty.arc} names no prim and brings nothing: {layer} has no defaultPrim"
 
 
-def _advice(empty: Any) -> str | None:
+def _advice(empty: Any) -> str:
     if empty.target:
-        return f"did you mean <{empty.similar}>?" if empty.similar else None
+        return f"did you mean <{empty.similar}>?" if empty.similar else "name a prim that is there, or define this one"
     if empty.similar:
         name = empty.similar if empty.similar.count("/") > 1 else empty.similar[1:]
         return f"did you mean 'defaultPrim = \"{name}\"'?"
     if len(empty.roots) == 1:
         return f"write 'defaultPrim = \"{empty.roots[0]}\"' into the metadata of that layer"
     if not empty.roots:
-        return None
+        return "export that layer again: it has no prims"
     more = ", …" if len(empty.roots) > _NAMED else ""
     named = ", ".join(f"</{name}>" for name in empty.roots[:_NAMED])
     return f"name the prim, one of {named}{more}, or write a defaultPrim into that layer"

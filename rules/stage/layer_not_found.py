@@ -19,7 +19,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
         scheme = missing.file_scheme
         if missing.is_schema or (missing.is_uri and not scheme):
             who = "resolver here answers for" if missing.is_uri else "search path here leads to"
-            said = f"no {who} {layer}, what it holds was not checked{where}"
+            said = f"no {who} {layer}; what it holds was not checked{where}"
             yield NotChecked(said, at=missing.prim, spec=missing.spec, asset=missing.asset)
             continue
         reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"
@@ -40,7 +40,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
     if unloaded:
         more = ", …" if len(unloaded) > _NAMED else ""
         yield NotChecked(
-            f"{len(unloaded)} payload{'s' * (len(unloaded) > 1)} not loaded, what is below was not "
+            f"{len(unloaded)} payload{'s' * (len(unloaded) > 1)} not loaded; what is below was not "
             f"checked: {', '.join(unloaded[:_NAMED])}{more}",
             at=root,
         )

@@ -11,7 +11,7 @@ def target_missing(volume: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>, and there is no such prim",
             at=binding.property,
-            suggestion=f"did you mean <{meant}>?" if meant else None,
+            suggestion=f"did you mean <{meant}>?" if meant else "target a field that is there, or remove it",
             absent=[lacks(volume, binding.property.GetName())],
         )
     for binding, target in bindings.with_target(TargetState.UNLOADED):

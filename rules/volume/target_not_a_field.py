@@ -18,7 +18,7 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
             continue
         type_name = target.type_name
         meant = facts.volumes.intended_field(binding)
-        advice = None if type_name else "give it a type, such as 'OpenVDBAsset'"
+        advice = "target a field, such as an OpenVDBAsset" if type_name else "give it a type, such as 'OpenVDBAsset'"
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>, which "
             + (f"is of type {type_name!r}, not a field" if type_name else "has no type"),

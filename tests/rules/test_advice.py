@@ -106,7 +106,7 @@ def test_advice_for_scales(scales: str, level: str, advice: str, lint_text: Lint
             "ARR016",
             ('uniform token colorSpace:name = "house"',),
             "USD does not read the colour space 'house'",
-            "name one of GfColorSpaceNames",
+            "name one that USD has, such as 'lin_rec709_scene'",
         ),
         (
             "ARR012",

@@ -45,12 +45,14 @@ CASES = [
         "rel field:density = </cloud/x>",
         "",
         "'field:density' targets </cloud/x>, and there is no such prim",
+        "target a field that is there, or remove it",
     ),
     Case(
         "VOL002 error",
         "rel field:density = </scope>",
         "",
         "'field:density' targets </scope>, which is of type 'Scope', not a field",
+        "target a field, such as an OpenVDBAsset",
         before='def Scope "scope"\n{\n}\n',
     ),
     Case(

@@ -38,7 +38,14 @@ def Volume "cloud"
 
 
 CASES: list[Case] = [
-    ("grids/no_grids.vdb", "density", (FLOAT,), "GRD003", "which holds no grids", ""),
+    (
+        "grids/no_grids.vdb",
+        "density",
+        (FLOAT,),
+        "GRD003",
+        "which holds no grids",
+        "export it again with a grid 'density', without",
+    ),
     ("cloud.vdb", "densty", (FLOAT,), "GRD003", "'density', 'temperature'", "did you mean 'dens"),
     (
         "cloud.vdb",
@@ -105,7 +112,14 @@ CASES: list[Case] = [
         "holds ptdataidx32",
         "remove it: no fieldDataType stands for ptdataidx32",
     ),
-    ("grids/unclassed.vdb", "density", (FLOAT, FOG), "GRD006", "does not say its class", ""),
+    (
+        "grids/unclassed.vdb",
+        "density",
+        (FLOAT, FOG),
+        "GRD006",
+        "does not say its class",
+        "set the class",
+    ),
     (
         "grids/level_set.vdb",
         "density",
@@ -115,7 +129,14 @@ CASES: list[Case] = [
         "author fieldClass 'levelSet', or correct the grid",
     ),
     ("grids/text.vdb", "density", (FLOAT,), "GRD001", "is not a volume file: its first", "copy it"),
-    ("grids/broken.vdb", "density", (FLOAT,), "GRD001", "is broken: grid", "write or copy it"),
+    (
+        "grids/broken.vdb",
+        "density",
+        (FLOAT,),
+        "GRD001",
+        "is broken: the offsets",
+        "write or copy it",
+    ),
     ("grids/nanovdb.vdb", "density", (FLOAT,), "GRD001", "NanoVDB file, which some", "convert it"),
     ("odd.vdb", "density", (FLOAT,), "GRD001", "is a Field3D file, but", "convert it"),
     (
@@ -134,8 +155,22 @@ CASES: list[Case] = [
         "holds grids named 'v' in 'cloud', 'smoke'",
         "author the fieldPurpose that is meant",
     ),
-    ("grids/version_226.vdb", "density", (FLOAT,), "GRD010", "226 is newer than 225", "write it"),
-    ("grids/version_221.vdb", "density", (FLOAT,), "GRD010", "221 is older than 222", "write it"),
+    (
+        "grids/version_226.vdb",
+        "density",
+        (FLOAT,),
+        "GRD010",
+        "226 is newer than 225",
+        "write it again with the",
+    ),
+    (
+        "grids/version_221.vdb",
+        "density",
+        (FLOAT,),
+        "GRD010",
+        "221 is older than 222",
+        "open it with",
+    ),
     (
         "grids/truncated.vdb",
         "density",

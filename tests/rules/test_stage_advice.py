@@ -166,9 +166,9 @@ def test_stages(
 @pytest.mark.parametrize(
     ("count", "words"),
     [
-        (1, "1 payload not loaded, what is below was not checked: /a"),
-        (3, "3 payloads not loaded, what is below was not checked: /a, /b, /c"),
-        (4, "4 payloads not loaded, what is below was not checked: /a, /b, /c, …"),
+        (1, "1 payload not loaded; what is below was not checked: /a"),
+        (3, "3 payloads not loaded; what is below was not checked: /a, /b, /c"),
+        (4, "4 payloads not loaded; what is below was not checked: /a, /b, /c, …"),
     ],
 )
 def test_payloads_that_are_not_loaded(

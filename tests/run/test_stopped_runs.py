@@ -18,8 +18,11 @@ from process import ROOT, Ran, environment, run, volume, write
         ({"a": "import gone"}, r".*a\.py: ModuleNotFoundError: No module named 'gone'"),
         ({"a": "raise ValueError('two\\nlines')"}, r".*a\.py: ValueError: two lines"),
         ({"a": "import sys; sys.exit()"}, r".*a\.py: SystemExit:"),
-        ({"a": "x = 1", "_b": "import gone"}, r"rule pack '.*' holds no rule"),
-        ({}, r"rule pack '.*' holds no rule"),
+        (
+            {"a": "x = 1", "_b": "import gone"},
+            r"rule pack '.*' holds no rule: no module in it has a function with @rule",
+        ),
+        ({}, r"rule pack '.*' holds no rule: no module in it has a function with @rule"),
         (
             {"a": RULE.format(code="ABC01", name="a")},
             r"rule pack '.*': a code is three capitals and three digits, not 'ABC01' \(a\)",

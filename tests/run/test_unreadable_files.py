@@ -19,6 +19,8 @@ KINDS = "USD files end in .usd, .usda, .usdc, .usdz"
 KNOWN_TO_REFUSE_OLD = (0, 26, 11)
 """A version of USD that says of a crate that it is too old; 24.11 takes one for corrupt."""
 AGAIN = "copy or export it again"
+CORRECT = "correct the text there, or export the layer again"
+GONE = "correct the path: a pattern that matches nothing stays as it is"
 NO_DIRECTORY = (
     "a truncated or corrupt package: the directory of its files, which ends it, is missing"
 )
@@ -41,7 +43,7 @@ TEXTS = {
 }
 TEXT_TROUBLES = {
     "fog.usda": (GOOD, 2, 1, None),
-    "garbage.usda": ("not a USD file: it begins with b'garbage\\n'", None, None, None),
+    "garbage.usda": ("not a USD file: it begins with b'garbage\\n'", None, None, AGAIN),
     "empty.usda": ("an empty file (0 bytes)", None, None, "export it again"),
     "pointer.usdc": ("a Git-LFS pointer, not the file itself", None, None, "run `git lfs pull`"),
     "mark.usda": (
@@ -54,17 +56,17 @@ TEXT_TROUBLES = {
     "text.usdz": ("USD text under the name of a .usdz", None, None, "rename it to .usda or .usd"),
     "text.txt": ("unsupported file type '.txt'", None, None, KINDS),
     "no_extension": ("a file name without an extension", None, None, KINDS),
-    "bracket.usda": ("parse error: unexpected '}' in </a.extent>", 4, 32, None),
+    "bracket.usda": ("parse error: unexpected '}' in </a.extent>", 4, 32, CORRECT),
     "word.usda": (
         "parse error: Error parsing simple value: Failed to parse value "
         "(at sub-part 0 if there are multiple parts) at 'x' in </a.b>",
         4,
         16,
-        None,
+        CORRECT,
     ),
-    "twice.usda": ("parse error: Duplicate prim 'a' at '\"a\"' in </a>", 5, 5, None),
-    "cut.usda": ("parse error: Expected } at '' in </a>", 4, 1, None),
-    "zeros.usda": (f"not a USD file: it begins with {bytes(12)!r}", None, None, None),
+    "twice.usda": ("parse error: Duplicate prim 'a' at '\"a\"' in </a>", 5, 5, CORRECT),
+    "cut.usda": ("parse error: Expected } at '' in </a>", 4, 1, CORRECT),
+    "zeros.usda": (f"not a USD file: it begins with {bytes(12)!r}", None, None, AGAIN),
 }
 
 
@@ -77,8 +79,8 @@ def test_files_that_are_no_stages(tmp_path: Path) -> None:
     assert (ran.code, ran.err) == (2, "")
     assert troubles(ran) == {
         **TEXT_TROUBLES,
-        "gone.usda": ("no such file or folder", None, None, None),
-        "gone": ("no such file or folder", None, None, None),
+        "gone.usda": ("no such file or folder", None, None, GONE),
+        "gone": ("no such file or folder", None, None, GONE),
         "nothing_inside": ("a folder that holds no USD file", None, None, KINDS),
     }
     expected = dict.fromkeys([*TEXTS, "gone.usda", "gone", "nothing_inside"], "unreadable")
@@ -91,7 +93,7 @@ def test_bytes_that_are_no_text(tmp_path: Path) -> None:
     ran = run(*STUDIO_ONLY, ".", cwd=tmp_path)
     assert troubles(ran) == {
         "fog.usda": (GOOD, 2, 1, None),
-        "latin.usda": (r"parse error: unexpected '\xff\xfe@' in </a.b>", 4, 16, None),
+        "latin.usda": (r"parse error: unexpected '\xff\xfe@' in </a.b>", 4, 16, CORRECT),
     }
 
 

@@ -32,7 +32,7 @@ def test_links(tmp_path: Path) -> None:
             "a symbolic link to 'gone.usda', which does not exist",
             None,
             None,
-            None,
+            "restore that file, or remove the link",
         ),
     }
 
@@ -64,7 +64,7 @@ def test_pipes(tmp_path: Path) -> None:
             "a large stage or a slow disk needs more: raise --timeout, or look at less with "
             "--content first --times ends; a pipe or a corrupt layer never ends",
         ),
-        "pipe.usda": ("not a regular file (a pipe, socket or device)", None, None, None),
+        "pipe.usda": ("not a regular file (a pipe, socket or device)", None, None, "name a file"),
         "zzz.usda": (GOOD, 2, 1, None),
     }
 

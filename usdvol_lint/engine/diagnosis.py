@@ -64,10 +64,16 @@ def _status(path: str) -> os.stat_result:
     try:
         return os.stat(path)
     except FileNotFoundError:
-        trouble = Trouble("no such file or folder")
+        trouble = Trouble(
+            "no such file or folder",
+            "correct the path: a pattern that matches nothing stays as it is",
+        )
         if os.path.islink(path):
             target = quoted(os.readlink(path))
-            trouble = Trouble(f"a symbolic link to {target}, which does not exist")
+            trouble = Trouble(
+                f"a symbolic link to {target}, which does not exist",
+                "restore that file, or remove the link",
+            )
         raise UnreadableStageError(trouble) from None
     except OSError as error:
         raise UnreadableStageError(_denied(error)) from error
@@ -85,7 +91,7 @@ def _trouble_with_kind(path: str, mode: int) -> Trouble | None:
             return _denied(error)
         return Trouble("a folder that holds no USD file", f"USD files end in {_suffixes()}")
     if not stat.S_ISREG(mode):
-        return Trouble("not a regular file (a pipe, socket or device)")
+        return Trouble("not a regular file (a pipe, socket or device)", "name a file")
     return None
 
 
@@ -123,7 +129,7 @@ def _trouble_with_format(head: bytes, suffix: str) -> Trouble | None:
                 return None
             names = " or ".join(suffixes)
             return Trouble(f"{what} under the name of a {suffix}", f"rename it to {names}")
-    return Trouble(f"not a USD file: it begins with {head[:12]!r}")
+    return Trouble(f"not a USD file: it begins with {head[:12]!r}", EXPORT_AGAIN)
 
 
 def _trouble_with_crate(head: bytes, size: int) -> Trouble | None:

@@ -39,7 +39,7 @@ def open_stage(path: str, load: str, session: Any | None = None) -> Any:
         raise UnreadableStageError(
             Trouble("a package in which USD finds no layer to open", "package it again")
             if head.startswith(ZIP_SIGNATURE)
-            else Trouble("USD can't open this layer and does not say why")
+            else Trouble("USD can't open this layer and does not say why", EXPORT_AGAIN)
         )
     return stage
 
@@ -71,6 +71,7 @@ def _explain(path: str, errors: list[str], head: bytes) -> Trouble:
         layer = located["path"]
         return Trouble(
             f"parse error: {located['what']}"[:_LONGEST_MESSAGE],
+            "correct the text there, or export the layer again",
             layer=None if os.path.abspath(path) == layer else layer,
             line=int(located["line"]),
             column=int(located["column"]) if located["column"] else None,

@@ -110,7 +110,9 @@ def import_rules(package: str, folder: str) -> list[Rule]:
             module = _import(name, path)
             rules += [value for value in vars(module).values() if isinstance(value, Rule)]
     if not rules:
-        raise PackError(f"rule pack {folder!r} holds no rule")
+        raise PackError(
+            f"rule pack {folder!r} holds no rule: no module in it has a function with @rule"
+        )
     for rule in rules:
         if not _CODE.fullmatch(rule.code):
             raise PackError(

@@ -181,7 +181,8 @@ class _Reader:
         section_end = end if is_instance else blocks
         if not window.position <= grid_start <= section_end <= end:
             name = quoted_short(full_name.partition(_SUFFIX_MARK)[0])
-            message = f"grid {name} has offsets {grid_start}, {blocks}, {end}"
+            offsets = f"{grid_start}, {blocks}, {end}"
+            message = f"the offsets of grid {name}, {offsets}, do not follow each other"
             raise invalid(message, at)
         window.position = grid_start
         window.limit = min(section_end, window.size)

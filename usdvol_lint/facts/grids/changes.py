@@ -78,7 +78,7 @@ def _difference(grids: Mapping[str, tuple[str, ...]], usual: Mapping[str, tuple[
         if grids[name] != usual[name]
     )
     words = [f"lacks {_listed(lacking)}" if lacking else "", *retyped]
-    words.append(f"has {_listed(added)} beside" if added else "")
+    words.append(f"also has {_listed(added)}" if added else "")
     return ", ".join(filter(None, words))
 
 
