@@ -6,11 +6,9 @@ from usdvol_lint.schema import FIELD_NAMESPACE
 
 @rule("VOL010", on="Volume", when=bindings(BindingMark.NONE), severity=WARNING, since="0.1")
 def no_fields(volume: Prim, facts: Facts) -> Problems:
-    fields = facts.volumes.bindings(volume)
-    if fields.bindings or fields.undeclared or facts.layers.may_lack(volume):
+    fields, layers = facts.volumes.bindings(volume), facts.layers
+    if fields.bindings or fields.undeclared or layers.may_lack(volume) or layers.hides_ours(volume):
         return
-    if facts.layers.hides_ours(volume):
-        return  # SCH012 says it
     unbound = facts.volumes.unbound_fields(volume)
     names = [str(field.GetPath().MakeRelativePath(volume.GetPath())) for field in unbound]
     yield Problem(
