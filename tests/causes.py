@@ -57,6 +57,9 @@ OF_ONE_FILE = {
 }
 """Codes about files, which are found once where several fields of a prim name one."""
 
+LOST_APIS = {"PRT006", "PRT009", "PRT010"}
+"""Codes about APIs that are not applied, whose messages say what nothing gives a prim."""
+
 _MEANT = re.compile(r"did you mean '([^']+)'")
 _EFFECT = re.compile(r", so nothing gives these splats (.*)")
 _RAW = re.compile(r"these look like (?:the )?(logits|logarithms)")
@@ -117,7 +120,7 @@ def _taken(finding: Finding) -> set[str | None]:
         return {name, name.partition(":")[0]}
     if finding.code == "SCH004":
         return set(_MEANT.findall(finding.suggestion or ""))
-    effect = _EFFECT.search(finding.message) if finding.code == "PRT006" else None
+    effect = _EFFECT.search(finding.message) if finding.code in LOST_APIS else None
     return set(effect[1].split(" or ")) if effect else set()
 
 

@@ -92,7 +92,10 @@ _VERSION = re.compile(r"(.*?)_?v?[0-9]+")
 
 def misspelt_type(name: str) -> str | None:
     """The type of UsdVol that an unregistered type name is probably a misspelling of."""
-    return PRE_STANDARD_TYPES.get(name) or closest_name(name, CONCRETE_TYPES)
+    near = PRE_STANDARD_TYPES.get(name) or closest_name(name, CONCRETE_TYPES)
+    return near or next(
+        (other for other in sorted(CONCRETE_TYPES) if _is_one_slip(name, other)), None
+    )
 
 
 def is_slip(name: str, meant: str) -> bool:
@@ -176,6 +179,10 @@ def closest_name(
     digits = _digits(name)
     comparable = (other for other in sorted(candidates) if digits in ("", _digits(other)))
     return closest_match(name, comparable, cutoff, _fold)
+
+
+def _is_one_slip(name: str, other: str) -> bool:
+    return is_one_slip_from(name.lower(), other.lower())
 
 
 def _letters_apart(one: str, other: str) -> int:

@@ -6,9 +6,8 @@ from usdvol_lint.schema import FIELD_NAMESPACE
 
 @rule("VOL010", on="Volume", when=bindings(BindingMark.NONE), severity=WARNING, since="0.1")
 def no_fields(volume: Prim, facts: Facts) -> Problems:
-    fields = facts.volumes.bindings(volume)
-    is_told = facts.layers.hides_ours(volume)  # by SCH012
-    if fields.bindings or fields.undeclared or is_told or facts.layers.may_lack(volume):
+    fields, layers = facts.volumes.bindings(volume), facts.layers
+    if fields.bindings or fields.undeclared or layers.may_lack(volume) or layers.hides_ours(volume):
         return
     unbound = facts.volumes.unbound_fields(volume)
     names = [str(field.GetPath().MakeRelativePath(volume.GetPath())) for field in unbound]

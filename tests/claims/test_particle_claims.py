@@ -71,6 +71,30 @@ def test_PRT009_a_list_with_a_name_twice_is_dropped_without_a_word(how: str) -> 
     assert said == []
 
 
+@pytest.mark.parametrize(
+    ("edit", "is_kept"),
+    [
+        ('apiSchemas = ["MaterialBindingAPI"]', False),
+        ('delete apiSchemas = ["ParticleFieldPositionAttributeAPI"]', False),
+        ('prepend apiSchemas = ["MaterialBindingAPI"]', True),
+    ],
+)
+def test_PRT010_a_stronger_list_takes_an_api_away_without_a_word(edit: str, is_kept: bool) -> None:
+    api = "ParticleFieldPositionAttributeAPI"
+    text = f'def "s" (\n    references = @weak@</splats>\n    {edit}\n)\n{{\n}}\n'
+    with Said() as said:
+        found = stage(text, weak=applied(api)).GetPrimAtPath("/s")
+        assert found.GetTypeName() == "ParticleField"
+        assert (api in found.GetAppliedSchemas()) is is_kept
+    assert said == []
+
+
+def test_PRT010_no_list_takes_away_what_a_type_has_built_in() -> None:
+    api = "ParticleFieldPositionAttributeAPI"
+    text = 'def ParticleField3DGaussianSplat "s" (delete apiSchemas = ["%s"])\n{\n}\n'
+    assert api in stage(text % api).GetPrimAtPath("/s").GetAppliedSchemas()
+
+
 def test_PRT009_python_adds_no_name_twice() -> None:
     asked = stage('def ParticleField "splats"\n{\n}\n').GetPrimAtPath("/splats")
     for _ in range(2):

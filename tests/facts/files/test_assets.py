@@ -287,7 +287,7 @@ def test_expressions_in_a_usd_that_forgets_them(
         ),
         '`"./${TAKE.vdb"`': (
             "AST004 the expression '`\"./${TAKE.vdb\"`' can't be evaluated: missing ending '}' at "
-            "character 10 -> correct it, as in @`\"./${NAME}.vdb\"`@, or write a path without "
+            'character 10 -> correct it, as in @`"./${NAME}.vdb"`@, or write a path without '
             "backticks"
         ),
         '`if(defined("NOPE"), "./${NOPE}.vdb", "./clod.vdb")`': (

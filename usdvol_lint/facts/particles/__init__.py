@@ -56,7 +56,8 @@ class Particles(Wing):
         """The applied APIs of a prim, those that are not registered too."""
         from usdvol_lint.facts.particles.apis import read_particle_apis
 
-        return read_particle_apis(prim, self._kinds, self._prims.dropped_lists(prim))
+        lacks = self._prims.authored(prim).lacks_apis
+        return read_particle_apis(prim, self._kinds, self._prims.dropped_lists(prim), lacks)
 
     def loss(self, prim: Any, names: Iterable[str]) -> Loss:
         """What a prim lacks because APIs of these names are not applied."""
@@ -71,7 +72,7 @@ class Particles(Wing):
         return iter(()) if self._is_retyped(prim) else attributes_without_api(prim, self.apis(prim))
 
     def is_told_elsewhere(self, prim: Any, base: str) -> bool:
-        """Whether PRT006, PRT009 or SCH012 says why a base API is missing."""
+        """Whether PRT006, PRT009, PRT010 or SCH012 says why a base API is missing."""
         is_lost = self.apis(prim).is_lost(base) and not self._prims.encoding(prim)
         return is_lost or self._is_retyped(prim)
 

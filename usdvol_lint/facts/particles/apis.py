@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from pxr import Usd
 
 from usdvol_lint import schema, spelling
+from usdvol_lint.facts.particles.removed import RemovedApis, removed_apis
 from usdvol_lint.facts.usd.dropped import DroppedList
 from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
@@ -26,6 +27,7 @@ class ParticleApis(NamedTuple):
     this USD ignores them, another installation may know them.
     `misspelt` maps other names that are not registered to the API that was probably intended.
     `dropped` are the lists that USD does not have since a name stands in one twice.
+    `removed` are those that a stronger spec takes away, though the prim needs them.
     `built_in_type` says that the prim type is UsdVol's own, so that its APIs are all known.
     """
 
@@ -34,15 +36,17 @@ class ParticleApis(NamedTuple):
     misspelt: dict[str, str]
     built_in_type: bool
     dropped: tuple[DroppedList, ...] = ()
+    removed: tuple[RemovedApis, ...] = ()
 
     def has(self, api: str) -> bool:
-        """Whether the API is applied, or would be with every name spelt right and given once."""
+        """Whether the API is applied, or would be were each name right, given once and kept."""
         return api in self.applied or api in schema.expand_apis(self._intended)
 
     @property
     def _intended(self) -> tuple[str, ...]:
-        listed = (name for dropped in self.dropped for name in dropped.names)
-        return (*self.misspelt.values(), *listed)
+        dropped = (name for each in self.dropped for name in each.names)
+        removed = (name for each in self.removed for name in each.names)
+        return (*self.misspelt.values(), *dropped, *removed)
 
     def providers(self, base: str) -> tuple[str, ...]:
         """The applied APIs that include a base API and that no other such API includes."""
@@ -51,7 +55,7 @@ class ParticleApis(NamedTuple):
         return tuple(api for api in providers if api not in included)
 
     def is_lost(self, base: str) -> bool:
-        """Whether a base API is missing because a name that includes it is misspelt or dropped."""
+        """Whether a base API is missing because a name that includes it is misspelt or lost."""
         return base in self.lost_with(self._intended)
 
     def lost_with(self, names: Iterable[str]) -> tuple[str, ...]:
@@ -87,7 +91,7 @@ class ParticleApis(NamedTuple):
 
 
 def read_particle_apis(
-    prim: Any, kinds: PrimKinds, dropped: tuple[DroppedList, ...]
+    prim: Any, kinds: PrimKinds, dropped: tuple[DroppedList, ...], lacks_apis: bool
 ) -> ParticleApis:
     """Reads the applied schemas, those that are not registered too."""
     applied = tuple(dict.fromkeys(kinds.applied(prim)))
@@ -103,6 +107,7 @@ def read_particle_apis(
         misspelt={name: api for name, api in intended.items() if api},
         built_in_type=prim.GetTypeName() in schema.CONCRETE_TYPES,
         dropped=dropped,
+        removed=removed_apis(prim, applied) if lacks_apis else (),
     )
 
 
