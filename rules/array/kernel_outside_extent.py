@@ -14,9 +14,8 @@ def kernel_outside_extent(particles: Prim, facts: Facts, *, share: float = 0.1, 
         return  # ARR013 says it
     extent, fitting = found.shown
     yield Problem(
-        f"{found.reach.outside:,} of {found.reach.total:,} kernels "
-        f"reach{'es' * (found.reach.outside == 1)} out of the extent, {extent}, by up to "
-        f"{found.overhang:.3g}{found.count}",
+        f"{found.reach.outside:,} of {found.reach.total:,} kernels reach{'es' * (found.reach.outside == 1)} out of "
+        f"the extent, {extent}, by up to {found.overhang:.3g}{found.count}",
         at=particles.GetAttribute("extent"),
         suggestion=f"author at least {fitting}",
     )

@@ -7,9 +7,8 @@ _CLAIMS = ("Point", "Normal", "Vector", "Color")
 
 def _difference(content: Content) -> tuple[str, str] | None:
     claimed, fitting, grid = content.claim.role_hint, content.role_hints, content.grid
-    if claimed not in _CLAIMS or not fitting or claimed in fitting or grid is None:
-        return None
-    return claimed, grid.vector_type
+    is_told = claimed in _CLAIMS and fitting and claimed not in fitting
+    return (claimed, grid.vector_type) if is_told and grid else None
 
 
 @rule("GRD007", on="FieldAsset", when=contents(_difference), severity=WARNING, since="0.1")
