@@ -282,12 +282,12 @@ def test_names_and_codes_are_taken_once(catalog: Catalog) -> None:
 @pytest.mark.parametrize(
     "path", sorted((ROOT / "tests" / "claims").glob("test_*.py")), ids=lambda path: path.stem
 )
-def test_claims_are_those_of_pages(path: Path, built_in: dict[str, Rule]) -> None:
+def test_claims_are_those_of_pages(path: Path, catalog: Catalog) -> None:
     """A test of a claim names the page that makes it, and stands with those of its family."""
     family = path.stem.removeprefix("test_").removesuffix("_claims")
     names = [node.name for node in tree(path).body if isinstance(node, ast.FunctionDef)]
     for name in (name for name in names if name.startswith("test")):
         code = name.split("_")[1]
-        assert code in built_in, f"{name} names no rule"
-        home = Path(inspect.getsourcefile(built_in[code].check) or "")
-        assert home.parent.name == family, f"{name} is in another family's module"
+        page = catalog.page(code) if code in catalog.rules else None
+        assert page, f"{name} names no page"
+        assert page.path.parent.name == family, f"{name} is in another family's module"
