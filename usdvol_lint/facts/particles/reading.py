@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable, Collection, Mapping, Sequence
+from math import inf, nextafter
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from pxr import Usd, Vt
@@ -91,11 +92,23 @@ def _read_array(
         value = attribute.Get() if time is None else get(time)
         if time is None and value is None and own:
             continue
+        if time is not None and not value:
+            time, value = _as_rounded(get, time, value)
         if value is not None and not isinstance(value, wanted):
             return None
         size = 0 if value is None else len(value)
         samples.append(ArraySample(time, size, is_blocked=value is None))
     return ParticleArray(attribute, tuple(samples), len(times), with_counts, advance)
+
+
+def _as_rounded(get: Callable[[float], Any], time: float, value: Any) -> tuple[float, Any]:
+    """A sample without elements; or, where a layer's scale rounds the time down, the one meant.
+
+    At a time that is a little less in its layer, USD gives the sample before.
+    """
+    after = nextafter(time, inf)
+    meant = get(after)
+    return (after, meant) if meant else (time, value)
 
 
 def _pair(name: str, arrays: Mapping[str, ParticleArray | None]) -> Pair:
