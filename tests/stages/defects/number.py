@@ -40,6 +40,7 @@ def exp_of_exp(subject: ParticleSubject, rng: Random) -> None:
         values[:] = [tuple(number / 4 for number in place) for place in values]
     for values in subject.lists("scales"):
         values[:] = [tuple(exp(exp(rng.uniform(-6, -2.5))) for _ in range(3)) for _ in values]
+        values[0] = (exp(exp(-2)),) * 3  # one is always far from the others
 
 
 @on_particles("ARR019", needs=_ALL)
