@@ -17,6 +17,12 @@ def test_ARR004_a_degree_that_nobody_authored_is_3() -> None:
 
 
 @with_particles
+def test_ARR017_the_api_of_coefficients_is_built_in() -> None:
+    applied = stage(SPLATS % "").GetPrimAtPath("/splats").GetAppliedSchemas()
+    assert "ParticleFieldSphericalHarmonicsAttributeAPI" in applied
+
+
+@with_particles
 def test_ARR013_no_plugin_computes_the_extent() -> None:
     assert bounds(stage(SPLATS % "point3f[] positions = [(1, 2, 3)]"), "/splats").IsEmpty()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -56,6 +57,40 @@ def test_AST012_nothing_is_held_after_a_block() -> None:
     path = path_of(stage(FIELD % ".timeSamples = {1: @a.vdb@, 2: None}"))
     assert path.Get(1).path == "a.vdb"
     assert path.Get(9) in (None, Sdf.ValueBlock())
+
+
+def test_AST007_an_absolute_path_stands_as_it_is(tmp_path: Path) -> None:
+    (tmp_path / "a.vdb").write_bytes(b"")
+    found = path_of(stage(FIELD % f" = @{(tmp_path / 'a.vdb').as_posix()}@")).Get()
+    assert Path(found.resolvedPath) == tmp_path / "a.vdb"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the page tells what Linux does")
+@pytest.mark.parametrize("path", ["./A.vdb", "./Sub/a.vdb"])
+def test_AST009_another_case_is_missing_without_a_word(tmp_path: Path, path: str) -> None:
+    (tmp_path / "sub").mkdir()
+    for folder in (tmp_path, tmp_path / "sub"):
+        (folder / "a.vdb").write_bytes(b"")
+    assert on_disk(tmp_path, path).resolvedPath == ""
+
+
+def test_AST011_the_file_of_the_frame_before_is_held() -> None:
+    path = path_of(stage(FIELD % ".timeSamples = {1: @a.1.vdb@, 4: @a.4.vdb@}"))
+    assert [path.Get(time).path for time in (2, 3)] == ["a.1.vdb"] * 2
+
+
+def test_AST013_a_number_in_a_name_is_not_read() -> None:
+    path = path_of(stage(FIELD % ".timeSamples = {3: @a.3.vdb@, 4: @a.6.vdb@}"))
+    assert path.Get(4).path == "a.6.vdb"
+
+
+@pytest.mark.parametrize(("path", "found"), [("a.vdb", True), ("./a.vdb", False)])
+def test_AST015_usd_looks_beside_the_package(tmp_path: Path, path: str, found: bool) -> None:
+    (tmp_path / "a.vdb").write_bytes(b"")
+    with zipfile.ZipFile(tmp_path / "shot.usdz", "w") as package:
+        package.writestr("root.usda", "#usda 1.0\n" + FIELD % f" = @{path}@")
+    opened = Usd.Stage.Open(str(tmp_path / "shot.usdz"))
+    assert bool(path_of(opened).Get().resolvedPath) is found
 
 
 def test_AST003_a_placeholder_stands_as_it_is(tmp_path: Path) -> None:

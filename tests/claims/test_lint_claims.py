@@ -66,3 +66,9 @@ def test_LNT004_an_older_usd_drops_type_and_apis() -> None:
     prim = stage(SPLAT).GetPrimAtPath("/s")
     assert prim.GetAppliedSchemas() == []
     assert list(prim.GetPrimDefinition().GetPropertyNames()) == []
+
+
+def test_LNT005_usd_does_not_know_what_an_undeclared_type_is() -> None:
+    prim = stage('def StudioField "it"\n{\n}\n').GetPrimAtPath("/it")
+    assert prim.GetTypeName() == "StudioField"
+    assert prim.GetPrimTypeInfo().GetSchemaType() == Tf.Type.Unknown

@@ -143,6 +143,15 @@ def test_SCH008_no_points_have_the_empty_range() -> None:
     assert high[0] == Gf.Range3f().GetMax()[0]
 
 
+def test_SCH009_bounds_leave_out_what_is_below_a_gprim() -> None:
+    inner = 'def Volume "in"\n{\n    float3[] extent = [(5, 5, 5), (9, 9, 9)]\n}\n'
+    text = f'def Volume "out"\n{{\n    float3[] extent = [(0, 0, 0), (1, 1, 1)]\n{inner}}}\n'
+    asked = stage(text)
+    assert bounds(asked, "/out/in").GetMax() == (9, 9, 9)
+    assert bounds(asked, "/out").GetMax() == (1, 1, 1)
+    assert bounds(asked, "/").GetMax() == (1, 1, 1)
+
+
 @with_particles
 def test_SCH010_only_can_apply_asks_for_the_type() -> None:
     api = UsdVol.ParticleFieldScaleAttributeAPI
