@@ -59,8 +59,6 @@ def unseen_particles(arrays: ParticleArrays) -> Unseen | None:
     attributes = [array.attribute for array, rows in found if array and rows[:count].any()]
     if not attributes:
         return None
-    if not count:  # values without any position
-        return None
     transparent, sizeless = masks = [_of_length(count, selected) for _, selected in found]
     numbers = (int(np.count_nonzero(mask)) for mask in (*masks, transparent & sizeless))
     return Unseen(attributes[0], transparent | sizeless, *numbers)
