@@ -92,6 +92,27 @@ TWO_HALVES = {
     "shot": layer("", sublayers("one", "two")),
 }
 
+VERSIONED = layer(
+    volume(
+        BOUND
+        + field(NAME)
+        + 'variantSet "version" = {\n"v1" {\n'
+        + over("density", FILE)
+        + "}\n}\n",
+        meta='(prepend variantSets = "version")',
+    ),
+    ROOT_PRIM,
+)
+"""An asset whose variant `v1` names the file."""
+SELECTING_SHOT = layer(
+    over(
+        "smoke",
+        "",
+        '(prepend references = @./asset.usda@\nvariants = { string version = "v1" })',
+        what="def",
+    )
+)
+
 
 def write(folder: Path, layers: Files) -> None:
     for file in PUFF.iterdir():

@@ -12,7 +12,9 @@ from partlayers import (
     REFERENCE,
     RIG_AND_CACHE,
     ROOT_PRIM,
+    SELECTING_SHOT,
     TWO_HALVES,
+    VERSIONED,
     Files,
     Judge,
     check_completed,
@@ -71,25 +73,8 @@ COMPLETED: dict[str, tuple[Files, set[str]]] = {
     ),
     "an asset in which the shot selects a version": (
         {
-            "asset": layer(
-                volume(
-                    BOUND
-                    + field(NAME)
-                    + 'variantSet "version" = {\n"v1" {\n'
-                    + over("density", FILE)
-                    + "}\n}\n",
-                    meta='(prepend variantSets = "version")',
-                ),
-                ROOT_PRIM,
-            ),
-            "shot": layer(
-                over(
-                    "smoke",
-                    "",
-                    '(prepend references = @./asset.usda@\nvariants = { string version = "v1" })',
-                    what="def",
-                )
-            ),
+            "asset": VERSIONED,
+            "shot": SELECTING_SHOT,
         },
         {"asset AST001 info"},
     ),
@@ -105,14 +90,7 @@ COMPLETED: dict[str, tuple[Files, set[str]]] = {
                 ),
                 ROOT_PRIM,
             ),
-            "shot": layer(
-                over(
-                    "smoke",
-                    "",
-                    '(prepend references = @./asset.usda@\nvariants = { string version = "v1" })',
-                    what="def",
-                )
-            ),
+            "shot": SELECTING_SHOT,
         },
         {"asset VOL001 error"},
     ),

@@ -13,6 +13,7 @@ from partlayers import (
     REFERENCE,
     ROOT_PRIM,
     SPLAT,
+    VERSIONED,
     WHOLE,
     Files,
     Judge,
@@ -82,17 +83,7 @@ STAYS: dict[str, tuple[Files, list[str]]] = {
     ),
     "a version that the shot does not select": (
         {
-            "asset": layer(
-                volume(
-                    BOUND
-                    + field(NAME)
-                    + 'variantSet "version" = {\n"v1" {\n'
-                    + over("density", FILE)
-                    + "}\n}\n",
-                    meta='(prepend variantSets = "version")',
-                ),
-                ROOT_PRIM,
-            ),
+            "asset": VERSIONED,
             "shot": layer(over("smoke", "", REFERENCE, "def")),
         },
         ["asset AST001 info", "shot AST001 info"],
