@@ -6,8 +6,8 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 @rule("ARR003", on="ParticleField", severity=WARNING, since="0.1")
 def array_too_long(particles: Prim, facts: Facts) -> Problems:
     for surplus in facts.particles.surpluses(particles):
-        if surplus.nouns == "coefficients":
-            continue  # ARR004 says it
+        if surplus.nouns == "coefficients" and facts.tells("ARR004"):
+            continue
         if surplus.are_all:
             message = "the end of all arrays is not read"
             advice = "if the end is spare, cut it off; if positions were left out, leave the same out of all arrays"

@@ -6,8 +6,9 @@ from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, format_time, 
 @rule("ARR018", on="ParticleField", severity=INFO, since="0.1")
 def begins_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
-    if arrays.late_positions or facts.layers.may_lack_values(particles):
-        return  # without particles nothing else is read: ARR001
+    has_none = arrays.late_positions and facts.tells("ARR001")  # so nothing else is read
+    if has_none or facts.layers.may_lack_values(particles):
+        return
     for array, earliest, filled in arrays.late():
         yield Problem(
             f"{array.name!r} holds nothing at its earliest time, {format_time(earliest)}: the schema permits it, "

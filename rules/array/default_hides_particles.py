@@ -13,8 +13,8 @@ def default_hides_particles(particles: Prim, facts: Facts) -> Problems:
         sizes = [len(value) for value in hidden.values()] if hidden else []
         if not hidden or len(sizes) < 2:
             continue
-        if array.most not in sizes and not arrays.fit(array):
-            continue  # ARR002, ARR003 or ARR004 says it
+        if array.most not in sizes and not arrays.fit(array) and facts.tells("ARR002", "ARR003", "ARR004"):
+            continue
         are_positions, differs = array is arrays.positions, hidden.differs
         if differs or are_positions:
             yield Problem(

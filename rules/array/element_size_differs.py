@@ -7,8 +7,8 @@ from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
 def element_size_differs(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     degree, each = arrays.degree, arrays.degree.coefficients
-    if each is None or arrays.fitting_degree not in (None, degree.value):
-        return  # ARR004 names the degree that fits
+    if each is None or (arrays.fitting_degree not in (None, degree.value) and facts.tells("ARR004")):
+        return
     for array in arrays.authored("coefficients"):
         size = array.attribute.GetMetadata("elementSize")
         if array.attribute.HasAuthoredMetadata("elementSize") and size != each:

@@ -10,8 +10,8 @@ def kernel_outside_extent(particles: Prim, facts: Facts, *, share: float = 0.1, 
     found = facts.particles.kernels_outside_extent(particles, share, clamp)
     if not found or facts.layers.may_lack_values(particles):
         return
-    if facts.particles.positions_outside_extent(particles, _SLACK, _HALF_SLACK, clamp):
-        return  # ARR013 says it
+    if facts.tells("ARR013") and facts.particles.positions_outside_extent(particles, _SLACK, _HALF_SLACK, clamp):
+        return
     extent, fitting = found.shown
     yield Problem(
         f"{found.reach.outside:,} of {found.reach.total:,} kernels reach{'es' * (found.reach.outside == 1)} out of "

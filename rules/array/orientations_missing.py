@@ -15,12 +15,11 @@ def orientations_missing(particles: Prim, facts: Facts) -> Problems:
         return
     if not arrays.lack("orientations") or facts.layers.may_lack_values(particles):
         return
-    if facts.particles.is_misspelt(particles, "orientations"):
-        return  # SCH004 says it
-    if _API not in apis.applied and any(
-        particles.GetAttribute(name).HasAuthoredValue() for name in API_ATTRIBUTES[_API]
-    ):
-        return  # PRT006, PRT007 or PRT009 says it
+    if facts.particles.is_told_as_misspelt(particles, "orientations"):
+        return
+    are_authored = any(particles.GetAttribute(name).HasAuthoredValue() for name in API_ATTRIBUTES[_API])
+    if are_authored and _API not in apis.applied and (apis.has(_API) or facts.tells("PRT007")):
+        return
     yield Problem(
         f"no orientations for the flat kernel {quoted(kernels[0])}, so all particles face along z",
         at=particles,

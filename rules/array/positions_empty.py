@@ -9,8 +9,9 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
     late = arrays.late_positions
     if not (arrays.lack_positions or late) or facts.layers.may_lack_values(particles):
         return
-    if facts.particles.is_misspelt(particles, "positions") or (not late and facts.layers.hides_ours(particles)):
-        return  # SCH004 says it, or SCH012
+    is_misspelt = facts.particles.is_told_as_misspelt(particles, "positions")
+    if is_misspelt or (not late and facts.layers.hides_ours(particles)):
+        return
     if late:
         filled = format_time(late.filled)
         yield Problem(

@@ -27,7 +27,7 @@ def _size_is_known(particles: Prim, facts: Facts) -> bool:
     """Whether there are scales, or certainly none."""
     if any(facts.particles.arrays(particles).used("scales")):
         return True
-    return not facts.particles.is_misspelt(particles, "scales") and not facts.layers.may_lack_values(particles)
+    return not facts.particles.is_told_as_misspelt(particles, "scales") and not facts.layers.may_lack_values(particles)
 
 
 def _remedy(is_half: bool, middle: tuple[float, ...]) -> str:

@@ -8,7 +8,7 @@ def radiance_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     if not arrays.are_colourless or facts.particles.material_is_bound(particles):
         return
-    is_told = facts.particles.is_misspelt(particles, "radiance:sphericalHarmonicsCoefficients")  # by SCH004
+    is_told = facts.particles.is_told_as_misspelt(particles, "radiance:sphericalHarmonicsCoefficients")
     if is_told or facts.layers.may_lack_values(particles):
         return
     has_colour = particles.GetAttribute("primvars:displayColor").HasAuthoredValue()

@@ -8,7 +8,8 @@ def scale_negative(particles: Prim, facts: Facts) -> Problems:
     for array in facts.particles.arrays(particles).used("scales"):
         found = array.outside(0.0, float("inf"))
         is_raw = facts.particles.are_raw(array, found)
-        if found and array.low and array.high and not (is_raw and array.has_infinity):  # ARR007 says it
+        is_told = is_raw and array.has_infinity and facts.tells("ARR007")
+        if found and array.low and array.high and not is_told:
             low, high, are_most = min(array.low), max(array.high), found.share > 0.5
             yield Problem(
                 f"{found.amount} below 0, from {low:.6g} to {high:.6g}, {found.first}",

@@ -46,4 +46,4 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
 def _is_told_with_others(array: ParticleArray, facts: Facts, particles: Prim) -> bool:
     """Whether ARR003 names the coefficients too."""
     groups = [surplus.arrays for surplus in facts.particles.surpluses(particles)]
-    return any(array in group and len(group) > 1 for group in groups)
+    return facts.tells("ARR003") and any(array in group and len(group) > 1 for group in groups)

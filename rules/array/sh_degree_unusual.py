@@ -7,8 +7,10 @@ from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
 def sh_degree_unusual(particles: Prim, facts: Facts, *, largest: int = 3) -> Problems:
     arrays = facts.particles.arrays(particles)
     degree, fitting = arrays.degree, arrays.fitting_degree
-    if degree.value is None or degree.value <= largest or fitting not in (None, degree.value):
-        return  # ARR004 names the degree that fits
+    if degree.value is None or degree.value <= largest:
+        return
+    if fitting not in (None, degree.value) and facts.tells("ARR004"):
+        return
     yield Problem(
         f"degree {degree.value}, where renderers go up to {largest}",
         at=degree.attribute,

@@ -29,7 +29,8 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
             severity=WARNING if content.is_read_by_some else None,
         )
     wanted = FILE_EXTENSIONS[type_name]
-    told = [found for _, _, found in (*others, *inside.grouped(_no_volume))]
+    by_content = inside.grouped(_no_volume) if facts.tells("GRD001") else ()
+    told = [found for _, _, found in (*others, *by_content)]
     accounted = {wanted, *(sample.extension for found in told for sample in found.samples)}
     misnamed = paths.affected(each for each in paths.samples if each.is_there and each.extension not in accounted)
     if misnamed:

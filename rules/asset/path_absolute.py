@@ -11,7 +11,9 @@ _ABSOLUTE = re.compile(r"/|\\\\|[A-Za-z]:")
 def path_absolute(field: Prim, facts: Facts) -> Problems:
     paths = facts.files.paths(field)
     found = paths.matching(_ABSOLUTE)
-    if found is None or AssetState.MISSING in paths.states or facts.files.outside_package(field):
+    if found is None or (AssetState.MISSING in paths.states and facts.tells("AST002")):
+        return
+    if facts.tells("AST015") and facts.files.outside_package(field):
         return
     # An expression takes its root from a variable, which each place may set.
     absolute = paths.affected(sample for sample in found.samples if sample.authored == sample.path)

@@ -20,7 +20,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         f"the stage's range is {format_time(start)}-{format_time(end)}"
     )
     attribute, alike = field.GetAttribute("filePath"), facts.files.alike(field)
-    if facts.layers.rate_is_unsaid(attribute) or not alike.is_first:
+    if (facts.tells("STG008") and facts.layers.rate_is_unsaid(attribute)) or not alike.is_first:
         return
     if last < start or first > end:
         is_held = sequence.holds_last if last < start else sequence.holds_first

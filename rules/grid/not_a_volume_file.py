@@ -16,19 +16,18 @@ def _unread(content: Content) -> str | None:
 
 
 def _stranger(content: Content) -> str | None:
-    # What the extension shows too is AST006.
-    return None if content.swapped_format else content.unexpected_format
+    return content.unexpected_format
 
 
 def _fault(content: Content) -> tuple[str, bool] | None:
-    if content.fault and content.fault.code in _FAULTS and not content.swapped_format:
+    if content.fault and content.fault.code in _FAULTS:
         return content.fault.code, content.reading.file is not None
     return None
 
 
 @rule("GRD001", on="FieldAsset", when=contents(_unread, _fault, _stranger), severity=ERROR, since="0.1")
 def not_a_volume_file(field: Prim, facts: Facts) -> Problems:
-    inside, alike = facts.grids.contents(field), facts.files.alike(field, _type_of)
+    inside, alike = facts.grids.unswapped(field), facts.files.alike(field, _type_of)
     if not alike.is_first:
         return
     for unread, _, found in inside.grouped(_unread):

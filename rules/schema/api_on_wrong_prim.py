@@ -17,5 +17,5 @@ def api_on_wrong_prim(prim: Prim, facts: Facts) -> Problems:
             at=prim,
             suggestion="make the type ParticleField or ParticleField3DGaussianSplat",
         )
-    elif not misspelt_type(type_name):
+    elif not (misspelt_type(type_name) and facts.tells("SCH001")):
         yield NotChecked(f"{names} on {type_name!r}, a type this USD does not know", at=prim)

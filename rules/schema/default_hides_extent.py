@@ -23,5 +23,7 @@ def default_hides_extent(prim: Prim, facts: Facts) -> Problems:
 def _is_told_of(prim: Prim, facts: Facts) -> bool:
     """Whether VOL013 or ARR013 finds the extent too small."""
     if facts.prims.is_a(prim, "Volume"):
-        return facts.volumes.shortfall(prim, _SLACK) is not None
+        return facts.tells("VOL013") and facts.volumes.shortfall(prim, _SLACK) is not None
+    if not facts.tells("ARR013"):
+        return False
     return facts.particles.positions_outside_extent(prim, _SLACK, _HALF_SLACK, _CLAMP) is not None

@@ -17,7 +17,8 @@ def extent_malformed(prim: Prim, facts: Facts) -> Problems:
         first = next(iter(held))
         corners = f": {first.low}, {first.high}" if first.size == 2 else ""
         positions = facts.particles.arrays(prim).used("positions")
-        if first.is_finite or not any(array.spoils(extents) for array in positions):  # else ARR007 tells
+        is_spoilt = not first.is_finite and any(array.spoils(extents) for array in positions)
+        if not (is_spoilt and facts.tells("ARR007")):
             yield Problem(f"extent {fault}{corners}{held.count}", at=held, suggestion=_remedy(prim, facts, held))
 
 

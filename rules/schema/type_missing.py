@@ -7,8 +7,8 @@ from usdvol_lint.schema import PARTICLE_FIELD_ONLY_APIS, TYPE_NAME
 @rule("SCH014", on=STAGE, severity=WARNING, since="0.1")
 def type_missing(stage: Prim, facts: Facts) -> Problems:
     for prim, binding in facts.volumes.lookalikes:
-        if not set(facts.particles.apis(prim).applied).isdisjoint(PARTICLE_FIELD_ONLY_APIS):
-            continue  # SCH010 says it
+        if facts.tells("SCH010") and not set(facts.particles.apis(prim).applied).isdisjoint(PARTICLE_FIELD_ONLY_APIS):
+            continue
         type_name = prim.GetTypeName()
         wanted = "Volume" if binding else "ParticleField3DGaussianSplat"
         yield Problem(

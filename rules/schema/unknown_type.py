@@ -31,5 +31,6 @@ def _is_in_use(prim: Prim, meant: str, facts: Facts) -> bool:
 
 def _is_reported(prim: Prim, facts: Facts) -> bool:
     """Whether VOL002 or SCH010 says already that the type is not known."""
-    applied = facts.particles.apis(prim).applied
-    return facts.volumes.is_target_of_unknown_type(prim) or not set(PARTICLE_FIELD_ONLY_APIS).isdisjoint(applied)
+    has_apis = not set(PARTICLE_FIELD_ONLY_APIS).isdisjoint(facts.particles.apis(prim).applied)
+    is_target = facts.volumes.is_target_of_unknown_type(prim)
+    return (is_target and facts.tells("VOL002")) or (has_apis and facts.tells("SCH010"))

@@ -7,8 +7,8 @@ from usdvol_lint.schema import SPECIFIER
 @rule("STG005", on=STAGE, severity=WARNING, since="0.1")
 def def_below_over(root: Prim, facts: Facts) -> Problems:
     for over, prims, similar, copies in facts.layers.undefined:
-        if all(map(facts.volumes.is_targeted, prims)):
-            continue  # VOL008 says it
+        if facts.tells("VOL008") and all(map(facts.volumes.is_targeted, prims)):
+            continue
         first = f"{prims[0].GetTypeName()} {prims[0].GetName()!r}"
         more = f" and {len(prims) - 1} more" if len(prims) > 1 else ""
         what = f"{first}{more} below it {'are' if more else 'is'} not on the stage"

@@ -29,7 +29,8 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
     for binding, target in bindings.with_target(TargetState.UNKNOWN_TYPE):
         type_name = target.type_name
         is_reported = facts.prims.encoding(target.prim) or facts.layers.hides_ours(target.prim)
-        if not misspelt_type(type_name) and not is_reported:
+        is_slip = misspelt_type(type_name) and facts.tells("SCH001")
+        if not is_slip and not is_reported:
             yield NotChecked(
                 f"'field:{binding.name}' targets <{target.shown}> of type {type_name!r}, which no "
                 "installed plugin declares",

@@ -69,7 +69,14 @@ class Engine:
             clock.lap("open")
             return report_trouble(path, error.trouble, seconds=clock.seconds)
         clock.lap("open")
-        context = Context.of(stage, self._depth, self._volume_files, self._folders, self._advance)
+        context = Context.of(
+            stage,
+            self._depth,
+            self._volume_files,
+            self._folders,
+            self._advance,
+            self._active.telling,
+        )
         found: list[Stamped] = []
         try:
             return self._report(path, context, clock, found)

@@ -31,6 +31,7 @@ class Context(NamedTuple):
     `disk`: caches the state of files; `volume_files`: caches their content, across stages too.
     `used`: collects the fields that are used under any selection.
     `advance`: called with how many samples of a long sequence were processed.
+    `telling`: the codes of the rules in whose favour others are silent; None if all are.
     """
 
     stage: Any
@@ -40,6 +41,7 @@ class Context(NamedTuple):
     volume_files: VolumeFiles
     used: UsedFields
     advance: Callable[[int], None]
+    telling: frozenset[str] | None
 
     @classmethod
     def of(
@@ -49,6 +51,7 @@ class Context(NamedTuple):
         volume_files: VolumeFiles | None = None,
         folders: Folders | None = None,
         advance: Callable[[int], None] = lambda samples: None,
+        telling: frozenset[str] | None = None,
     ) -> Context:
         """The context of a stage with empty caches, but for `volume_files` and `folders`."""
         from usdvol_lint.facts.files.disk import Disk
@@ -58,7 +61,7 @@ class Context(NamedTuple):
 
         kinds = PrimKinds(stage.GetMetadata("fallbackPrimTypes"))
         files = volume_files or VolumeFiles()
-        return cls(stage, kinds, depth, Disk(folders), files, UsedFields(), advance)
+        return cls(stage, kinds, depth, Disk(folders), files, UsedFields(), advance, telling)
 
 
 class Walked(NamedTuple):
@@ -94,9 +97,9 @@ class Facts:
         from usdvol_lint.facts.prims.tables import Tables
         from usdvol_lint.facts.usd.clips import Clips
 
-        stage, kinds, depth, disk, volume_files, used, advance = context
+        stage, kinds, depth, disk, volume_files, used, advance, telling = context
         clips = Clips(walked.clipped)
-        tables = Tables(walked.kept, kinds, AuthoredReader(kinds, clips))
+        tables = Tables(walked.kept, kinds, AuthoredReader(kinds, clips), telling)
         self.stage = stage
         self.kinds = kinds
         self.tables = tables
@@ -116,6 +119,13 @@ class Facts:
             used,
         )
         self.particles = Particles(tables, kinds, self.prims, depth, advance)
+
+    def tells(self, *codes: str) -> bool:
+        """Whether one of these rules is in force, and no milder than it is on its own.
+
+        What it tells need not be told by another.
+        """
+        return self.tables.tells(*codes)
 
     def wing(self, wing: type[_W]) -> _W:
         """The wing of that class: `Files` is `files`."""

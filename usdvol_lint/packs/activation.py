@@ -18,11 +18,18 @@ class ActiveRules(NamedTuple):
 
     `chosen` are the codes whose severity is not the rule's own but the user's, also for the milder
     cases that a rule tells apart.
+    `softened` are those of them that the user made milder than they are on their own.
     """
 
     severities: Mapping[str, Severity]
     options: Mapping[str, Mapping[str, Any]]
     chosen: frozenset[str] = frozenset()
+    softened: frozenset[str] = frozenset()
+
+    @property
+    def telling(self) -> frozenset[str]:
+        """The codes in whose favour other rules are silent: those in force, unsoftened."""
+        return frozenset(self.severities) - self.softened
 
 
 def activate(config: Config, catalog: Catalog) -> ActiveRules:
@@ -45,7 +52,8 @@ def activate(config: Config, catalog: Catalog) -> ActiveRules:
         for option, value in given.items():
             checked = _checked_option(rule.name, rule.options, option, value)
             options.setdefault(rule.code, {})[option] = checked
-    return ActiveRules(severities, options, frozenset(chosen))
+    softened = {code for code in chosen if severities[code] < catalog.rules[code].severity}
+    return ActiveRules(severities, options, frozenset(chosen), frozenset(softened))
 
 
 def _checked_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> Any:

@@ -13,10 +13,13 @@ import pytest
 from particlefields import SH, Array, Field, codes, lint, splats, write
 from pxr import Usd
 
+from usdvol_lint.config import Config
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.particles import scales as scales_module
 from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
 from usdvol_lint.facts.particles.numbers import are_whole, mean_of, range_within, spacing
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import load
 
 COUNT = 1000
 EXTENT = ((-10.0,) * 3, (10.0,) * 3)
@@ -114,6 +117,9 @@ def test_exp_of_exp_is_told_once(
     found = lint(engine, field, tmp_path / "splats.usdc")
     assert codes(found) == ["ARR019 warning"]
     assert len(means) == 1
+    catalog = load()
+    others = Engine(catalog.rules, activate(Config(ignore=("ARR019", "ARR022")), catalog))
+    assert codes(lint(others, field, tmp_path / "splats.usdc")) == ["ARR024 info"]
 
 
 @pytest.mark.parametrize(

@@ -105,10 +105,10 @@ class Files(Wing):
 
     @fact
     def missing(self, field: Any) -> Affected | None:
-        """The missing files of `filePath` but those whose paths tell why they are not found."""
+        """The missing files of `filePath` but those of which another rule tells why."""
         from usdvol_lint.facts.files.absences import unexplained
 
-        return unexplained(self.paths(field), self._disk, has_packages=self._has_packages)
+        return unexplained(self.paths(field), self._disk, self._has_packages, self.tables.tells)
 
     def sharing_missing_folder(self, field: Any) -> list[Any]:
         """The fields whose missing files all lie below the same missing folder, this one too.

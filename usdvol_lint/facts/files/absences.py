@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from itertools import chain
 from math import isnan
 from typing import Any
@@ -21,21 +21,24 @@ from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.model import frame_ranges
 
 
-def unexplained(paths: AssetSamples, disk: Disk, *, has_packages: bool) -> Affected | None:
-    """The missing files but those whose paths tell why they are not found.
+def unexplained(
+    paths: AssetSamples, disk: Disk, has_packages: bool, tells: Callable[[str], bool]
+) -> Affected | None:
+    """The missing files but those of which another rule tells why they are not found.
 
-    Such a path is malformed, has another case than the disk, or leads out of its package.
+    Their paths are malformed, have another case than the disk, or lead out of their package.
+    `tells`: as `Tables.tells`.
     """
     missing = paths.of(AssetState.MISSING)
     if missing is None:
         return None
-    in_other_case = recased(paths, disk)
-    outside = outside_package(paths) if has_packages else None
+    in_other_case = recased(paths, disk) if tells("AST009") else None
+    outside = outside_package(paths) if has_packages and tells("AST015") else None
     others = (in_other_case and in_other_case.affected, outside)
     explained = set(chain.from_iterable(each.samples for each in others if each))
-    return paths.affected(
-        sample for sample in missing.samples if sample not in explained and not hides_file(sample)
-    )
+    if tells("AST008"):
+        explained.update(filter(hides_file, missing.samples))
+    return paths.affected(sample for sample in missing.samples if sample not in explained)
 
 
 def common_missing_folder(missing: Affected, disk: Disk) -> str | None:

@@ -66,6 +66,11 @@ class Grids(Wing):
 
         return FieldContents(self._files.paths(field).attribute, self.timelines(field))
 
+    def unswapped(self, field: Any) -> FieldContents:
+        """The same but those that AST006 tells: of another format, as their extension shows."""
+        contents = self.contents(field)
+        return contents.without_swapped() if self.tables.tells("AST006") else contents
+
     def changes(self, field: Any) -> GridChanges | None:
         """The frames of a field's sequence that hold other grids than most of its frames.
 

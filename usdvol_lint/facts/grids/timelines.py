@@ -92,6 +92,12 @@ class FieldContents(NamedTuple):
     attribute: Any
     timeline: Timeline
 
+    def without_swapped(self) -> FieldContents:
+        """The contents but those of another format than the field wants, as the extension shows."""
+        classes = self.timeline.classes
+        kept = tuple([each for each in classes if not each[0].content.swapped_format])
+        return FieldContents(self.attribute, Timeline(kept, self.timeline.total))
+
     def grouped(
         self, key: Callable[[Content], _K | None]
     ) -> Iterable[tuple[_K, Content, Affected]]:

@@ -92,7 +92,7 @@ class Layers(Wing):
 
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
-        may_be_lost = self._clips.are_authored or self._arcs.prims
+        may_be_lost = self.tables.tells("AST016") and (self._clips.are_authored or self._arcs.prims)
         is_lost = may_be_lost and prim in self.clip_losses.prims
         return bool(is_lost or self._composition.may_lack_values(prim))
 
@@ -124,10 +124,10 @@ class Layers(Wing):
         return tuple(self._retyped.values())
 
     def hides_ours(self, prim: Any) -> bool:
-        """Whether the type of a prim hides that it is a Volume, field or particle field."""
+        """Whether SCH012 tells that a prim's type hides a Volume, field or particle field."""
         from usdvol_lint.facts.usd.instances import in_prototype
 
-        return in_prototype(prim).GetPath() in self._retyped
+        return self.tables.tells("SCH012") and in_prototype(prim).GetPath() in self._retyped
 
     @property
     def lost_overrides(self) -> Iterator[LostOverrides]:

@@ -56,8 +56,7 @@ class Particles(Wing):
         """The applied APIs of a prim, those that are not registered too."""
         from usdvol_lint.facts.particles.apis import read_particle_apis
 
-        lacks = self._prims.authored(prim).lacks_apis
-        return read_particle_apis(prim, self._kinds, self._prims.dropped_lists(prim), lacks)
+        return read_particle_apis(prim, self._kinds, self._prims, self.tables.tells)
 
     def loss(self, prim: Any, names: Iterable[str]) -> Loss:
         """What a prim lacks because APIs of these names are not applied."""
@@ -69,21 +68,22 @@ class Particles(Wing):
         """The APIs that are not applied though attributes of theirs are authored, with these."""
         from usdvol_lint.facts.particles.apis import attributes_without_api
 
-        return iter(()) if self._is_retyped(prim) else attributes_without_api(prim, self.apis(prim))
+        if self._is_retyped(prim):
+            return iter(())
+        return attributes_without_api(prim, self.apis(prim), self.tables.tells)
 
     def is_told_elsewhere(self, prim: Any, base: str) -> bool:
-        """Whether PRT006, PRT009, PRT010 or SCH012 says why a base API is missing."""
+        """Whether PRT006, PRT009, PRT010 or SCH012 tells why a base API is missing."""
         is_lost = self.apis(prim).is_lost(base) and not self._prims.encoding(prim)
         return is_lost or self._is_retyped(prim)
 
     def _is_retyped(self, prim: Any) -> bool:
         authored = self._prims.authored(prim)
-        if not authored.lacks_apis or not authored.is_layered:
+        if not authored.lacks_apis or not authored.is_layered or not self.tables.tells("SCH012"):
             return False
-        from usdvol_lint.facts.prims.retyped import retyped_ours
+        from usdvol_lint.facts.prims.retyped import is_bared
 
-        retyped = retyped_ours(prim, prim.GetPrimStack(), self._kinds)
-        return retyped is not None and not retyped.stands_in
+        return is_bared(prim, self._kinds)
 
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:
@@ -135,9 +135,9 @@ class Particles(Wing):
 
         return surpluses(arrays)
 
-    def is_misspelt(self, prim: Any, name: str) -> bool:
-        """Whether an attribute is probably meant for the float or half array of this float name."""
-        return any(slip.intended in (name, f"{name}h") for slip in self._prims.misspelt(prim))
+    def is_told_as_misspelt(self, prim: Any, name: str) -> bool:
+        """Whether SCH004 tells what is probably the float or half array of this float name."""
+        return self._prims.is_told_as_misspelt(prim, name, f"{name}h")
 
     def positions_outside_extent(
         self, prim: Any, slack: float, half_slack: float, clamp: float
@@ -215,7 +215,7 @@ class Particles(Wing):
         from usdvol_lint.facts.particles.colour_spaces import colour_space
 
         used = self.arrays(prim).coefficients
-        return colour_space(prim, used.attribute if used else None, self.apis(prim).dropped)
+        return colour_space(prim, used.attribute if used else None, self.apis(prim).awaited)
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""

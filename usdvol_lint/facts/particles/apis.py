@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Usd
 
@@ -12,11 +13,21 @@ from usdvol_lint.facts.particles.removed import RemovedApis, removed_apis
 from usdvol_lint.facts.usd.dropped import DroppedList
 from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
+if TYPE_CHECKING:
+    from usdvol_lint.facts.prims import Prims
+
 _BROUGHT = {
     schema.POSITION_BASE: "positions",
     schema.KERNEL_BASE: "a kernel",
     schema.RADIANCE_BASE: "radiance",
 }
+
+_MISSING = {
+    schema.POSITION_BASE: "PRT001",
+    schema.KERNEL_BASE: "PRT002",
+    schema.RADIANCE_BASE: "PRT003",
+}
+"""The rules that tell which base API is missing."""
 
 
 class ParticleApis(NamedTuple):
@@ -28,6 +39,8 @@ class ParticleApis(NamedTuple):
     `misspelt` maps other names that are not registered to the API that was probably intended.
     `dropped` are the lists that USD does not have since a name stands in one twice.
     `removed` are those that a stronger spec takes away, though the prim needs them.
+    `awaited` are the APIs of which a rule tells that they were meant: under other names, in these
+    lists or before they were taken away.
     `built_in_type` says that the prim type is UsdVol's own, so that its APIs are all known.
     """
 
@@ -37,16 +50,11 @@ class ParticleApis(NamedTuple):
     built_in_type: bool
     dropped: tuple[DroppedList, ...] = ()
     removed: tuple[RemovedApis, ...] = ()
+    awaited: tuple[str, ...] = ()
 
     def has(self, api: str) -> bool:
-        """Whether the API is applied, or would be were each name right, given once and kept."""
-        return api in self.applied or api in schema.expand_apis(self._intended)
-
-    @property
-    def _intended(self) -> tuple[str, ...]:
-        dropped = (name for each in self.dropped for name in each.names)
-        removed = (name for each in self.removed for name in each.names)
-        return (*self.misspelt.values(), *dropped, *removed)
+        """Whether the API is applied, or awaited."""
+        return api in self.applied or api in schema.expand_apis(self.awaited)
 
     def providers(self, base: str) -> tuple[str, ...]:
         """The applied APIs that include a base API and that no other such API includes."""
@@ -55,8 +63,8 @@ class ParticleApis(NamedTuple):
         return tuple(api for api in providers if api not in included)
 
     def is_lost(self, base: str) -> bool:
-        """Whether a base API is missing because a name that includes it is misspelt or lost."""
-        return base in self.lost_with(self._intended)
+        """Whether a base API is missing because one that includes it is awaited."""
+        return base in self.lost_with(self.awaited)
 
     def lost_with(self, names: Iterable[str]) -> tuple[str, ...]:
         """The base APIs that are missing, and that APIs of these names would bring."""
@@ -91,9 +99,9 @@ class ParticleApis(NamedTuple):
 
 
 def read_particle_apis(
-    prim: Any, kinds: PrimKinds, dropped: tuple[DroppedList, ...], lacks_apis: bool
+    prim: Any, kinds: PrimKinds, prims: Prims, tells: Callable[[str], bool]
 ) -> ParticleApis:
-    """Reads the applied schemas, those that are not registered too."""
+    """Reads the applied schemas, those that are not registered too; `tells`: as `Tables.tells`."""
     applied = tuple(dict.fromkeys(kinds.applied(prim)))
     unregistered = [
         name
@@ -101,23 +109,38 @@ def read_particle_apis(
         if name not in applied and not is_registered(name.partition(":")[0])
     ]
     intended = {name: spelling.misspelt_api(name) for name in unregistered}
+    misspelt = {name: api for name, api in intended.items() if api}
+    dropped = prims.dropped_lists(prim)
+    removed = removed_apis(prim, applied) if prims.authored(prim).lacks_apis else ()
     return ParticleApis(
         applied=applied,
         third_party=tuple(name for name in unregistered if not intended[name]),
-        misspelt={name: api for name, api in intended.items() if api},
+        misspelt=misspelt,
         built_in_type=prim.GetTypeName() in schema.CONCRETE_TYPES,
         dropped=dropped,
-        removed=removed_apis(prim, applied) if lacks_apis else (),
+        removed=removed,
+        awaited=(
+            *(misspelt.values() if tells("PRT006") else ()),
+            *(_names(dropped) if tells("PRT009") else ()),
+            *(_names(removed) if tells("PRT010") else ()),
+        ),
     )
 
 
-def attributes_without_api(prim: Any, apis: ParticleApis) -> Iterator[tuple[str, list[Any]]]:
+def _names(lists: Iterable[DroppedList | RemovedApis]) -> Iterator[str]:
+    return chain.from_iterable(each.names for each in lists)
+
+
+def attributes_without_api(
+    prim: Any, apis: ParticleApis, tells: Callable[[str], bool]
+) -> Iterator[tuple[str, list[Any]]]:
     """The attributes that are authored on a prim though no schema of it declares them, by API.
 
-    Left out are those of an API whose base is missing too, which PRT001 and PRT003 tell.
+    Left out are those of an API whose base is missing too, as far as a rule tells that.
     """
+    told = {base for base, code in _MISSING.items() if base not in apis.applied and tells(code)}
     for api, attributes in _without_api(prim, apis):
-        if set(apis.applied).issuperset(schema.API_INCLUDES[api]):
+        if told.isdisjoint(schema.API_INCLUDES[api]):
             yield api, attributes
 
 

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 from pxr import Gf
 
-from usdvol_lint.facts.usd.dropped import DroppedList
 from usdvol_lint.facts.usd.kinds import raw_apis
 from usdvol_lint.schema import COLOUR_SPACES
 from usdvol_lint.spelling import closest_name
@@ -33,26 +32,26 @@ class ColourSpace(NamedTuple):
 
 
 class _Applied(NamedTuple):
-    """The APIs of prims: those applied, and of one prim what a list that USD drops names too."""
+    """The APIs of prims: those applied, and of one prim the awaited ones too."""
 
     prim: Any
-    dropped: frozenset[str]
+    awaited: frozenset[str]
 
     def to(self, prim: Any) -> frozenset[str]:
         """The applied APIs, those too that this USD does not know."""
-        written = self.dropped if prim == self.prim else frozenset[str]()
+        written = self.awaited if prim == self.prim else frozenset[str]()
         return written.union(prim.GetAppliedSchemas(), raw_apis(prim))
 
 
 def colour_space(
-    prim: Any, coefficients: Any = None, dropped: Iterable[DroppedList] = ()
+    prim: Any, coefficients: Any = None, awaited: Iterable[str] = ()
 ) -> ColourSpace | None:
     """The coefficients' own colour space, or the nearest name on the prim or above.
 
     A name without its API is passed over by USD; it is told where no nearer one counts.
-    `dropped`: lists of APIs of the prim of which PRT009 tells that they are not applied.
+    `awaited`: APIs of the prim of which another rule tells that they are not applied.
     """
-    applied = _Applied(prim, frozenset(name for each in dropped for name in each.names))
+    applied = _Applied(prim, frozenset(awaited))
     if coefficients and coefficients.HasColorSpace():
         return _described(coefficients, str(coefficients.GetColorSpace()), prim, True, applied)
     for holder in _upward(prim):

@@ -116,10 +116,10 @@ class Prims(Wing):
 
         return misspelt(prim, self.authored(prim))
 
-    def is_told_as_misspelt(self, prim: Any, name: str) -> bool:
-        """Whether SCH004 tells that an attribute is probably meant to be the one of this name."""
-        is_meant = any(slip.intended == name for slip in self.misspelt(prim))
-        return is_meant and not self.encoding(prim)
+    def is_told_as_misspelt(self, prim: Any, *names: str) -> bool:
+        """Whether SCH004 tells that an attribute is probably meant to have one of these names."""
+        is_meant = any(slip.intended in names for slip in self.misspelt(prim))
+        return is_meant and self.tables.tells("SCH004") and not self.encoding(prim)
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The values of a prim's attributes that are tokens the schema does not allow."""

@@ -58,6 +58,12 @@ def retyped_ours(prim: Any, specs: Sequence[Any], kinds: PrimKinds) -> Retyped |
     return None
 
 
+def is_bared(prim: Any, kinds: PrimKinds) -> bool:
+    """Whether a type takes the APIs of a particle field away, and is not meant to."""
+    retyped = retyped_ours(prim, prim.GetPrimStack(), kinds)
+    return retyped is not None and not retyped.stands_in
+
+
 def _lacks_built_in(prim: Any, hidden: str, kinds: PrimKinds) -> bool:
     """Whether a prim lacks positions, kernel or radiance, which a hidden type has built in.
 

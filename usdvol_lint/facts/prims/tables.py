@@ -138,11 +138,19 @@ Slot: TypeAlias = tuple["Chunk", int]
 
 
 class Tables:
-    """The prims that rules ask for, by kind, in chunks whose tables are made when asked for."""
+    """The prims that rules ask for, by kind, in chunks whose tables are made when asked for.
+
+    `telling` are the codes of the rules in whose favour others are silent; None if all are.
+    """
 
     def __init__(
-        self, kept: Mapping[KindKey, Sequence[Any]], kinds: PrimKinds, authored: AuthoredReader
+        self,
+        kept: Mapping[KindKey, Sequence[Any]],
+        kinds: PrimKinds,
+        authored: AuthoredReader,
+        telling: frozenset[str] | None = None,
     ) -> None:
+        self._telling = telling
         self._kinds = kinds
         self._authored = authored
         self._chunks = {key: list(_chunks(prims)) for key, prims in kept.items()}
@@ -151,6 +159,10 @@ class Tables:
         self._last_found: tuple[Table, int] | None = None
         self.unreadable: list[tuple[Any, Exception]] = []
         """Prims that facts about the whole stage leave out, each with what was raised for it."""
+
+    def tells(self, *codes: str) -> bool:
+        """Whether one of these rules is in force, and no milder than it is on its own."""
+        return self._telling is None or not self._telling.isdisjoint(codes)
 
     def chunks(self, key: KindKey) -> list[Chunk]:
         """The chunks of a kind, in the order of the walk."""
