@@ -37,10 +37,10 @@ def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> boo
 
 @rule("GRD010", on="FieldAsset", when=When(Grids.content_classes, _some_are_unsupported), severity=WARNING, since="0.1")
 def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
-    unsupported = _Unsupported(newest)
-    for (_, is_newer), content, found in facts.grids.contents(field).grouped(unsupported):
+    unsupported, alike = _Unsupported(newest), facts.files.alike(field)
+    for (_, is_newer), content, found in facts.grids.contents(field).grouped(unsupported) if alike.is_first else ():
         yield Problem(
-            f"{found.shown}: {unsupported.reason(content)}{found.count}",
+            f"{found.shown}: {unsupported.reason(content)}{alike.others}{found.count}",
             at=found,
             suggestion=_NEWER if is_newer else _OLDER,
         )
