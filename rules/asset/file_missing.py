@@ -12,10 +12,10 @@ def file_missing(field: Prim, facts: Facts) -> Problems:
         if fields[0] != field if fields else not alike.is_first:
             return
         absence = facts.files.absence(missing.anchored(), missing.first.path)
-        others = len(fields) - 1
+        others, (what, count) = len(fields) - 1, missing.nothing_there
         below = f", where {others} other field{'s' * (others > 1)} should have files too" if others > 0 else ""
         yield Problem(
-            f"no file at {missing.shown}{absence.reason}{below if fields else alike.others}{missing.count}",
+            f"{what}{absence.reason}{below if fields else alike.others}{count}",
             at=missing,
-            suggestion=absence.advice or facts.files.frames_there(field),
+            suggestion=absence.advice or facts.files.what_to_write(field),
         )

@@ -33,4 +33,9 @@ def path_unverifiable(field: Prim, facts: Facts) -> Problems:
         why = f"no resolver here answers for '{found.first.detail}:'"
         if found.first.detail == "?":
             why = f"the file is there, and no resolver here reads '?{query}'"
-        yield Problem(f"{found.shown} was not checked: {why}{alike.others}{found.count}", at=found, severity=INFO)
+        yield Problem(
+            f"{found.shown} was not checked: {why}{alike.others}{found.count}",
+            at=found,
+            severity=INFO,
+            suggestion="check the stage where the resolver that it needs is installed",
+        )

@@ -4,6 +4,8 @@ from usdvol_lint.rule import ERROR, INFO, STAGE, UNKNOWN_TYPE, Facts, NotChecked
 from usdvol_lint.schema import BUILT_IN_APIS, FIELD_ASSET, PARTICLE_FIELD
 from usdvol_lint.spelling import misspelt_type
 
+_IF_NOT_MEANT = "leave it, if it is to be drawn in its place; if not, "
+
 
 @rule("SCH012", on=STAGE, severity=ERROR, since="0.1")
 def type_hidden(stage: Prim, facts: Facts) -> Problems:
@@ -28,7 +30,7 @@ def type_hidden(stage: Prim, facts: Facts) -> Problems:
             what if retyped.stands_in else f"{what}: {lost}",
             at=prim,
             severity=INFO if retyped.stands_in else None,
-            suggestion=None if retyped.stands_in else _remedy(retyped.stronger),
+            suggestion=_IF_NOT_MEANT * retyped.stands_in + _remedy(retyped.stronger),
         )
 
 

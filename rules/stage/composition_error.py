@@ -7,4 +7,5 @@ from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, rul
 def composition_error(root: Prim, facts: Facts) -> Problems:
     for error in facts.layers.errors:
         where = f" (on {len(error.prims)} prims)" if len(error.prims) > 1 else ""
-        yield Problem(error.message + where, at=error.prim, spec=error.spec)
+        advice = "correct what it names: USD goes on without it"
+        yield Problem(error.message + where, at=error.prim, spec=error.spec, suggestion=advice)

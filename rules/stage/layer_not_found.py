@@ -3,6 +3,8 @@
 from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
 
 _NAMED = 3
+_NOT_THERE = "write or copy it there, or name a layer that is there"
+_UNREADABLE = "correct that layer, or export it again"
 
 
 @rule("STG001", on=STAGE, severity=ERROR, since="0.1")
@@ -26,7 +28,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
         if scheme:
             reason = "is not found: USD's own resolver does not know 'file:'"
         absence = None if missing.reason else facts.files.absence(missing.path, missing.asset, by=missing.spec.layer)
-        advice = absence.advice if absence else None
+        advice = (absence.advice or _NOT_THERE) if absence else _UNREADABLE
         concerns_ours = facts.layers.may_bring_ours(missing.asset, str(missing.spec.path))
         yield Problem(
             f"{layer} {reason}; what it holds was not checked{where}",

@@ -34,4 +34,5 @@ def relationship_empty(volume: Prim, facts: Facts) -> Problems:
                 else f"'field:{binding.name}' is authored to have no target",
                 at=binding.property,
                 severity=INFO,
+                suggestion="leave it, if the Volume is to go without this field; if not, target one",
             )

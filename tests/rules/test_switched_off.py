@@ -171,6 +171,16 @@ def test_version_of_a_type(codes: Codes, tmp_path: Path) -> None:
     assert codes("stage.usda", Config(ignore=("SCH001",))) == ["LNT005"]
 
 
+def test_apis_on_an_unknown_type(codes: Codes, tmp_path: Path) -> None:
+    for name, teller in (("ParticleFeild", "SCH001"), ("ParticleFieldV2", "SCH010")):
+        text = (
+            f'#usda 1.0\ndef {name} "p" (apiSchemas = ["ParticleFieldPositionAttributeAPI"])\n'
+            "{\n    point3f[] positions = [(0, 0, 0)]\n}\n"
+        )
+        (tmp_path / f"{name}.usda").write_text(text, encoding="utf-8")
+        assert "LNT005" in codes(f"{name}.usda", Config(ignore=(teller,)))
+
+
 def test_absolute_path_in_a_package(codes: Codes, tmp_path: Path) -> None:
     (tmp_path / "cloud.usda").write_text(ABSOLUTE, encoding="utf-8")
     with Sdf.ZipFileWriter.CreateNew("cloud.usdz") as package:

@@ -97,11 +97,11 @@ class Files(Wing):
         not_meant, reader = ((by.realPath, root), "") if by else ((), root)
         return find_absence(self._disk, path, authored, not_meant, reader)
 
-    def frames_there(self, field: Any) -> str | None:
-        """Which frames of a sequence are there, where others are not, and what to do with these."""
-        from usdvol_lint.facts.files.absences import frames_there
+    def what_to_write(self, field: Any) -> str:
+        """What to do about missing files; where frames of a sequence are there, which ones."""
+        from usdvol_lint.facts.files.absences import what_to_write
 
-        return frames_there(self.sequence(field))
+        return what_to_write(self.sequence(field))
 
     @fact
     def missing(self, field: Any) -> Affected | None:

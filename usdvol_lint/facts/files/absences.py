@@ -20,6 +20,8 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.model import frame_ranges
 
+_ANY = "write or copy it there, or name a file that is there"
+
 
 def unexplained(
     paths: AssetSamples, disk: Disk, has_packages: bool, tells: Callable[[str], bool]
@@ -47,10 +49,10 @@ def common_missing_folder(missing: Affected, disk: Disk) -> str | None:
     return missing_folder(disk, missing.anchored()) if len(folders) == 1 else None
 
 
-def frames_there(sequence: SampleSequence | None) -> str | None:
+def what_to_write(sequence: SampleSequence | None) -> str:
     """Which frames are there, by the numbers in their names, and what to do with the others."""
     if sequence is None or sequence.numbering is None:
-        return None
+        return _ANY
     numbers = sequence.numbering.numbers
     there, gone = (
         sorted(
@@ -59,7 +61,7 @@ def frames_there(sequence: SampleSequence | None) -> str | None:
         for state in (AssetState.FILE, AssetState.MISSING)
     )
     if not there or not gone or any(map(isnan, (*there, *gone))):
-        return None
+        return _ANY
     frames, others = ("frame" + "s" * (len(each) > 1) for each in (there, gone))
     is_there = f"{frames} {frame_ranges(there)} {'are' if len(there) > 1 else 'is'} there"
     return f"{is_there}: simulate or copy {others} {frame_ranges(gone)} again"

@@ -151,6 +151,17 @@ class Affected(Occurrences):
         return f"{quoted(first.path)}{origin}"
 
     @property
+    def nothing_there(self) -> tuple[str, str]:
+        """That nothing is at the paths, and the count, in words before the reason and after it."""
+        is_all = bool(self.total) and len(self.times) == self.total
+        files = len({sample.path for sample in self.samples})
+        if not is_all or files == 1:
+            return f"no file at {self.shown}", self.count
+        more = ", ".join(self._more(self.times))
+        what = f"none of the {files} files is there, the first is {self.shown}"
+        return what, f" ({more})" if more else ""
+
+    @property
     def as_expression(self) -> str | None:
         """The first path as an expression with the environment variables that it has; or None."""
         return as_expression(self.first.path)
