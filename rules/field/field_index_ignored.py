@@ -1,4 +1,4 @@
-"""FLD005: few renderers look at the index of a field."""
+"""FLD005: not every renderer looks at the index of a field."""
 
 from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, authored, rule
 

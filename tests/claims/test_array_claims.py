@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from answers import Said, bounds, stage, with_particles
-from pxr import Gf, Usd
+from pxr import Gf, Usd, UsdGeom
 
 SPLATS = 'def ParticleField3DGaussianSplat "splats"\n{\n    %s\n}\n'
 DEGREE = "radiance:sphericalHarmonicsDegree"
@@ -20,6 +20,13 @@ def test_ARR004_a_degree_that_nobody_authored_is_3() -> None:
 def test_ARR017_the_api_of_coefficients_is_built_in() -> None:
     applied = stage(SPLATS % "").GetPrimAtPath("/splats").GetAppliedSchemas()
     assert "ParticleFieldSphericalHarmonicsAttributeAPI" in applied
+
+
+@with_particles
+def test_ARR017_colours_for_display_are_declared_as_for_every_gprim() -> None:
+    splats = stage(SPLATS % "").GetPrimAtPath("/splats")
+    assert splats.IsA(UsdGeom.Gprim)
+    assert splats.GetAttribute("primvars:displayColor").IsDefined()
 
 
 @with_particles

@@ -63,6 +63,24 @@ def test_what_is_no_text_is_a_fault_of_the_rule(problem: str, tmp_path: Path) ->
     )
 
 
+@pytest.mark.parametrize(
+    ("text", "encoding"),
+    [
+        ("Path(__file__).parents[1].joinpath('notes.txt').read_text('utf-8')", "utf-8"),
+        ("b'\\xe4'.decode('ascii')", "ascii"),
+    ],
+)
+def test_text_that_a_rule_fails_to_decode_is_its_own_fault(
+    text: str, encoding: str, tmp_path: Path
+) -> None:
+    """That of a stage that USD fails to decode is the stage's: LNT001."""
+    (tmp_path / "notes.txt").write_bytes(b"\xe4")
+    code, found = findings(tmp_path, text.replace("Path", "__import__('pathlib').Path"))
+    said = f"rule FLT001 (faulty) failed here: UnicodeDecodeError: '{encoding}' codec can't decode"
+    assert (code, [each[0] for each in found]) == (2, ["LNT002", "LNT002"])
+    assert all(each[2].startswith(said) for each in found)
+
+
 def test_a_problem_that_can_not_say_whether_it_holds_is_reported_and_so_is_that(
     tmp_path: Path,
 ) -> None:

@@ -13,11 +13,21 @@ _ARRAYS = (
 )
 _HALF_TYPES = {"point3f[]": "point3h[]", "quatf[]": "quath[]", "float3[]": "half3[]"}
 
+_SCALES = "ParticleFieldScaleAttributeAPI"
+_RADIANCE = "ParticleFieldSphericalHarmonicsAttributeAPI"
+_OTHER_KERNELS = ("GaussianEllipsoid", "ConstantSurflet")
+
 
 def hide_below(subject: Subject, path: str, name: str, attribute: Attribute) -> Prim:
     """Puts the subject below a stronger layer that authors this attribute at the path; its over."""
-    topmost, prim = overs(path)
+    prim = over_above(subject, path)
     prim.properties[name] = attribute
+    return prim
+
+
+def over_above(subject: Subject, path: str) -> Prim:
+    """Puts the subject below a stronger layer with nothing but an over at the path."""
+    topmost, prim = overs(path)
     layer = Layer(f"{subject.root.name}_over.usda", [topmost])
     layer.add_sublayer(subject.layer.path)
     subject.content.layers.append(layer)
@@ -95,6 +105,31 @@ def static_extent_over_an_animated_one(subject: ParticleSubject) -> None:
     hide_below(subject, subject.path, "extent", Attribute("float3[]", corners))
 
 
+def apis_in_two_lists(subject: ParticleSubject) -> None:
+    subject.prim.metadata.append((f'append apiSchemas = ["{_SCALES}", "{_RADIANCE}"]',))
+
+
+def dropped_list_without_loss(subject: ParticleSubject) -> None:
+    """USD drops a list with a name twice; the type or another list has what was in it."""
+    subject.prim.metadata.append((f'append apiSchemas = ["{_SCALES}", "{_SCALES}"]',))
+
+
+def needless_api_deleted_above(subject: ParticleSubject) -> None:
+    over = over_above(subject, subject.path)
+    over.metadata.append(('delete apiSchemas = ["MaterialBindingAPI"]',))
+
+
+def kernel_exchanged_above(subject: ParticleSubject) -> None:
+    """By a stronger layer, where the type has none built in, which no list takes away."""
+    if subject.prim.type == "ParticleField":
+        over = over_above(subject, subject.path)
+        deleted = ", ".join(f'"ParticleFieldKernel{kernel}API"' for kernel in _OTHER_KERNELS)
+        over.metadata += [
+            (f"delete apiSchemas = [{deleted}]",),
+            ('prepend apiSchemas = ["ParticleFieldKernelGaussianSurfletAPI"]',),
+        ]
+
+
 LOOKS: dict[str, Callable[[ParticleSubject], None]] = {
     each.__name__.replace("_", " "): each
     for each in (
@@ -104,6 +139,10 @@ LOOKS: dict[str, Callable[[ParticleSubject], None]] = {
         millimetres,
         parked_far_away,
         static_extent_over_an_animated_one,
+        apis_in_two_lists,
+        dropped_list_without_loss,
+        needless_api_deleted_above,
+        kernel_exchanged_above,
     )
 }
 """By name, what changes a particle field that is right into one that is right too."""

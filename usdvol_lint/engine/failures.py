@@ -12,8 +12,9 @@ from usdvol_lint.engine.stamp import Stamped
 from usdvol_lint.engine.trouble import Trouble
 from usdvol_lint.facts.usd.diagnostics import (
     BROKEN_TEXT,
-    UNREADABLE,
     Unreadable,
+    innermost,
+    is_by_usd,
     without_parser_rule,
 )
 from usdvol_lint.model import Finding, Severity
@@ -43,15 +44,12 @@ class _Failure:
         self.error = error
         self.traceback = traceback
         self.of_precondition = of_precondition
+        self.is_by_usd = is_by_usd(error) and not of_precondition
         self.count = 0
 
     @property
-    def is_by_usd(self) -> bool:
-        return isinstance(self.error, UNREADABLE)
-
-    @property
     def message(self) -> str:
-        if self.is_by_usd and not self.of_precondition:
+        if self.is_by_usd:
             return _unreadable(self.error)
         rule, error = self.rule, self.error
         said = " ".join(f"{type(error).__name__}: {error}".split())
@@ -75,7 +73,7 @@ class Failures:
     def add(self, rule: Rule, prim: Any, error: BaseException) -> None:
         """Records what a rule raised on a prim."""
         key: Identity = (rule.code, type(error).__name__, str(_line(error)))
-        if isinstance(error, UNREADABLE):
+        if is_by_usd(error):
             key = _cause(prim, error)
         if key not in self._failures:
             self._failures[key] = _Failure(rule, prim, error, _traceback(error))
@@ -94,15 +92,14 @@ class Failures:
     def findings(self, sites: Sites) -> Iterator[Stamped]:
         """One finding for each kind of failure."""
         for key, failure in self._failures.items():
-            by_usd = failure.is_by_usd and not failure.of_precondition
-            code = STAGE_UNREADABLE if by_usd else RULE_FAILED
+            code = STAGE_UNREADABLE if failure.is_by_usd else RULE_FAILED
             finding = Finding(
                 code=code.code,
                 name=code.name,
                 severity=Severity.ERROR,
                 message=failure.message[:_LONGEST_MESSAGE],
                 site=sites.locate(NotChecked("", at=failure.prim)).site,
-                suggestion=_OF_THE_STAGE if by_usd else _OF_THE_RULE,
+                suggestion=_OF_THE_STAGE if failure.is_by_usd else _OF_THE_RULE,
                 help=help_for(code),
                 detail=failure.traceback,
                 faulty_rule=failure.rule.code if failure.of_precondition else None,
@@ -132,7 +129,7 @@ def still_holding(stamped: Stamped) -> Iterator[Finding]:
 
 def _beside(found: Finding, error: BaseException) -> Finding:
     """What was raised when a rule was asked whether it stands by what it found."""
-    by_usd = isinstance(error, UNREADABLE)
+    by_usd = is_by_usd(error)
     code = STAGE_UNREADABLE if by_usd else RULE_FAILED
     said = " ".join(f"{type(error).__name__}: {error}".split())
     failed = f"rule {found.code} ({found.name}) failed here: {said}"
@@ -157,9 +154,7 @@ def _cause(prim: Any, error: Unreadable) -> Identity:
 
 def _line(error: BaseException) -> int:
     """The line that raised it; the message would not do, as it may name the prim."""
-    entry = error.__traceback__
-    while entry and entry.tb_next:
-        entry = entry.tb_next
+    entry = innermost(error)
     return entry.tb_lineno if entry else 0
 
 

@@ -131,7 +131,7 @@ class _Reader:
             raise VolumeFileError(
                 "version-unsupported",
                 f"file version {self.version} is older than {OLDEST_VERSION}, "
-                "which OpenVDB no longer reads",
+                "which OpenVDB 13.0 no longer reads",
                 len(OPENVDB),
             )
         if self.version > NEWEST_VERSION:

@@ -5,8 +5,11 @@ from __future__ import annotations
 from random import Random
 
 from ..model import Attribute, Layer, Prim, Relationship, overs
+from ..particles import APIS
 from ..subjects import ParticleSubject, Subject
 from .declaration import ONE_FILE, VolumeSubject, any_field, on_particles, on_volume
+
+_APPLIED = {"type": "ParticleField", "arrays": True}
 
 
 def _hide(subject: Subject, prim: Prim, rng: Random) -> None:
@@ -59,6 +62,21 @@ def path_misspelt_in_an_override(subject: VolumeSubject, rng: Random) -> Prim:
 def opacities_misspelt_in_an_override(subject: ParticleSubject, rng: Random) -> Prim:
     over = _over(subject, subject.path)
     over.properties["opacitys"] = Attribute("float[]", [0.125])
+    return over
+
+
+@on_particles("PRT010", needs=_APPLIED)
+def apis_replaced(subject: ParticleSubject, rng: Random) -> Prim:
+    over = _over(subject, subject.path)
+    over.metadata.append(('apiSchemas = ["MaterialBindingAPI"]',))
+    return over
+
+
+@on_particles("PRT010", needs=_APPLIED)
+def api_deleted(subject: ParticleSubject, rng: Random) -> Prim:
+    over = _over(subject, subject.path)
+    deleted = rng.choice([api for api in APIS if "Position" in api or "Harmonics" in api])
+    over.metadata.append((f'delete apiSchemas = ["{deleted}"]',))
     return over
 
 

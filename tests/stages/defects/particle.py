@@ -71,3 +71,10 @@ def opacities_without_api(subject: ParticleSubject, rng: Random) -> None:
 def scales_without_api(subject: ParticleSubject, rng: Random) -> None:
     _apply(subject, *_without("Scale"))
     assert isinstance(subject.array("scales"), Attribute)
+
+
+@on_particles("PRT009", needs=_PLAIN)
+def api_doubled(subject: ParticleSubject, rng: Random) -> None:
+    """In a text layer: a crate is written from what USD read, without the list."""
+    subject.layer.path = subject.layer.path.replace(".usdc", ".usda")
+    _apply(subject, *APIS, rng.choice(APIS))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from types import TracebackType
 from typing import Any, TypeAlias
 
 from pxr import Tf
@@ -17,6 +18,27 @@ BROKEN_TEXT = "UTF-8"
 Unreadable: TypeAlias = Tf.ErrorException | UnicodeDecodeError
 
 _UNEXPECTED = r"(?s)parse error matching .*? at '(?P<text>.*)'(?= in <)"
+
+
+_CODECS = ("codecs", "encodings")
+"""Python's own modules that decode: where a text file is read, it is they that raise."""
+
+
+def is_by_usd(error: BaseException) -> bool:
+    """Whether USD may have raised it: its C++ has no frame, and decodes nothing but UTF-8."""
+    if not isinstance(error, UnicodeDecodeError):
+        return isinstance(error, UNREADABLE)
+    entry = innermost(error)
+    module = str(entry.tb_frame.f_globals.get("__name__")) if entry else ""
+    return error.encoding == "utf-8" and module.partition(".")[0] not in _CODECS
+
+
+def innermost(error: BaseException) -> TracebackType | None:
+    """Where Python raised it, or called what raised it."""
+    entry = error.__traceback__
+    while entry and entry.tb_next:
+        entry = entry.tb_next
+    return entry
 
 
 def sayings(error: Unreadable) -> list[str]:
