@@ -105,10 +105,9 @@ class _Met:
                     self._groups.add(key)
 
     def _keep(self, prims: Sequence[Any], keys: Iterable[KindKey]) -> None:
-        of_kind = self._of_kind
-        for prim, key in zip(prims, keys, strict=True):
-            if key in of_kind:
-                of_kind[key].append(prim)
+        for prim, kept in zip(prims, map(self._of_kind.get, keys), strict=True):
+            if kept is not None:
+                kept.append(prim)
         # Depth first: an ancestor of one of these is among them, or an ancestor of the first.
         around = [*_ancestors(prims[0]), *prims]
         self.clipped += compress(around, map(has_metadata, around, repeat("clips")))
