@@ -22,11 +22,23 @@ def closest_match(
 
     `cutoff` is the least similarity, from 0 to 1, as difflib computes it.
     """
+    ours = fold(word)
+    folded = {
+        theirs: other for other in known if _may_be_close(ours, theirs := fold(other), cutoff)
+    }
+    if not folded:
+        return None
     from difflib import get_close_matches  # costs start-up time, and few words are misspelt
 
-    folded = {fold(other): other for other in known}
-    matches = get_close_matches(fold(word), folded, n=1, cutoff=cutoff)
+    matches = get_close_matches(ours, folded, n=1, cutoff=cutoff)
     return folded[matches[0]] if matches else None
+
+
+def _may_be_close(word: str, other: str, cutoff: float) -> bool:
+    """Whether the letters that two words share, in whatever order, allow this similarity."""
+    shared = sum(min(word.count(letter), other.count(letter)) for letter in {*word})
+    total = len(word) + len(other)
+    return not total or 2 * shared / total >= cutoff
 
 
 def by_nearness(word: str, others: Iterable[str]) -> list[str]:

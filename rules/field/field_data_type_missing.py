@@ -25,7 +25,7 @@ def field_data_type_missing(stage: Prim, facts: Facts) -> Problems:
 def _untyped(facts: Facts) -> list[Prim]:
     """The fields that never say a type, and whose files hold grids of types that have a token."""
     claims = facts.grids.claims.readable(FIELD_ASSET)
-    silent = {field for field, said in claims if not all(claim.data_type for claim in said.all)}
+    silent = {field for field, said in claims if not said.always_say_type}
     if not silent:
         return []
     return [

@@ -243,3 +243,45 @@ def test_more_prims_than_are_read_at_a_time(tmp_path: Path) -> None:
     names = [f"v{n}" for n in range(1000)]
     text = "".join(f'def Volume "{name}"\n{{\n}}\n' for name in names)
     assert walked(tmp_path, text) == (1000, sorted(f"/{name}" for name in names))
+
+
+_SET = """(
+    clips = {
+        dictionary default = {
+            string primPath = "/clip"
+        }
+    }
+)"""
+
+
+def test_clips_on_and_above_what_is_kept(tmp_path: Path) -> None:
+    text = f"""
+def Xform "first"
+{{
+    def Mesh "between" {_SET}
+    {{
+    }}
+    def Volume "plain"
+    {{
+    }}
+    def Mesh "after" {_SET}
+    {{
+    }}
+    def Xform "group" {_SET}
+    {{
+        def Xform "inner" {_SET}
+        {{
+            def Volume "own" {_SET}
+            {{
+                def Volume "below" {_SET}
+                {{
+                }}
+            }}
+        }}
+    }}
+}}
+"""
+    stage = Usd.Stage.Open(write_stage(tmp_path, text))
+    clipped = walk(stage, [asks("ONE001", "Volume")], PrimKinds()).clipped
+    names = sorted(prim.GetName() for prim in clipped)
+    assert names == ["below", "group", "inner", "own"]

@@ -38,9 +38,7 @@ _Layers: TypeAlias = tuple[str, ...]
 
 
 def completion(facts: Facts) -> Completion | None:
-    """What the stage completes; None if nothing."""
-    if not facts.layers.are_several:
-        return None
+    """What a stage of several layers completes; None if nothing."""
     found = _Completions(facts)
     found.find()
     return found.result()

@@ -11,7 +11,6 @@ from pxr import Sdf
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
 from usdvol_lint.engine.check import StageCheck
-from usdvol_lint.engine.completions import completion
 from usdvol_lint.engine.failures import still_holding, unreadable
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
@@ -20,7 +19,7 @@ from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
-from usdvol_lint.model import Finding, StageReport, Status, with_fingerprints
+from usdvol_lint.model import Completion, Finding, StageReport, Status, with_fingerprints
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
@@ -98,7 +97,7 @@ class Engine:
         facts = check.facts(walked)
         found += self._sent(chain(check.usd_version(facts), check.never_run(facts)))
         found += self._sent(check.selection(walked, facts))
-        completes = completion(facts)
+        completes = _completion(facts)
         stats = _stats(walked, facts, context.disk.checked)
         particle_fields = facts.particles.statistics() if depth.statistics else None
         if depth.selections:
@@ -133,6 +132,15 @@ class Engine:
             yield stamped
         if unsent:
             self._send(unsent)
+
+
+def _completion(facts: Facts) -> Completion | None:
+    """What the stage completes; None if nothing."""
+    if not facts.layers.are_several:
+        return None  # and the module need not be imported
+    from usdvol_lint.engine.completions import completion
+
+    return completion(facts)
 
 
 def _still(found: Iterable[Stamped]) -> Iterator[Finding]:

@@ -78,6 +78,7 @@ class _Met:
         self._kinds = kinds
         self._known: set[KindKey] = set()
         self._of_kind: dict[KindKey, list[Any]] = {}
+        self._above: set[Any] = set()
         self._groups: set[KindKey] = set()
         self._groups_left = _GROUPS
 
@@ -105,13 +106,21 @@ class _Met:
                     self._groups.add(key)
 
     def _keep(self, prims: Sequence[Any], keys: Iterable[KindKey]) -> None:
-        of_kind = self._of_kind
-        for prim, key in zip(prims, keys, strict=True):
-            if key in of_kind:
-                of_kind[key].append(prim)
-        # Depth first: an ancestor of one of these is among them, or an ancestor of the first.
-        around = [*_ancestors(prims[0]), *prims]
+        around: list[Any] = []
+        is_run = False
+        for prim, kept in zip(prims, map(self._of_kind.get, keys), strict=True):
+            if kept is not None:
+                kept.append(prim)
+                # Depth first: an ancestor of one of a run is among them, or one of the first.
+                around += (prim,) if is_run else (prim, *self._new_above(prim))
+            is_run = kept is not None
         self.clipped += compress(around, map(has_metadata, around, repeat("clips")))
+
+    def _new_above(self, prim: Any) -> Iterator[Any]:
+        """The ancestors of a prim that were not asked for clips before."""
+        while not (prim := get_parent(prim)).IsPseudoRoot() and prim not in self._above:
+            self._above.add(prim)
+            yield prim
 
     def of_kinds(self, wanted: frozenset[str]) -> Iterator[tuple[KindKey, list[Any]]]:
         """The prims of each kind that answers to one of these schemas."""
@@ -130,11 +139,6 @@ def _overs_above(prim: Any, drawn: Drawn) -> Iterator[Any]:
         prim = above
     composed = (each for each in prim.GetInstances() if COMPOSED(each))
     yield from dict.fromkeys(chain.from_iterable(_overs_above(each, drawn) for each in composed))
-
-
-def _ancestors(prim: Any) -> Iterator[Any]:
-    while not (prim := prim.GetParent()).IsPseudoRoot():
-        yield prim
 
 
 def _batches(stage: Any, prototypes: Mapping[Any, Standing]) -> Iterator[list[Any]]:

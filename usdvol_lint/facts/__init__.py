@@ -69,8 +69,7 @@ class Walked(NamedTuple):
 
     `prims` counts what is composed; `kept` are the prims that are drawn and that some rule asks
     for, by kind.
-    `clipped` are prims on which value clips are authored: all those among the kept prims and their
-    ancestors, and maybe others.
+    `clipped` are the prims on which value clips are authored, among the kept ones and those above.
     `untyped` are drawn prims without a type, Xforms and Scopes that have properties which only
     Volumes and splats need: those among the first 20,000 of such types.
     `undefined` are prims of our types with a `def` that are not drawn, by the `over` that nothing

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.facts.files.assets import AssetSamples
 from usdvol_lint.facts.usd.instances import as_shown
+
+_Field: TypeAlias = tuple[Any, AssetSamples]
 
 
 class Alike(NamedTuple):
@@ -25,12 +27,10 @@ class Namesakes:
 
     def __init__(self, every: Iterable[tuple[Any, AssetSamples]]) -> None:
         self._known: dict[Any, list[Any]] = {}
-        groups: dict[Hashable, list[tuple[Any, AssetSamples]]] = defaultdict(list)
-        for field, paths in every:
-            if paths.samples:
-                groups[field.GetParent(), paths.samples].append((field, paths))
-        for group in groups.values():
-            if len(group) > 1:
+        named = [(field, paths) for field, paths in every if paths.samples]
+        # To hash the paths of a long sequence takes long: only where the first ones are the same.
+        for likely in _groups(named, lambda paths: paths.samples[0]):
+            for group in _groups(likely, lambda paths: paths.samples):
                 self._add(group)
 
     def of(self, field: Any, like: Callable[[Any], Any] | None = None) -> Alike:
@@ -42,7 +42,7 @@ class Namesakes:
         words = f", as in {count} other field{'s' * (count > 1)}" if count else ""
         return Alike(family[0] == field, words)
 
-    def _add(self, group: Iterable[tuple[Any, AssetSamples]]) -> None:
+    def _add(self, group: Iterable[_Field]) -> None:
         """Adds fields with the same paths: in layers of different folders these lead elsewhere."""
         by_place: dict[str, list[Any]] = defaultdict(list)
         for field, paths in group:
@@ -50,3 +50,13 @@ class Namesakes:
         for fields in by_place.values():
             family = as_shown(fields)
             self._known |= dict.fromkeys(family, family)
+
+
+def _groups(
+    fields: Iterable[_Field], key: Callable[[AssetSamples], Hashable]
+) -> Iterator[list[_Field]]:
+    """The fields of one prim that have the same key, where there are several."""
+    groups: dict[Hashable, list[_Field]] = defaultdict(list)
+    for field, paths in fields:
+        groups[field.GetParent(), key(paths)].append((field, paths))
+    return (group for group in groups.values() if len(group) > 1)

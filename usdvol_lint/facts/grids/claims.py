@@ -49,6 +49,7 @@ class FieldClaims:
         self._samples = StepSamples(samples)
         self.times = self._samples.times
         self.all = (default, *(claim for _, claim in samples))
+        self.always_say_type = all(claim.data_type for claim in self.all)
 
     def at(self, time: Time) -> Claim:
         """The claim at a time."""

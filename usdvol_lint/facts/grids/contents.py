@@ -67,11 +67,12 @@ class Content(NamedTuple):
         None where the extension is that of the wanted format, so that only the content tells, and
         for a NanoVDB file called `.nvdb` where OpenVDB is wanted.
         """
-        file, announced = self.reading.file, _ANNOUNCED.get(self._extension)
-        if file is None or self.wanted in (file.format, announced):
-            return None
+        file = self.reading.file
+        if file is None or file.format == self.wanted:
+            return None  # nearly always, and the extension need not be looked at
+        announced = _ANNOUNCED.get(self._extension)
         is_known = file.format == announced == "nanovdb" and self.wanted == "openvdb"
-        return None if is_known else file.format
+        return None if is_known or announced == self.wanted else file.format
 
     @property
     def is_read_by_some(self) -> bool:

@@ -44,8 +44,6 @@ class _Carrier(NamedTuple):
 
 def find_left_behind(stage: Any, tables: Tables, clips: Clips) -> Iterator[LeftBehind]:
     """The clips of other layers that do not come along with what is below them."""
-    if not clips.are_authored and set(stage.GetUsedLayers()) <= set(stage.GetLayerStack()):
-        return  # as on most stages: whatever carries clips is on the stage
     carriers = _Carriers(stage)
     found: dict[tuple[Any, Any, _Carrier], list[Any]] = defaultdict(list)
     for table in tables.of(*schema.OURS):

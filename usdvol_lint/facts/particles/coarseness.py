@@ -134,6 +134,8 @@ def _count(
     def lost(chunk: Rows, start: int) -> tuple[int, int]:
         sizes = np.ones_like(chunk) if scales is None else scales[start : start + len(chunk)]
         small = rows_below(sizes, step)
+        if not len(small):
+            return 0, 0  # nearly always
         steps = np.spacing(np.abs(chunk[small]).max(axis=1)).astype(np.float32)
         largest = largest_scales(sizes[small])
         seen = _are_seen(largest, None if opacities is None else opacities[start + small])

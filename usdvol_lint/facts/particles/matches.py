@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
+from operator import and_
 from typing import TypeAlias
 
 import numpy as np
@@ -96,13 +98,17 @@ def rows_outside(chunk: Rows, low: Rows, high: Rows) -> Rows:
 
 
 def rows_below(chunk: Rows, limit: float) -> Rows:
-    """The indices of rows whose numbers are all below a limit, or nearly so, as `rows_outside`."""
-    kind = chunk.dtype.type
-    highest = ordered(np.nextafter(np.array([limit], kind), kind(np.inf)))
-    rows = np.flatnonzero(ordered(chunk) < highest) // chunk.shape[1]
-    last = rows[chunk.shape[1] - 1 :]  # of a row that is there with all its numbers
-    selected: Rows = last[last == rows[: len(last)]]
-    return selected
+    """The indices of rows whose numbers are all below a limit, or nearly so, as `rows_outside`.
+
+    The limit is above 0: the bits of numbers below it are lower then, also of negative ones.
+    """
+    kind, columns = chunk.dtype.type, chunk.shape[1]
+    highest = np.nextafter(np.array([limit], kind), kind(np.inf))
+    below = np.ravel(bits(chunk) < bits(highest))
+    shifted = (below[column : len(below) - columns + column + 1] for column in range(columns))
+    first = np.flatnonzero(reduce(and_, shifted))  # numbers that are below with those after them
+    rows: Rows = first[first % columns == 0] // columns
+    return rows
 
 
 def is_finite(chunk: Rows) -> Rows:

@@ -26,11 +26,7 @@ def ancestors_of(batches: Iterable[PrimBatch], kinds: PrimKinds, drawn: Drawn) -
     pending: list[Any] = []
     instancers = drawn.instancers
     for batch in batches:
-        last = None
-        for parent in batch.parents:
-            if parent != last:  # siblings come one after the other, and hashing a prim takes long
-                pending.append(parent)
-                last = parent
+        pending += (parent for parent, _ in batch.families)
         if instancers:
             pending += chain.from_iterable(instancers.get(prim, ()) for prim in batch.prims)
     while pending:

@@ -12,7 +12,6 @@ from usdvol_lint import spelling
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
-from usdvol_lint.facts.usd.sameness import says_the_same
 from usdvol_lint.facts.usd.values import Values, values_of
 
 
@@ -153,6 +152,8 @@ def _fails_to_override(misspelt: Any, right: Any, wanted: str) -> bool:
         return False  # in value clips there are no specs
     if any(spec.layer == said[0].layer for spec in held):
         return False  # who wrote it knows the right name too
+    from usdvol_lint.facts.usd.sameness import says_the_same
+
     stack = get_prim_stack(right.GetPrim())
     is_stronger = stack.index(said[0].owner) < stack.index(held[0].owner)
     return is_stronger and not says_the_same(said[0], right)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain, repeat
 from typing import Any, NamedTuple
 
 from usdvol_lint import schema
@@ -34,8 +35,10 @@ class Nesting:
 
     def _at_or_above(self, prim: Any) -> Any | None:
         """The prim itself if it is a Gprim, or else the nearest above."""
-        passed = []
         gprim = self._cache.get(prim, _NOT_CACHED)
+        if gprim is not _NOT_CACHED:
+            return gprim
+        passed = []
         while gprim is _NOT_CACHED:  # no recursion: prims may be nested deeper than that goes
             passed.append(prim)
             if prim.IsPseudoRoot() or prim.IsPrototype() or self._is_gprim(prim):
@@ -48,9 +51,12 @@ class Nesting:
 
     def are_likely(self, batch: PrimBatch) -> list[bool]:
         """Whether each prim has any Gprim above or below, Volumes and particle fields included."""
+        families = (
+            repeat(bool(self._at_or_above(parent)), count) for parent, count in batch.families
+        )
         return [
-            bool(self._at_or_above(parent)) or self._any_has_gprims(children)
-            for parent, children in zip(batch.parents, batch.children, strict=True)
+            has_above or self._any_has_gprims(children)
+            for has_above, children in zip(chain(*families), batch.children, strict=True)
         ]
 
     def below(self, prim: Any) -> Iterator[Nested]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from itertools import repeat
+from itertools import groupby, repeat
 from typing import Any
 
 from usdvol_lint.facts.usd.calls import (
@@ -26,11 +26,12 @@ class PrimBatch:
     Making one query for many prims takes half the time of making many queries for each prim.
     """
 
-    __slots__ = ("_cache", "prims")
+    __slots__ = ("_cache", "_families", "prims")
 
     def __init__(self, prims: Sequence[Any]) -> None:
         self.prims = prims
         self._cache: dict[Hashable, list[Any]] = {}
+        self._families: list[tuple[Any, int]] = []
 
     def forget(self) -> None:
         """Empties the cache; a query that is made again goes to USD again."""
@@ -60,9 +61,15 @@ class PrimBatch:
         return self._query("stacks", lambda: map(get_prim_stack, self.prims))
 
     @property
-    def parents(self) -> list[Any]:
-        """The parent prims."""
-        return self._query("parents", lambda: map(get_parent, self.prims))
+    def families(self) -> list[tuple[Any, int]]:
+        """The parent of each run of siblings, and how many these are; few, and so never forgotten.
+
+        To compare prims takes less time than to hash them.
+        """
+        if not self._families:
+            runs = groupby(map(get_parent, self.prims))
+            self._families = [(parent, len(list(run))) for parent, run in runs]
+        return self._families
 
     @property
     def children(self) -> list[Any]:

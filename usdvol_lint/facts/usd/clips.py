@@ -5,13 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Sdf, Usd
 
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.clip_faults import Keys, find_fault, used_sets
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable, sayings
+
+if TYPE_CHECKING:
+    from usdvol_lint.facts.usd.clip_faults import Keys
 
 _CLIPS_OPENED = 4
 """How many clips of a set are searched for samples, since opening all may take long."""
@@ -125,11 +127,15 @@ def clip_sets_on(prim: Any) -> tuple[ClipSet, ...]:
     Those that `clipSets` leaves out are ignored, and those that can bring nothing: without a valid
     `primPath`, or with a template that USD refuses.
     """
+    from usdvol_lint.facts.usd.clip_faults import used_sets
+
     sets = used_sets(prim)
     return tuple(filter(None, (_read_clip_set(prim, name, sets[name]) for name in sets)))
 
 
 def _read_clip_set(prim: Any, name: str, keys: Keys) -> ClipSet | None:
+    from usdvol_lint.facts.usd.clip_faults import find_fault
+
     api = Usd.ClipsAPI(prim)
     prim_path = api.GetClipPrimPath(name)
     if not prim_path or not Sdf.Path.IsValidPathString(prim_path):

@@ -118,11 +118,11 @@ class Volumes(Wing):
         """
         from usdvol_lint.facts.volumes import usage
 
-        slots, used = self.tables.field_slots, self._users
-        self._used.add(path for path, slot in slots.items() if slot in used)
+        slots = self.tables.field_slots
+        unused = self._used.add_all_but(self._users.unbound, slots)
         volumes = self._prims.of(schema.VOLUME)
         is_library = not volumes and len(slots) > 1
-        if is_library or not self._used.missing_of(slots) or not self._layers.are_whole:
+        if is_library or not unused or not self._layers.are_whole:
             return []
         layers = self._layers
         if not volumes and usage.any_targets(self._stage, next(iter(slots)), layers.out_of_reach):
@@ -134,7 +134,7 @@ class Volumes(Wing):
         others += (each.prim for each in layers.retyped)
         others += (each.prim for each in self.lookalikes)
         self._used.add(usage.accounted_for_by_others(others, self._kinds))
-        return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(slots))]
+        return [self._stage.GetPrimAtPath(path) for path in sorted(self._used.missing_of(unused))]
 
     @cached_property
     def lookalikes(self) -> list[Lookalike]:
@@ -142,7 +142,7 @@ class Volumes(Wing):
 
         Left out are those whose type is hidden, and those that may lack opinions.
         """
-        unbound = self._users.missing_of(self.tables.field_slots)
+        unbound = self._users.unbound
         if not (unbound or self._untyped):
             return []
         from usdvol_lint.facts.volumes.lookalikes import lookalikes
@@ -211,7 +211,7 @@ class Volumes(Wing):
     def _users(self) -> Users:
         from usdvol_lint.facts.volumes.usage import Users
 
-        return Users(self.bound_fields.readable(schema.VOLUME))
+        return Users(self.bound_fields.readable(schema.VOLUME), self.tables.field_slots)
 
     @cached_property
     def _field_index(self) -> FieldIndex:

@@ -28,9 +28,19 @@ class UsedFields:
     def add(self, paths: Iterable[Any]) -> None:
         self._paths.update(paths)
 
-    def missing_of(self, paths: Iterable[Any]) -> set[Any]:
+    def add_all_but(self, unused: set[Any], paths: Mapping[Any, Any]) -> set[Any]:
+        """Adds paths, the keys, but for the unused ones; those of these that are not there yet.
+
+        A dict keeps the hashes of its keys, and to hash a path anew takes long.
+        """
+        missing = self.missing_of(unused)
+        self._paths.update(paths)
+        self._paths -= missing
+        return missing
+
+    def missing_of(self, paths: set[Any]) -> set[Any]:
         """Those paths that are not accounted for yet."""
-        return set(paths) - self._paths
+        return paths - self._paths
 
     def never_get(self, path: Any) -> Callable[[], bool]:
         """A predicate for later: whether no selection until then accounts for the path."""
@@ -39,10 +49,13 @@ class UsedFields:
 
 
 class Users:
-    """The Volumes that target each live field, by its slot."""
+    """The Volumes that target each live field, by its slot; `slots` has those of all fields."""
 
-    def __init__(self, volumes: Iterable[tuple[Any, BoundFields]]) -> None:
+    def __init__(
+        self, volumes: Iterable[tuple[Any, BoundFields]], slots: Mapping[Any, Slot]
+    ) -> None:
         self._volumes = list(volumes)
+        self._slots = slots
         self._counts = Counter(slot for _, fields in self._volumes for slot in fields.slots)
 
     def __contains__(self, slot: object) -> bool:
@@ -52,9 +65,10 @@ class Users:
         """How many Volumes target a field."""
         return self._counts[slot]
 
-    def missing_of(self, slots: Mapping[Any, Slot]) -> set[Any]:
+    @cached_property
+    def unbound(self) -> set[Any]:
         """The paths of the fields that no Volume targets."""
-        return {path for path, slot in slots.items() if slot not in self._counts}
+        return {path for path, slot in self._slots.items() if slot not in self._counts}
 
     def of(self, slot: Slot) -> list[Any]:
         """The Volumes that target a field."""
