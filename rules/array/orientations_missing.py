@@ -13,7 +13,7 @@ def orientations_missing(particles: Prim, facts: Facts) -> Problems:
     kernels = apis.providers("ParticleFieldKernelBaseAPI")
     if len(kernels) != 1 or kernels[0] not in _FLAT or apis.third_party or not arrays.most_particles:
         return
-    if not arrays.lack("orientations") or facts.layers.may_lack_values(particles):
+    if not arrays.lack("orientations") or facts.layers.may_lack_values(particles, "orientations"):
         return
     if facts.particles.is_told_as_misspelt(particles, "orientations"):
         return

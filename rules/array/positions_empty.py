@@ -7,7 +7,7 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, format_tim
 def positions_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     late = arrays.late_positions
-    if not (arrays.lack_positions or late) or facts.layers.may_lack_values(particles):
+    if not (arrays.lack_positions or late) or facts.layers.may_lack_values(particles, "positions"):
         return
     is_misspelt = facts.particles.is_told_as_misspelt(particles, "positions")
     if is_misspelt or (not late and facts.layers.hides_ours(particles)):

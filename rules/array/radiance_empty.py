@@ -8,8 +8,8 @@ def radiance_empty(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     if not arrays.are_colourless or facts.particles.material_is_bound(particles):
         return
-    is_told = facts.particles.is_told_as_misspelt(particles, "radiance:sphericalHarmonicsCoefficients")
-    if is_told or facts.layers.may_lack_values(particles):
+    name = "radiance:sphericalHarmonicsCoefficients"
+    if facts.particles.is_told_as_misspelt(particles, name) or facts.layers.may_lack_values(particles, name):
         return
     has_colour = particles.GetAttribute("primvars:displayColor").HasAuthoredValue()
     yield Problem(
@@ -19,5 +19,5 @@ def radiance_empty(particles: Prim, facts: Facts) -> Problems:
         suggestion="author degree 0 and for each colour c the coefficient (c - 0.5) / 0.28209479"
         if has_colour
         else "author radiance:sphericalHarmonicsCoefficients and the degree that fits",
-        absent=[lacks(particles, "radiance:sphericalHarmonicsCoefficients")],
+        absent=[lacks(particles, name)],
     )

@@ -1,17 +1,19 @@
 """AST014: the manifest of value clips must declare what the clips hold."""
 
-from usdvol_lint.rule import ERROR, Facts, PathMark, Prim, Problem, Problems, file_paths, quoted, rule
+from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, rule
+from usdvol_lint.schema import CLIPS
 
 
-@rule("AST014", on="FieldAsset", when=file_paths(PathMark.CLIPPED), severity=ERROR, since="0.1")
-def clip_manifest_incomplete(field: Prim, facts: Facts) -> Problems:
-    unlisted = facts.files.unlisted_clips(field)
-    if unlisted:
+@rule("AST014", on=STAGE, severity=ERROR, since="0.1")
+def clip_manifest_incomplete(root: Prim, facts: Facts) -> Problems:
+    for found in facts.layers.clip_losses.unlisted:
+        clips = lacks(found.prim, CLIPS)
         yield Problem(
-            f"the clip {quoted(unlisted.clip)} holds filePath, but the manifest "
-            f"{quoted(unlisted.manifest)} does not declare it: USD ignores the clips",
-            at=field.GetAttribute("filePath"),
-            spec=unlisted.spec,
-            asset=unlisted.manifest_path,
+            found.words,
+            at=found.missed[0],
+            spec=found.spec,
+            asset=found.manifest_path,
+            severity=None if found.leaves_nothing else WARNING,
             suggestion="write the manifest again, or remove manifestAssetPath: USD then makes one",
+            absent=[(*clips, *lacks(each.GetPrim(), each.GetName())) for each in found.attributes],
         )

@@ -6,9 +6,8 @@ from usdvol_lint.rule import ERROR, INFO, AssetState, Facts, PathMark, Prim, Pro
 @rule("AST001", on="FieldAsset", when=file_paths(PathMark.NONE), severity=ERROR, since="0.1")
 def file_path_missing(field: Prim, facts: Facts) -> Problems:
     paths = facts.files.paths(field)
-    is_told = facts.files.unlisted_clips(field) and facts.tells("AST014")
-    is_told = is_told or facts.prims.is_told_as_misspelt(field, "filePath")
-    if paths.names_a_path or is_told or facts.layers.may_lack_values(field):
+    is_told = facts.prims.is_told_as_misspelt(field, "filePath")
+    if paths.names_a_path or is_told or facts.layers.may_lack_values(field, "filePath"):
         return
     absent = [lacks(field, "filePath")]
     hidden = "but the default time" if paths.hidden_default else ""

@@ -21,7 +21,7 @@ _ONE_FRAME = file_paths(PathMark.NUMBERED, PathMark.SEVERAL)
 def stands_still(field: Prim, facts: Facts) -> Problems:
     time_range = facts.layers.time_range
     still = facts.files.still(field, time_range)
-    if still is None or facts.layers.may_lack_values(field):
+    if still is None or facts.layers.may_lack_values(field, "filePath"):
         return
     staging = facts.volumes.staging(field, time_range) if time_range and not still.is_sampled else None
 

@@ -33,13 +33,13 @@ def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
 
 def _loss(slip: Any, prim: Prim, facts: Facts) -> str:
     """In words what nothing says instead; empty where something else may, or was not meant to."""
-    is_open = slip.overridden or slip.pair not in _LOSSES or facts.layers.may_lack_values(prim)
+    is_open = slip.overridden or slip.pair not in _LOSSES or facts.layers.may_lack_values(prim, slip.pair)
     return "" if is_open or _is_elsewhere(slip, prim, facts) else _LOSSES[slip.pair]
 
 
 def _is_elsewhere(slip: Any, prim: Prim, facts: Facts) -> bool:
     if slip.pair == "filePath":
-        return facts.files.paths(prim).is_only_declared or bool(facts.files.unlisted_clips(prim))
+        return facts.files.paths(prim).is_only_declared
     if slip.pair in ("extent", "fieldName", "fieldDataType"):
         return slip.pair == "extent" and prim not in facts.prims.without_extent
     if slip.pair == "positions":

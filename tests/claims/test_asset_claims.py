@@ -191,6 +191,14 @@ def test_AST014_what_the_manifest_lacks_has_no_value() -> None:
     assert clipped(keys, " = @b.vdb@", manifest=manifest % "other") == ("b.vdb", [])
 
 
+def test_AST014_what_the_manifest_declares_as_uniform_is_ignored() -> None:
+    uniform = CLIP.replace("asset filePath.timeSamples = {1: @a.vdb@}", "uniform asset filePath")
+    assert "uniform" in uniform
+    keys = [*WHOLE, "asset manifestAssetPath = @manifest@"]
+    assert clipped(keys, manifest=uniform) == ("", [])
+    assert clipped(keys, " = @b.vdb@", manifest=uniform) == ("b.vdb", [])
+
+
 @pytest.mark.parametrize("lacking", range(3))
 def test_AST016_a_set_that_lacks_a_key_is_not_used_without_a_word(lacking: int) -> None:
     keys = [key for number, key in enumerate(WHOLE) if number != lacking]

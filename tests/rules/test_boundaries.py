@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from process import ASSETS, SAMPLES, run
 
-from usdvol_lint.model import Finding, StageReport
+from usdvol_lint.model import Finding, Severity, StageReport
 
 Lint = Callable[..., StageReport]
 CLOUD = ASSETS / "cloud.vdb"
@@ -234,10 +234,18 @@ def clipped(folder: Path, field: str, manifest: str, *clips: str) -> str:
     return CLIPPED % (paths, active, density(field))
 
 
-def test_clips_that_a_default_hides_need_no_manifest(lint: FindIn, tmp_path: Path) -> None:
-    clips = [sampled([(time, "./cloud.vdb")]) for time in (1, 2)]
-    text = clipped(tmp_path, "asset filePath = @./cloud.vdb@", "", *clips)
-    assert {f.code for f in lint(text, "AST", "FLD")} == {"FLD006"}
+@pytest.mark.parametrize(
+    ("manifest", "code"),
+    [("", "AST014"), ("uniform asset filePath", "AST014"), ("asset filePath", "FLD006")],
+)
+def test_a_default_hides_no_clips_that_bring_nothing(
+    manifest: str, code: str, lint: FindIn, tmp_path: Path
+) -> None:
+    clips = [sampled([(time, f"./smoke/smoke.000{time}.vdb")]) for time in (1, 2)]
+    text = clipped(tmp_path, "asset filePath = @./cloud.vdb@", manifest, *clips)
+    [finding] = lint(text, "AST", "FLD")
+    assert finding.code == code
+    assert finding.severity == Severity.WARNING
 
 
 def test_a_first_clip_without_samples_hides_no_other(lint: FindIn, tmp_path: Path) -> None:

@@ -113,6 +113,26 @@ COMPLETED: dict[str, tuple[Files, set[str]]] = {
         },
         {"asset AST016 error"},
     ),
+    "a manifest that lacks the paths": (
+        {
+            "asset": layer(
+                clips(f"{PATHS}\n{ACTIVE}\n{MANIFEST}", "def Volume", BOUND + field(NAME)),
+                *RANGE,
+                ROOT_PRIM,
+            ),
+            "c1": clip(1, "over"),
+            "c2": clip(2, "over"),
+            "manifest": layer(over("smoke", "")),
+            "again": layer(over("smoke", field("asset filePath"))),
+            "shot": layer(
+                clips("asset manifestAssetPath = @./again.usda@").replace(
+                    "(clips", "(prepend references = @./asset.usda@\nclips"
+                ),
+                *RANGE,
+            ),
+        },
+        {"asset AST014 error"},
+    ),
     "clips with their manifest": (
         {
             "c1": clip(1),

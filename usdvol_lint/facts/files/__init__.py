@@ -14,7 +14,7 @@ from usdvol_lint.facts.found import Wing, column, fact, summary
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.absences import MissingFolders
     from usdvol_lint.facts.files.alike import Alike, Namesakes
-    from usdvol_lint.facts.files.animation import EmptyClip, UnlistedClips
+    from usdvol_lint.facts.files.animation import EmptyClip
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
     from usdvol_lint.facts.files.classify import AssetReader
     from usdvol_lint.facts.files.corrections import Absence
@@ -150,12 +150,6 @@ class Files(Wing):
         from usdvol_lint.facts.files.in_variants import unselected_path
 
         return unselected_path(field)
-
-    def unlisted_clips(self, field: Any) -> UnlistedClips | None:
-        """The clips that hold samples of `filePath` that their manifest does not declare."""
-        from usdvol_lint.facts.files.animation import unlisted_clips
-
-        return unlisted_clips(self.paths(field).attribute, self._clips.reaching(field))
 
     def empty_clip(self, field: Any) -> EmptyClip | None:
         """A clip that has the prim that it is asked for, but no samples of `filePath`."""

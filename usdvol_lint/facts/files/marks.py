@@ -61,8 +61,6 @@ class PathMarks:
             found.add(PathMark.PACKAGED)
         if self._may_differ_in_case(paths):
             found.add(PathMark.CASE_BLIND)
-        if authored.is_clipped:
-            found.add(PathMark.CLIPPED)
         return frozenset(found)
 
     def _may_differ_in_case(self, paths: AssetSamples) -> bool:

@@ -55,7 +55,6 @@ class PathMark(Enum):
     """A path may differ from the disk by case: nothing is there, or the folder ignores case."""
     PACKAGED = auto()
     """A layer of the stage lies in a package."""
-    CLIPPED = auto()
     """There are value clips."""
 
 

@@ -90,10 +90,10 @@ class Layers(Wing):
         """Whether an arc that brings nothing may have opinions on a prim or those below it."""
         return self._composition.may_lack(prim)
 
-    def may_lack_values(self, prim: Any) -> bool:
-        """As `may_lack`, and value clips count too, which supply only attribute values."""
-        may_be_lost = self.tables.tells("AST016") and (self._clips.are_authored or self._arcs.prims)
-        is_lost = may_be_lost and prim in self.clip_losses.prims
+    def may_lack_values(self, prim: Any, name: str = "") -> bool:
+        """As `may_lack`, and value clips count too, which supply only values, such as of `name`."""
+        may_be_lost = self._clips.are_authored or self._arcs.prims
+        is_lost = may_be_lost and self.clip_losses.are_told(prim, name)
         return bool(is_lost or self._composition.may_lack_values(prim))
 
     @cached_property

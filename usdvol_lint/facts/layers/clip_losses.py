@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from usdvol_lint.facts.layers.composition import Composition
@@ -15,8 +16,9 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.left_behind import LeftBehind
     from usdvol_lint.facts.layers.lost_clips import LostClips
     from usdvol_lint.facts.layers.stopped_clips import StoppedClips
+    from usdvol_lint.facts.layers.unlisted_clips import UnlistedClips
 
-_Loss = TypeVar("_Loss", "LostClips", "LeftBehind", "StoppedClips")
+_Loss = TypeVar("_Loss", "LostClips", "LeftBehind", "StoppedClips", "UnlistedClips")
 
 
 class ClipLosses:
@@ -59,7 +61,35 @@ class ClipLosses:
         return self._certain(find_stopped(self._stage, self._tables))
 
     @cached_property
-    def prims(self) -> frozenset[Any]:
+    def unlisted(self) -> tuple[UnlistedClips, ...]:
+        """The clips that hold what their manifest does not declare."""
+        if not self._clips.are_authored:
+            return ()
+        from usdvol_lint.facts.layers.unlisted_clips import find_unlisted
+
+        return self._certain(find_unlisted(self._tables, self._clips))
+
+    def are_told(self, prim: Any, name: str) -> bool:
+        """Whether AST016 tells of clips that the prim lacks, or AST014 of this attribute of it.
+
+        `name` is that of the float array where there is one of halves too.
+        """
+        tells = self._tables.tells
+        if tells("AST016") and prim in self._prims:
+            return True
+        return (prim, name) in self._unlisted_names and tells("AST014")
+
+    @cached_property
+    def _unlisted_names(self) -> frozenset[tuple[Any, str]]:
+        attributes = chain.from_iterable(each.attributes for each in self.unlisted)
+        return frozenset(
+            (each.GetPrim(), name)
+            for each in attributes
+            for name in (each.GetName(), each.GetName().removesuffix("h"))
+        )
+
+    @cached_property
+    def _prims(self) -> frozenset[Any]:
         """The prims that lack what the clips hold."""
         losses: tuple[Any, ...] = (*self.lost, *self.left_behind, *self.stopped)
         return frozenset(attribute.GetPrim() for each in losses for attribute in each.attributes)

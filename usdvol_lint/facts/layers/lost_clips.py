@@ -67,14 +67,7 @@ class _Clips(NamedTuple):
 
 def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
     """The clip sets above or on prims of ours that USD does not use."""
-    prims = [prim for table in tables.of(*schema.OURS) for prim in table.prims]
-    below: dict[Any, list[Any]] = {}
-    for prim in prims:
-        for bearer in clips.bearers(prim):
-            below.setdefault(bearer, []).append(prim)
-    for bearer, ours in below.items():
-        if _is_undecided(bearer):
-            continue
+    for bearer, ours in decided_bearers(tables, clips):
         sound = tuple(_sound(bearer, clips.on(bearer)))
         for unused in chain(_refused(bearer, clips.on(bearer)), _misdirected(sound)):
             attributes = chain.from_iterable(without_samples(tables, prim) for prim in ours)
@@ -82,6 +75,19 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
                 yield _loss(unused, lost, _advice(unused, lost[0]))
         for each in sound:
             yield from _held_otherwise(each, _without_any(tables, ours))
+
+
+def decided_bearers(tables: Tables, clips: Clips) -> Iterator[tuple[Any, list[Any]]]:
+    """The prims with clip sets, each with those of ours that it reaches.
+
+    Left out are those on which an unselected variant may still say something.
+    """
+    prims = [prim for table in tables.of(*schema.OURS) for prim in table.prims]
+    below: dict[Any, list[Any]] = {}
+    for prim in prims:
+        for bearer in clips.bearers(prim):
+            below.setdefault(bearer, []).append(prim)
+    return ((bearer, ours) for bearer, ours in below.items() if not _is_undecided(bearer))
 
 
 def _loss(unused: _Clips, attributes: Sequence[Any], advice: str | None) -> LostClips:

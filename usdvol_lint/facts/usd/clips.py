@@ -57,6 +57,15 @@ class ClipSet(NamedTuple):
         path = self.path_in_layers(attribute)
         return (layer for layer in self.opened() if layer.GetNumTimeSamplesForPath(path))
 
+    def passes_over(self, attribute: Any) -> bool:
+        """Whether USD looks for no samples of an attribute, since the manifest does not declare it.
+
+        An attribute that is declared uniform counts as little.
+        """
+        declared = open_layer(self.manifest) if self.manifest else None
+        spec = declared and declared.GetAttributeAtPath(self.path_in_layers(attribute))
+        return bool(declared) and not (spec and spec.variability == Sdf.VariabilityVarying)
+
     def opened(self) -> Iterator[Any]:
         """The layers of the first clips, as far as they open."""
         return filter(None, map(open_layer, self.clips[:_CLIPS_OPENED]))

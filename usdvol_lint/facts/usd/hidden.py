@@ -51,7 +51,11 @@ def hidden_animation(attribute: Any, clips: tuple[ClipSet, ...]) -> HiddenAnimat
             return HiddenAnimation(words, (spec.layer,), spec.path)
     for clip_set in clips:
         layers = clip_set.layers_with_samples(attribute)
-        if layers and clip_set.is_outranked_by(default.spec):
+        if (
+            layers
+            and not clip_set.passes_over(attribute)
+            and clip_set.is_outranked_by(default.spec)
+        ):
             words = f"the value clips {quoted(clip_set.name)} on <{shown(clip_set.prim).path}>"
             return HiddenAnimation(words, layers, clip_set.path_in_layers(attribute))
     return None
