@@ -11,6 +11,7 @@ from pxr import Sdf
 
 from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.families import Families, Family, Frames, read_family
+from usdvol_lint.facts.files.library import is_library_item
 from usdvol_lint.facts.files.paths import FORMAT_ARGUMENTS
 from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.facts.files.states import AssetState
@@ -89,7 +90,7 @@ def find_still(
         return None
     if frames.on_disk.keys().isdisjoint((frames.name.number - 1, frames.name.number + 1)):
         return None
-    if packs().are_shown(frames, paths.attribute.GetPrim()):
+    if _is_one_of_a_kind(paths, frames, packs()):
         return None
     inverse = _to_layer(paths, sample)
     in_layer = (inverse * time_range[0], inverse * time_range[1])
@@ -122,10 +123,16 @@ def _animated_in_name_only(
     if not frames.name.digits:
         is_still = are_numbers or frames.name.has_dots
     else:
-        is_still = are_numbers and not packs().are_shown(frames, paths.attribute.GetPrim())
+        is_still = are_numbers and not _is_one_of_a_kind(paths, frames, packs())
     played = [n for n in sorted(frames.on_disk) if are_numbers and times[0] <= n <= times[-1]]
     # Samples that are there already stay at their times.
     return _still(paths, sample, frames, {n: float(n) for n in played}, True) if is_still else None
+
+
+def _is_one_of_a_kind(paths: AssetSamples, frames: Frames, packs: Packs) -> bool:
+    """Whether the file is one of a pack or of a library, each of which stands for itself."""
+    field = paths.attribute.GetPrim()
+    return packs.are_shown(frames, field) or is_library_item(field, frames.name.digits)
 
 
 def _still(
