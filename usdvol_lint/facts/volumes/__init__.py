@@ -118,13 +118,12 @@ class Volumes(Wing):
         """
         from usdvol_lint.facts.volumes import usage
 
-        slots, used = self.tables.field_slots, self._users
+        slots, used, layers = self.tables.field_slots, self._users, self._layers
         self._used.add(path for path, slot in slots.items() if slot in used)
         volumes = self._prims.of(schema.VOLUME)
         is_library = not volumes and len(slots) > 1
-        if is_library or not self._used.missing_of(slots) or not self._layers.are_whole:
+        if is_library or not self._used.missing_of(slots) or not layers.are_whole:
             return []
-        layers = self._layers
         if not volumes and usage.any_targets(self._stage, next(iter(slots)), layers.out_of_reach):
             return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
@@ -153,11 +152,12 @@ class Volumes(Wing):
         """A predicate for later: whether no variant selection until then uses the field."""
         return self._used.never_get(field.GetPath())
 
-    def is_hidden(self, field: Any, times: Sequence[float]) -> bool:
-        """Whether a field, or each of the Volumes that bind it, is invisible at all these times."""
+    def is_hidden(self, field: Any, times: Sequence[float], between: bool = False) -> bool:
+        """Whether a field, or each Volume that binds it, is invisible at, or `between`, times."""
         from usdvol_lint.facts.volumes.visibility import is_hidden
 
-        return is_hidden(field, self._users.of(self.tables.field_slots[field.GetPath()]), times)
+        users = self._users.of(self.tables.field_slots[field.GetPath()])
+        return is_hidden(field, users, times, between)
 
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How transforms move a field relative to a Volume that binds it, if they do."""
