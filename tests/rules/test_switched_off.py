@@ -40,6 +40,7 @@ SILENT = (
     ("AST015", "AST002", "AST015 Wrong 2"),
     ("AST016", "ARR001", "AST016 Wrong 25"),
     ("AST016", "AST001", "AST016 Wrong 1"),
+    ("AST017", "VOL014", "VOL014 Right 4"),
     ("GRD001", "AST006", "GRD001 Wrong 6"),
     ("PRT001", "PRT007", "PRT001 Wrong 3"),
     ("PRT003", "PRT007", "PRT007 Right 4"),

@@ -189,11 +189,11 @@ class Volumes(Wing):
         """The grids with which the authored extent of a Volume can't be compared, if there are."""
         return self._enclosure.unmeasured(volume, self.bindings(volume))
 
-    def mixed_files(self, volume: Any) -> MixedFiles | None:
-        """The different files that the fields of a Volume name at the same time, if they do."""
+    def mixed_files(self, volume: Any, is_told: Callable[[Any], bool]) -> MixedFiles | None:
+        """The different files that fields of a Volume but those told name at one time, if any."""
         from usdvol_lint.facts.volumes.mixture import find_mixed_files
 
-        return find_mixed_files(self.bindings(volume), self._files.paths)
+        return find_mixed_files(self.bindings(volume), self._files.paths, is_told)
 
     def is_targeted(self, prim: Any) -> bool:
         """Whether a live Volume targets a prim, also one that is no live field."""
