@@ -34,6 +34,7 @@ SILENT = (
     ("ARR013", "ARR022", "ARR013 Wrong 1"),
     ("ARR013", "SCH017", "SCH017 Right 2"),
     ("AST002", "AST007", "AST007 Right 2"),
+    ("AST006", "SCH016", "SCH016 Right 4"),
     ("AST008", "AST002", "AST008 Wrong 1"),
     ("AST009", "AST002", "AST009 Wrong 1"),
     ("AST014", "AST001", "AST014 Wrong 1"),
