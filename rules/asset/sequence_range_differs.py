@@ -19,30 +19,27 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         f"{samples} are at {format_time(first)}-{format_time(last)}, "
         f"the stage's range is {format_time(start)}-{format_time(end)}"
     )
-    attribute, alike = field.GetAttribute("filePath"), facts.files.alike(field)
-    if (facts.tells("STG008") and facts.layers.rate_is_unsaid(attribute)) or not alike.is_first:
-        return
     if last < start or first > end:
         is_held = sequence.holds_last if last < start else sequence.holds_first
-        effect = "one file is held throughout" if is_held else "no file is shown"
-        shift = f"if they are to begin with the stage, {sequence.advice_on_shift(start - first)}"
+        effects = {"one file is held throughout" if is_held else "no file is shown": (start, end)}
+        advice, severity = f"if they are to begin with the stage, {sequence.advice_on_shift(start - first)}", None
+    else:
+        effects, severity = {}, INFO
+        advice = "write the frames that are missing, or correct the range of the stage"
+        # A sample holds until the next would come, so every second frame covers the one after it.
+        if first - start > sequence.step - 1e-6 and sequence.holds_first:
+            effects[f"the first file is held until {format_time(first)}"] = start, first - 1e-6
+        if end - last > sequence.step - 1e-6 and sequence.holds_last:
+            effects[f"the last file is held from {format_time(last)} on"] = last + sequence.step, end
+
+    def seen(each: Prim) -> list[str]:
+        return [effect for effect, times in effects.items() if not facts.volumes.is_hidden(each, times, between=True)]
+
+    attribute, alike, found = field.GetAttribute("filePath"), facts.files.alike(field, seen), seen(field)
+    if found and alike.is_first and not (facts.tells("STG008") and facts.layers.rate_is_unsaid(attribute)):
         yield Problem(
-            f"{ranges}: {effect}{alike.others}",
+            f"{ranges}: {' and '.join(found)}{alike.others}",
             at=attribute,
-            suggestion=sequence.rate_at_fault((start, end)) or shift,
-        )
-        return
-    # A sample holds until the next would come, so every second frame covers the one after it.
-    held = []
-    if first - start > sequence.step - 1e-6 and sequence.holds_first:
-        held.append(f"the first file is held until {format_time(first)}")
-    if end - last > sequence.step - 1e-6 and sequence.holds_last:
-        held.append(f"the last file is held from {format_time(last)} on")
-    if held:
-        yield Problem(
-            f"{ranges}: {' and '.join(held)}{alike.others}",
-            at=attribute,
-            suggestion=sequence.rate_at_fault((start, end))
-            or "write the frames that are missing, or correct the range of the stage",
-            severity=INFO,
+            suggestion=sequence.rate_at_fault((start, end)) or advice,
+            severity=severity,
         )

@@ -5,8 +5,6 @@ from typing import Any
 from usdvol_lint.rule import ERROR, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 from usdvol_lint.spelling import closest_name
 
-_PARTS = [tuple(f"{mark}{part}" for part in "xyz") for mark in (".", "_", ":", "")]
-
 
 def _missing(content: Content) -> tuple[str, str, bool] | None:
     """What is missing, where nothing of that name may lie in what was not read."""
@@ -18,25 +16,28 @@ def _missing(content: Content) -> tuple[str, str, bool] | None:
 
 @rule("GRD003", on="FieldAsset", when=contents(_missing), severity=ERROR, since="0.1")
 def grid_missing(field: Prim, facts: Facts) -> Problems:
+    def names_empty(each: Prim) -> bool:
+        return any(not has_grids for (*_, has_grids), *_ in facts.grids.contents(each).grouped(_missing))
+
+    alike = facts.files.alike(field, names_empty)
     for (name, purpose, has_grids), content, found in facts.grids.contents(field).grouped(_missing):
+        if not (has_grids or alike.is_first):
+            continue
+        holds = content.holds if has_grids else f"no grids{alike.others}"
         where = f" of {purpose!r}" if purpose else ""
         yield Problem(
-            f"no grid {quoted(name)}{where} in {found.shown}, which holds {content.holds}{found.count}",
+            f"no grid {quoted(name)}{where} in {found.shown}, which holds {holds}{found.count}",
             at=found,
             suggestion=_similar(name, content) or _choice(name, has_grids, field, found, facts),
         )
 
 
 def _similar(name: str, content: Content) -> str | None:
-    names = content.grid_names
     if content.claim.purpose and content.purposes:
         return f"did you mean fieldPurpose {' or '.join(map(quoted, content.purposes))}?"
-    for parts in _PARTS:
-        split = [name + part for part in parts]
-        if names.issuperset(split):
-            listed = ", ".join(map(quoted, split))
-            return f"{quoted(name)} is split into {listed}: write it as one vector"
-    meant = closest_name(name, names - {""})
+    if parts := content.parts:
+        return f"{quoted(name)} is split into {', '.join(map(quoted, parts))}: write it as one vector"
+    meant = closest_name(name, content.grid_names - {""})
     return f"did you mean {quoted(meant)}?" if meant else None
 
 

@@ -5,7 +5,11 @@ from usdvol_lint.rule import INFO, BindingMark, Facts, Prim, Problem, Problems, 
 
 @rule("VOL014", on="Volume", when=bindings(BindingMark.SEVERAL), severity=INFO, since="0.1")
 def mixed_files(volume: Prim, facts: Facts) -> Problems:
-    mixed = facts.volumes.mixed_files(volume)
+    def is_told(field: Prim) -> bool:
+        still = facts.tells("AST017") and facts.files.still(field, facts.layers.time_range)
+        return bool(still and still.beside)
+
+    mixed = facts.volumes.mixed_files(volume, is_told)
     if mixed:
         yield Problem(
             f"the fields name {len(mixed.fields)} files at one time, {mixed.shown}, of which some "

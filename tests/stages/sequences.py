@@ -12,6 +12,9 @@ from .subjects import Choice, VolumeSubject
 
 PATTERNS = ("plain", "held", "looped", "blocked", "blinking", "rest frame", "every file twice")
 """How a sequence of its own goes through its files."""
+_VERSIONS = (("_v{:03}", 1), ("_lod.{:04}", 1), (".take{:04}", 1), (".{:04}", 64))
+_ITEM = ("_{:04}", 1)
+"""How files are numbered, and in which steps."""
 
 
 def add_sequence(subject: VolumeSubject, choice: Choice, rng: Random) -> None:
@@ -62,13 +65,16 @@ def _own_frames(subject: VolumeSubject, rng: Random) -> list[File]:
 
 
 def version_of(subject: VolumeSubject, source: Source, rng: Random) -> File:
-    """One of several files that are numbered, but not by frames."""
+    """One of several files that are numbered, but not by frames; of a library with its layer."""
     stem = posixpath.join(posixpath.dirname(subject.layer.path), subject.prim.name)
-    words, step = rng.choice((("_v{:03}", 1), ("_lod.{:04}", 1), (".take{:04}", 1), (".{:04}", 64)))
-    paths = [f"{stem}{words.format(step * number)}.vdb" for number in range(1, 6)]
+    words, step = rng.choice((*_VERSIONS, _ITEM))
+    paths = [f"{stem}{words.format(step * number)}" for number in range(1, 6)]
     data = original(source.path).read_bytes()
-    subject.content.files.update(dict.fromkeys(paths, data))
-    return File(rng.choice(paths))
+    subject.content.files.update((f"{path}.vdb", data) for path in paths)
+    chosen = rng.choice(paths)
+    if words == _ITEM[0]:
+        subject.layer.path = chosen + posixpath.splitext(subject.layer.path)[1]
+    return File(f"{chosen}.vdb")
 
 
 def add_clips(subject: VolumeSubject, choice: Choice, rng: Random) -> None:

@@ -9,10 +9,13 @@ from typing import NamedTuple
 _NUMBERED = re.compile(r"(?s)(.*(?<![0-9]))([0-9]{3,7})(\.[A-Za-z]\w*)")
 _NUMBER_LOST = re.compile(r"(?s)(.*[._-])()(\.[A-Za-z]\w*)")
 _WORD = re.compile(r"([A-Z]?[a-z]+|[A-Z]+)[^A-Za-z0-9]*$")
+_ISSUES = "v|vers?|version|r|rev|revision|release|take|shot"
+_ISSUE = re.compile(_ISSUES, re.IGNORECASE)
+"""Words before the number of a version or shot."""
 _NO_FRAMES = re.compile(
-    r"v|vers?|version|r|rev|revision|release|lod|level|lvl|mip|x|res|resolution|take|wedge|seed"
+    rf"{_ISSUES}|lod|level|lvl|mip|x|res|resolution|wedge|seed"
     r"|iter|iteration|var|variant|variation|alt|option|tile|udim|part|piece|chunk|cluster|id|idx"
-    r"|index|type|kind|asset|shot|cam|model|style|preset|sample|opt|num|img",
+    r"|index|type|kind|asset|cam|model|style|preset|sample|opt|num|img",
     re.IGNORECASE,
 )
 """Words before a number that is no frame's."""
@@ -47,8 +50,17 @@ def read_frame_name(name: str) -> FrameName | None:
     found = _NUMBERED.fullmatch(name)
     if found is None:
         return None
-    word = _WORD.search(found[1])
-    return None if word and _NO_FRAMES.fullmatch(word[1]) else FrameName(*found.groups())
+    return None if _ends_in(_NO_FRAMES, found[1]) else FrameName(*found.groups())
+
+
+def numbers_an_issue(before: str) -> bool:
+    """Whether what stands before a number says that it is that of a version or shot."""
+    return _ends_in(_ISSUE, before)
+
+
+def _ends_in(words: re.Pattern[str], before: str) -> bool:
+    word = _WORD.search(before)
+    return bool(word and words.fullmatch(word[1]))
 
 
 def read_lost_number(name: str) -> FrameName | None:

@@ -11,6 +11,7 @@ from pxr import Sdf
 
 from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.families import Families, Family, Frames, read_family
+from usdvol_lint.facts.files.library import is_library_item
 from usdvol_lint.facts.files.paths import FORMAT_ARGUMENTS
 from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.facts.files.states import AssetState
@@ -31,7 +32,7 @@ class Still(NamedTuple):
 
     `is_sampled`: whether several time samples name it; `is_lost`: whether its name lacks the frame
     number; `is_certain`: whether the sequence leaves no doubt, if need be `by_range`, that it runs
-    over the range of the stage.
+    over the range of the stage; `beside`: another field of its Volume that plays the sequence.
     `numbers`: those of the files on disk; `advice`: the samples to author instead.
     """
 
@@ -41,6 +42,7 @@ class Still(NamedTuple):
     is_lost: bool
     is_certain: bool
     by_range: bool
+    beside: Any | None
     advice: str
 
 
@@ -52,18 +54,24 @@ class Packs:
 
     def __init__(self, every: Iterable[AssetSamples]) -> None:
         self._shown: dict[Family, set[int]] = defaultdict(set)
-        self._played: set[Family] = set()
+        self._played: dict[Family, list[Any]] = defaultdict(list)
         for paths in every:
             timed = _timed(paths)
             if sample := _only_file(paths):
                 if found := read_family(sample.resolved):
                     self._shown[found[1]].add(found[0].number)
             elif timed and (found := read_family(timed[0].resolved)):
-                self._played.add(found[1])
+                self._played[found[1]].append(paths.attribute.GetPrim())
 
     def are_played(self, frames: Frames) -> bool:
         """Whether another field shows one file of a family after the other."""
         return frames.family in self._played
+
+    def played_beside(self, frames: Frames, field: Any) -> Any | None:
+        """Another field of the same Volume that does so."""
+        volume = _volume_above(field)
+        played = self._played.get(frames.family, ()) if volume else ()
+        return next((other for other in played if _volume_above(other) == volume), None)
 
     def are_shown(self, frames: Frames, field: Any) -> bool:
         """Whether other fields, or other variants above this one, name other files of a family."""
@@ -89,12 +97,13 @@ def find_still(
         return None
     if frames.on_disk.keys().isdisjoint((frames.name.number - 1, frames.name.number + 1)):
         return None
-    if packs().are_shown(frames, paths.attribute.GetPrim()):
+    if _is_one_of_a_kind(paths, frames, packs()):
         return None
     inverse = _to_layer(paths, sample)
     in_layer = (inverse * time_range[0], inverse * time_range[1])
     are_layer_times = _fills(frames, in_layer)
-    is_animated = _is_animated_below(paths, frames, clips)
+    beside = packs().played_beside(frames, paths.attribute.GetPrim())
+    is_animated = bool(beside) or _is_animated_below(paths, frames, clips)
     is_filled = are_layer_times or _fills(frames, time_range)
     is_forgotten = is_filled and not _may_be_held(paths, frames, packs())
     low, high = in_layer if are_layer_times else time_range
@@ -107,6 +116,7 @@ def find_still(
         dict(zip(numbers, times, strict=True)),
         is_certain=is_animated or is_forgotten,
         by_range=not is_animated,
+        beside=beside,
     )
 
 
@@ -119,13 +129,33 @@ def _animated_in_name_only(
         return None
     times = _times(paths)
     are_numbers = all(time in frames.on_disk for time in times)
+    beside = (
+        packs().played_beside(frames, paths.attribute.GetPrim()) if frames.name.digits else None
+    )
     if not frames.name.digits:
         is_still = are_numbers or frames.name.has_dots
     else:
-        is_still = are_numbers and not packs().are_shown(frames, paths.attribute.GetPrim())
+        is_still = (are_numbers or bool(beside)) and not _is_one_of_a_kind(paths, frames, packs())
     played = [n for n in sorted(frames.on_disk) if are_numbers and times[0] <= n <= times[-1]]
     # Samples that are there already stay at their times.
-    return _still(paths, sample, frames, {n: float(n) for n in played}, True) if is_still else None
+    at = {number: float(number) for number in played}
+    return _still(paths, sample, frames, at, True, beside=beside) if is_still else None
+
+
+def _volume_above(field: Any) -> Any | None:
+    """The Volume that a field is below."""
+    from pxr import UsdVol  # costs start-up time
+
+    prim = field.GetParent()
+    while prim and not prim.IsA(UsdVol.Volume):
+        prim = prim.GetParent()
+    return prim or None
+
+
+def _is_one_of_a_kind(paths: AssetSamples, frames: Frames, packs: Packs) -> bool:
+    """Whether the file is one of a pack or of a library, each of which stands for itself."""
+    field = paths.attribute.GetPrim()
+    return packs.are_shown(frames, field) or is_library_item(field, frames.name.digits)
 
 
 def _still(
@@ -135,6 +165,7 @@ def _still(
     times: Mapping[int, float],
     is_certain: bool,
     by_range: bool = False,
+    beside: Any | None = None,
 ) -> Still | None:
     """What is said of it; `times` are those in the layer at which the numbers belong."""
     timed = _timed(paths)
@@ -148,7 +179,8 @@ def _still(
         not frames.name.digits,
         is_certain,
         by_range,
-        _advice(paths, sample, frames, times),
+        beside,
+        _advice_beside(beside) if beside else _advice(paths, sample, frames, times),
     )
 
 
@@ -238,6 +270,10 @@ def _numbers(spec: Any, value: Any, family: Family) -> set[int]:
     path, _, _ = value.path.partition(FORMAT_ARGUMENTS)
     found = read_family(spec.layer.ComputeAbsolutePath(path).replace(os.sep, "/"))
     return {found[0].number} if found and found[1] == family else set()
+
+
+def _advice_beside(field: Any) -> str:
+    return f"give it the filePath of <{shown(field).path}>, which plays the sequence"
 
 
 def _advice(

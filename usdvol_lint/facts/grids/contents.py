@@ -13,6 +13,7 @@ from usdvol_lint.volumefile.cache import Reading
 from usdvol_lint.volumefile.model import Fault, Format, Grid, VolumeFile, quoted_short
 
 _NAMES_SHOWN = 8
+_PART_MARKS = (".", "_", ":", "")
 _UNREAD = ("needs-h5py", "not-in-place")
 _ANNOUNCED: dict[str, Format] = {".nvdb": "nanovdb", ".vdb": "openvdb", ".f3d": "field3d"}
 """The format that an extension announces."""
@@ -146,6 +147,12 @@ class Content(NamedTuple):
     def grid_names(self) -> frozenset[str]:
         """The names of the grids in the file."""
         return frozenset(grid.unique_name for grid in self.file.grids) if self.file else frozenset()
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The names of the grids that a vector of the claimed name is split into, if it is."""
+        split = (tuple(f"{self.claim.name}{mark}{part}" for part in "xyz") for mark in _PART_MARKS)
+        return next(filter(self.grid_names.issuperset, split), ())
 
     @property
     def purposes(self) -> tuple[str, ...]:

@@ -118,13 +118,12 @@ class Volumes(Wing):
         """
         from usdvol_lint.facts.volumes import usage
 
-        slots = self.tables.field_slots
+        slots, layers = self.tables.field_slots, self._layers
         unused = self._used.add_all_but(self._users.unbound, slots)
         volumes = self._prims.of(schema.VOLUME)
         is_library = not volumes and len(slots) > 1
-        if is_library or not unused or not self._layers.are_whole:
+        if is_library or not unused or not layers.are_whole:
             return []
-        layers = self._layers
         if not volumes and usage.any_targets(self._stage, next(iter(slots)), layers.out_of_reach):
             return []  # by a prim that is no Volume, or is not there: a finding of its own
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
@@ -153,11 +152,12 @@ class Volumes(Wing):
         """A predicate for later: whether no variant selection until then uses the field."""
         return self._used.never_get(field.GetPath())
 
-    def is_hidden(self, field: Any, times: Sequence[float]) -> bool:
-        """Whether a field, or each of the Volumes that bind it, is invisible at all these times."""
+    def is_hidden(self, field: Any, times: Sequence[float], between: bool = False) -> bool:
+        """Whether a field, or each Volume that binds it, is invisible at, or `between`, times."""
         from usdvol_lint.facts.volumes.visibility import is_hidden
 
-        return is_hidden(field, self._users.of(self.tables.field_slots[field.GetPath()]), times)
+        users = self._users.of(self.tables.field_slots[field.GetPath()])
+        return is_hidden(field, users, times, between)
 
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How transforms move a field relative to a Volume that binds it, if they do."""
@@ -189,11 +189,11 @@ class Volumes(Wing):
         """The grids with which the authored extent of a Volume can't be compared, if there are."""
         return self._enclosure.unmeasured(volume, self.bindings(volume))
 
-    def mixed_files(self, volume: Any) -> MixedFiles | None:
-        """The different files that the fields of a Volume name at the same time, if they do."""
+    def mixed_files(self, volume: Any, is_told: Callable[[Any], bool]) -> MixedFiles | None:
+        """The different files that fields of a Volume but those told name at one time, if any."""
         from usdvol_lint.facts.volumes.mixture import find_mixed_files
 
-        return find_mixed_files(self.bindings(volume), self._files.paths)
+        return find_mixed_files(self.bindings(volume), self._files.paths, is_told)
 
     def is_targeted(self, prim: Any) -> bool:
         """Whether a live Volume targets a prim, also one that is no live field."""

@@ -36,17 +36,18 @@ class MixedFiles(NamedTuple):
 
 
 def find_mixed_files(
-    bindings: FieldBindings, paths: Callable[[Any], AssetSamples]
+    bindings: FieldBindings, paths: Callable[[Any], AssetSamples], is_told: Callable[[Any], bool]
 ) -> MixedFiles | None:
     """Compares the files of the fields of a Volume at every time; None if they never differ.
 
-    Paths to no file are ignored: they are findings of other rules.
+    Paths to no file are ignored, and fields of which `is_told`: they are findings of other rules.
     """
-    named = [
-        (binding.name, paths(in_prototype(target.prim)))
-        for binding, target in bindings.with_files()
+    fields = [
+        (binding.name, in_prototype(target.prim)) for binding, target in bindings.with_files()
     ]
-    return _compare(named) if len(named) > 1 else None
+    if not _compare([(name, paths(field)) for name, field in fields]):
+        return None  # nearly always, and quick
+    return _compare([(name, paths(field)) for name, field in fields if not is_told(field)])
 
 
 def _compare(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles | None:
