@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.clip_losses import ClipLosses
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
     from usdvol_lint.facts.layers.instancing import LostOverrides
+    from usdvol_lint.facts.layers.misnamed import Misnamed
+    from usdvol_lint.facts.layers.overs import Overs
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
@@ -35,15 +37,14 @@ class Layers(Wing):
         stage: Any,
         clips: Clips,
         kinds: PrimKinds,
-        undefined: Mapping[Any, Sequence[Any]],
+        overs: Overs,
         drawn: Drawn,
     ) -> None:
-        """`undefined`: by an `over`, the prims of our types that it takes off the stage."""
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
         self._kinds = kinds
-        self._undefined = undefined
+        self.overs = overs
         self._drawn = drawn
 
     @property
@@ -94,6 +95,7 @@ class Layers(Wing):
         """As `may_lack`, and value clips count too, which supply only attribute values."""
         may_be_lost = self.tables.tells("AST016") and (self._clips.are_authored or self._arcs.prims)
         is_lost = may_be_lost and prim in self.clip_losses.prims
+        is_lost = is_lost or self.overs.are_meant_for(prim, self._composition)
         return bool(is_lost or self._composition.may_lack_values(prim))
 
     @cached_property
@@ -136,7 +138,7 @@ class Layers(Wing):
             from usdvol_lint.facts.layers.instancing import lost_overrides
 
             layered = self._arcs.layered
-            yield from lost_overrides(self._stage, layered, self._kinds, self._ours())
+            yield from lost_overrides(self._stage, layered, self._kinds, self.tables.ours())
 
     @cached_property
     def _retyped(self) -> dict[Any, Retyped]:
@@ -149,26 +151,24 @@ class Layers(Wing):
     @property
     def undefined(self) -> Iterator[Undefined]:
         """The overs that take prims of ours off the stage, where that is probably a slip."""
-        if not self._undefined:
-            return iter(())
-        from usdvol_lint.facts.layers.undefined import find_undefined
+        return self.overs.hiding(self._composition)
 
-        return find_undefined(self._stage, self._undefined, self._ours, self.may_lack)
+    @property
+    def misnamed(self) -> tuple[Misnamed, ...]:
+        """The overs whose opinions were probably meant for a sibling."""
+        return self.overs.misnamed(self._composition)
 
     @property
     def undrawn(self) -> Iterator[Any]:
         """The prims of ours that an `over` takes off the stage, also of libraries, and all that
         PointInstancers target in a `class`.
         """
-        return chain(*self._undefined.values(), self._drawn.passed_over)
+        return chain(self.overs.hidden, self._drawn.passed_over)
 
     @property
     def out_of_reach(self) -> Iterator[Any]:
         """The prims that PointInstancers target and no traversal reaches, and those below them."""
         return self._drawn.out_of_reach
-
-    def _ours(self) -> Iterator[Any]:
-        return chain.from_iterable(map(self.tables.prims, schema.OURS))
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:
