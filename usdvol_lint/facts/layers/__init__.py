@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.misnamed import Misnamed
     from usdvol_lint.facts.layers.overs import Overs
     from usdvol_lint.facts.layers.rates import UnsaidRate
+    from usdvol_lint.facts.layers.selections import WrongSelection
     from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
@@ -50,17 +51,12 @@ class Layers(Wing):
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
         """The layers that an arc or a clip set names, and that USD can't open."""
-        return self._composition.missing_layers
-
-    @property
-    def of_unread_formats(self) -> tuple[tuple[MissingLayer, ...], ...]:
-        """Those of them that are there, and in files that no plugin here reads; by formats."""
-        return self._composition.of_unread_formats
+        return self.composition.missing_layers
 
     @property
     def empty_arcs(self) -> tuple[EmptyArc, ...]:
         """The references and payloads to prims that are not there."""
-        return self._composition.empty_arcs
+        return self.composition.empty_arcs
 
     def may_bring_ours(self, *names: str) -> bool:
         """Whether Volumes, fields or particle fields are on the stage, or names speak of them."""
@@ -75,35 +71,30 @@ class Layers(Wing):
     @property
     def errors(self) -> tuple[CompositionError, ...]:
         """All other composition errors."""
-        return self._composition.errors
-
-    @property
-    def unloaded(self) -> tuple[Any, ...]:
-        """The prims with payloads that were not loaded."""
-        return self._composition.unloaded
+        return self.composition.errors
 
     @property
     def are_whole(self) -> bool:
         """Whether every arc could be followed and every payload was loaded."""
-        return self._composition.is_whole
+        return self.composition.is_whole
 
     def may_lack(self, prim: Any) -> bool:
         """Whether an arc that brings nothing may have opinions on a prim or those below it."""
-        return self._composition.may_lack(prim)
+        return self.composition.may_lack(prim)
 
     def may_lack_values(self, prim: Any) -> bool:
         """As `may_lack`, and value clips count too, which supply only attribute values."""
         may_be_lost = self.tables.tells("AST016") and (self._clips.are_authored or self._arcs.prims)
         is_lost = may_be_lost and prim in self.clip_losses.prims
-        is_lost = is_lost or self.overs.are_meant_for(prim, self._composition)
-        return bool(is_lost or self._composition.may_lack_values(prim))
+        is_lost = is_lost or self.overs.are_meant_for(prim, self.composition)
+        return bool(is_lost or self.composition.may_lack_values(prim))
 
     @cached_property
     def clip_losses(self) -> ClipLosses:
         """The value clips that do not arrive at prims of ours."""
         from usdvol_lint.facts.layers.clip_losses import ClipLosses
 
-        return ClipLosses(self._stage, self.tables, self._clips, self._arcs, self._composition)
+        return ClipLosses(self._stage, self.tables, self._clips, self._arcs, self.composition)
 
     @property
     def are_several(self) -> bool:
@@ -151,12 +142,21 @@ class Layers(Wing):
     @property
     def undefined(self) -> Iterator[Undefined]:
         """The overs that take prims of ours off the stage, where that is probably a slip."""
-        return self.overs.hiding(self._composition)
+        return self.overs.hiding(self.composition)
 
     @property
     def misnamed(self) -> tuple[Misnamed, ...]:
         """The overs whose opinions were probably meant for a sibling."""
-        return self.overs.misnamed(self._composition)
+        return self.overs.misnamed(self.composition)
+
+    @property
+    def wrong_selections(self) -> Iterator[WrongSelection]:
+        """The selections of variants that are not there, in sets that have to do with us."""
+        if self._arcs.prims:
+            from usdvol_lint.facts.layers.selections import wrong_selections
+
+            found = wrong_selections(self._arcs.prims, self._drawn, self._kinds)
+            yield from (each for each in found if not self.may_lack(each.prim))
 
     @property
     def undrawn(self) -> Iterator[Any]:
@@ -212,7 +212,8 @@ class Layers(Wing):
         return Arcs(self._stage, self._drawn)
 
     @cached_property
-    def _composition(self) -> Composition:
+    def composition(self) -> Composition:
+        """What USD could not compose, of which the properties here are part."""
         from usdvol_lint.facts.layers.composition import Composition, unloaded_prims
 
         clipped: list[Any] = []
