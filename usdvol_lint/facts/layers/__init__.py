@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.instancing import LostOverrides
     from usdvol_lint.facts.layers.misnamed import Misnamed
     from usdvol_lint.facts.layers.overs import Overs
+    from usdvol_lint.facts.layers.prototypes import LostPrototype
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.selections import WrongSelection
     from usdvol_lint.facts.layers.undefined import Undefined
@@ -159,11 +160,12 @@ class Layers(Wing):
             yield from (each for each in found if not self.may_lack(each.prim))
 
     @property
-    def undrawn(self) -> Iterator[Any]:
-        """The prims of ours that an `over` takes off the stage, also of libraries, and all that
-        PointInstancers target in a `class`.
-        """
-        return chain(self.overs.hidden, self._drawn.passed_over)
+    def lost_prototypes(self) -> Iterator[LostPrototype]:
+        """The targets of PointInstancers that are not there, where they have to do with us."""
+        if self._drawn.live_instancers:
+            from usdvol_lint.facts.layers.prototypes import lost_prototypes
+
+            yield from lost_prototypes(self._stage, self._drawn, self._kinds, self.may_lack)
 
     @property
     def out_of_reach(self) -> Iterator[Any]:

@@ -39,12 +39,14 @@ class Overs:
         self._misnamed: tuple[Misnamed, ...] | None = None
 
     @property
-    def hidden(self) -> Iterator[Any]:
-        """The prims of our types with a `def` that an `over` takes off the stage."""
-        return chain.from_iterable(self._undefined.values())
+    def undrawn(self) -> Iterator[Any]:
+        """The prims of ours that an `over` takes off the stage, also of libraries, and all that
+        PointInstancers target in a `class`.
+        """
+        return chain(*self._undefined.values(), self._drawn.passed_over)
 
     def hiding(self, composition: Composition) -> Iterator[Undefined]:
-        """The overs that do so, where that is probably a slip."""
+        """The overs that take prims of ours off the stage, where that is probably a slip."""
         if not self._undefined:
             return iter(())
         from usdvol_lint.facts.layers.undefined import find_undefined
