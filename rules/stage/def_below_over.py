@@ -14,12 +14,13 @@ def def_below_over(root: Prim, facts: Facts) -> Problems:
         what = f"{first}{more} below it {'are' if more else 'is'} not on the stage"
         where = f" (at {copies} prims)" if copies > 1 else ""
         name = over.GetName()
+        kind = f"{over.GetTypeName()} " if over.GetTypeName() else ""
         yield Problem(
             f"no layer defines {name!r}, there is only an over, so {what}{where}",
             at=over,
             severity=None if similar else INFO,
             suggestion=f"did you mean {quoted(similar)}?"
             if similar
-            else f"write 'def \"{name}\"' where it should be drawn",
+            else f"write 'def {kind}\"{name}\"' where it should be drawn",
             absent=[lacks(over, SPECIFIER)],
         )

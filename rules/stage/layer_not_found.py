@@ -9,7 +9,7 @@ _UNREADABLE = "correct that layer, or export it again"
 
 @rule("STG001", on=STAGE, severity=ERROR, since="0.1")
 def layer_not_found(root: Prim, facts: Facts) -> Problems:
-    for first, *others in facts.layers.of_unread_formats:
+    for first, *others in facts.layers.composition.of_unread_formats:
         what = f"the {first.arc} {quoted(first.asset)}{f' and {len(others)} more' if others else ''}"
         said = f"no plugin here reads {first.extension!r} files: what {what} should bring was not checked"
         yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset)
@@ -38,7 +38,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             severity=None if concerns_ours and not scheme else WARNING,
             suggestion=f"write the path without {quoted(scheme)}" if scheme else advice,
         )
-    unloaded = [str(prim.GetPath()) for prim in facts.layers.unloaded]
+    unloaded = [str(prim.GetPath()) for prim in facts.layers.composition.unloaded]
     if unloaded:
         more = ", …" if len(unloaded) > _NAMED else ""
         yield NotChecked(

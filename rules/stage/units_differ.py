@@ -7,38 +7,33 @@ from usdvol_lint.rule import INFO, STAGE, WARNING, Facts, Prim, Problem, Problem
 
 @rule("STG009", on=STAGE, severity=WARNING, since="0.1")
 def units_differ(root: Prim, facts: Facts) -> Problems:
+    told: set[str] = set()
     for unlike in facts.layers.unlike_stage:
         where = f" (on {len(unlike.prims)} prims)" if len(unlike.prims) > 1 else ""
-        said, deed, advice = _compared(unlike)
-        top, what = "the root", "the prim that has the reference or payload"
+        said, deed = _compared(unlike)
+        top = "the root"
         if unlike.resetting:
-            what = f"<{facts.prims.shown_path(unlike.resetting)}>"
-            top = f"{what}, which resets the transform stack,"
+            top = f"<{facts.prims.shown_path(unlike.resetting)}>, which resets the transform stack,"
         yield Problem(
             f"{said}, and nothing from the prim up to {top} {deed} it{where}",
             at=unlike.prim,
             spec=unlike.layer.pseudoRoot,
             severity=INFO if unlike.is_sublayer else None,
-            suggestion=None if unlike.is_sublayer else advice.format(what),
+            suggestion=None if unlike.is_sublayer else _advice(told, *unlike.remedies),
         )
 
 
-def _compared(unlike: Any) -> tuple[str, str, str]:
-    """What differs, what would make up for it, and the advice to do so, with `{}` for a prim."""
+def _compared(unlike: Any) -> tuple[str, str]:
+    """What differs, and what would make up for it."""
     own, other = unlike.said, unlike.stage_says
     if unlike.key == "upAxis":
-        said = f"the layer's upAxis is {quoted(own)} and the stage's is {quoted(other)}"
-        turn = _TURNS.get((own, other), "the one axis to the other")
-        return said, "rotates", "rotate {}: " + turn
-    said = f"the layer's metersPerUnit is {own:g} and the stage's is {other:g}"
-    return (
-        said,
-        "scales",
-        "scale {} by " + f"{own / other:g}",
-    )
+        return f"the layer's upAxis is {quoted(own)} and the stage's is {quoted(other)}", "rotates"
+    return f"the layer's metersPerUnit is {own:g} and the stage's is {other:g}", "scales"
 
 
-_TURNS = {
-    ("Z", "Y"): "'float xformOp:rotateX = -90'",
-    ("Y", "Z"): "'float xformOp:rotateX = 90'",
-}
+def _advice(told: set[str], first: Any, *others: Any) -> str:
+    order = f"{first.name!r} in its xformOpOrder too" if first.path in told else quoted(first.order)
+    told.add(first.path)
+    where = ", in the layer that has its reference or payload" if first.is_in_instance else ""
+    more = f" (and on {len(others)} more accordingly)" if others else ""
+    return f"write {quoted(first.op)} on <{first.path}>{where}, with {order}{more}"

@@ -103,3 +103,12 @@ def test_STG009_neither_axis_nor_units_are_corrected() -> None:
     placed = UsdGeom.Xformable(asked.GetPrimAtPath("/it"))
     assert placed.GetLocalTransformation() == placed.GetLocalTransformation().GetInverse()
     assert UsdGeom.GetStageUpAxis(asked) == "Y"
+
+
+def test_STG009_an_op_counts_if_the_order_names_it() -> None:
+    turned = 'def Xform "it"\n{\n    float xformOp:rotateX = -90\n%s}\n'
+    order = '    uniform token[] xformOpOrder = ["xformOp:rotateX"]\n'
+    for body, counts in ((order, True), ("", False)):
+        placed = UsdGeom.Xformable(stage(turned % body).GetPrimAtPath("/it"))
+        local = placed.GetLocalTransformation()
+        assert (local != local.GetInverse()) == counts

@@ -86,6 +86,8 @@ SILENT = (
     ("SCH012", "VOL002", "SCH012 Wrong 3"),
     ("SCH012", "VOL010", "SCH012 Wrong 9"),
     ("STG008", "AST012", "STG008 Wrong 4"),
+    ("STG005", "STG010", "STG010 Right 8"),
+    ("STG010", "AST001", "STG010 Wrong 3"),
     ("VOL008", "STG005", "STG005 Right 8"),
     ("VOL013", "SCH017", "SCH017 Right 3"),
 )

@@ -21,7 +21,7 @@ from usdvol_lint.facts.usd.calls import (
 from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.instances import Standing, standing_of
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
-from usdvol_lint.facts.usd.untyped import GROUP_TYPES, with_our_data
+from usdvol_lint.facts.usd.untyped import GROUP_TYPES, overs_with_our_data, with_our_data
 from usdvol_lint.rule import Rule
 
 _BATCH = 256
@@ -34,6 +34,8 @@ _GROUPS = 20_000
 
 To ask a prim for what is authored on it takes as long as all else that the walk asks.
 """
+_OVERS = 20_000
+"""How many overs are kept, the first ones: a layer that is meant for another has no others."""
 
 
 def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walked:
@@ -53,6 +55,7 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walked:
         if shows_all and all(map(is_defined, prims)):
             kept[key] = prims
             continue
+        met.overs += overs_with_our_data(prims)
         if not schema.OURS.isdisjoint(kinds.names(key)):
             for prim in filter(has_specifier, filterfalse(drawn.__contains__, prims)):
                 for over in _overs_above(prim, drawn):
@@ -60,7 +63,7 @@ def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walked:
         if shown := list(filter(drawn.__contains__, prims)):
             kept[key] = shown
     untyped = list(filter(drawn.__contains__, met.untyped))
-    return Walked(met.count, kept, met.clipped, untyped, undefined, drawn)
+    return Walked(met.count, kept, met.clipped, untyped, undefined, met.overs, drawn)
 
 
 class _Met:
@@ -74,12 +77,14 @@ class _Met:
         self.count = 0
         self.clipped: list[Any] = []
         self.untyped: list[Any] = []
+        self.overs: list[Any] = []
         self._wanted = wanted
         self._kinds = kinds
         self._known: set[KindKey] = set()
         self._of_kind: dict[KindKey, list[Any]] = {}
         self._above: set[Any] = set()
         self._groups: set[KindKey] = set()
+        self._typeless: set[KindKey] = set()
         self._groups_left = _GROUPS
 
     def add(self, prims: Sequence[Any]) -> None:
@@ -95,6 +100,9 @@ class _Met:
             groups = list(compress(prims, map(self._groups.__contains__, keys)))
             self._groups_left -= len(groups)
             self.untyped += with_our_data(groups)
+        if len(self.overs) < _OVERS and not here.isdisjoint(self._typeless):
+            typeless = compress(prims, map(self._typeless.__contains__, keys))
+            self.overs += overs_with_our_data(typeless)
 
     def _learn(self, keys: Iterable[KindKey]) -> None:
         for key in dict.fromkeys(keys):
@@ -104,6 +112,8 @@ class _Met:
                     self._of_kind[key] = []
                 if key[0] in GROUP_TYPES:
                     self._groups.add(key)
+                if not key[0]:
+                    self._typeless.add(key)
 
     def _keep(self, prims: Sequence[Any], keys: Iterable[KindKey]) -> None:
         around: list[Any] = []

@@ -74,6 +74,7 @@ class Walked(NamedTuple):
     Volumes and splats need: those among the first 20,000 of such types.
     `undefined` are prims of our types with a `def` that are not drawn, by the `over` that nothing
     defines above them.
+    `overs` are prims without a `def` that have properties of ours: the first 20,000, or some more.
     """
 
     prims: int
@@ -81,6 +82,7 @@ class Walked(NamedTuple):
     clipped: Sequence[Any]
     untyped: Sequence[Any]
     undefined: Mapping[Any, Sequence[Any]]
+    overs: Sequence[Any]
     drawn: Drawn
 
 
@@ -92,6 +94,7 @@ class Facts:
     """
 
     def __init__(self, context: Context, walked: Walked) -> None:
+        from usdvol_lint.facts.layers.overs import Overs
         from usdvol_lint.facts.prims.attributes import AuthoredReader
         from usdvol_lint.facts.prims.tables import Tables
         from usdvol_lint.facts.usd.clips import Clips
@@ -104,7 +107,8 @@ class Facts:
         self.tables = tables
         self.prims = Prims(tables, kinds, clips, walked.drawn)
         self.files = Files(tables, stage, clips, disk, advance)
-        self.layers = Layers(tables, stage, clips, kinds, walked.undefined, walked.drawn)
+        overs = Overs(stage, kinds, tables, walked.undefined, walked.overs, walked.drawn)
+        self.layers = Layers(tables, stage, clips, kinds, overs, walked.drawn)
         self.grids = Grids(tables, self.files, depth.content, volume_files, advance)
         self.volumes = Volumes(
             tables,

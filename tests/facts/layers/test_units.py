@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from pxr import Gf, Usd, UsdGeom
 
 from usdvol_lint.model import StageReport
 
+AXES = {"X": Gf.Vec3d.XAxis(), "Y": Gf.Vec3d.YAxis(), "Z": Gf.Vec3d.ZAxis()}
 Lint = Callable[..., StageReport]
 VOLUME = 'def Volume "v"\n{\n    %s\n}\n'
 TURN = 'float xformOp:rotateX = -90\nuniform token[] xformOpOrder = ["xformOp:rotateX"]\n'
@@ -90,3 +93,25 @@ def test_instances(body: str, lint_text: Lint, tmp_path: Path) -> None:
     library = f'def Xform "set"\n{{\n    {VOLUME % ""}}}\n'
     expected = [] if body else [("warning", "/i/v")]
     assert found(lint_text, tmp_path, library, stage) == expected
+
+
+@pytest.mark.parametrize("own", [None, "X", "Y", "Z"], ids=["units", "from_x", "from_y", "from_z"])
+@pytest.mark.parametrize("wanted", ["X", "Y", "Z"])
+def test_advice_followed(own: str | None, wanted: str, lint_text: Lint, tmp_path: Path) -> None:
+    header = '#usda 1.0\n(\n    metersPerUnit = {}\n    upAxis = "{}"\n)\n'
+    (tmp_path / "lib.usda").write_text(header.format(1, own or wanted) + VOLUME % "")
+    stage = header.format(1 if own else 4, wanted)
+    stage += 'def "v" (\n    references = @./lib.usda@</v>\n)\n{\n    %s\n}\n'
+    findings = [each for each in lint_text(stage % "").findings if each.code == "STG009"]
+    if own == wanted:
+        assert not findings
+        return
+    [finding] = findings
+    op, order = re.findall("'([^']+)'", finding.suggestion or "")
+    followed = stage % f"{op}\n    {order}"
+    assert "STG009" not in [each.code for each in lint_text(followed).findings]
+    (tmp_path / "followed.usda").write_text(followed)
+    asked = Usd.Stage.Open(str(tmp_path / "followed.usda"))
+    placed = UsdGeom.Xformable(asked.GetPrimAtPath("/v"))
+    up = placed.GetLocalTransformation().TransformDir(AXES[own or wanted])
+    assert Gf.IsClose(up, AXES[wanted] * (1 if own else 0.25), 1e-9)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from random import Random
 
-from ..model import Layer, Prim, Scene
+from ..model import Attribute, Layer, Prim, Scene
 from ..subjects import ParticleSubject, VolumeSubject
-from .declaration import on_particles, on_scene, on_volume
+from .declaration import ONE_FILE, any_field, on_particles, on_scene, on_volume
 
 _NAMES = (("fx", "FX"), ("effects", "efects"), ("Effects", "Effetcs"), ("smoke", "smokes"))
 
@@ -42,4 +42,24 @@ def over_at_the_root(scene: Scene, layer: Layer, rng: Random) -> Prim:
 def over_unlike_its_siblings(subject: VolumeSubject, rng: Random) -> Prim:
     _, over = _slip(rng)
     subject.root.children.append(over)
+    return over
+
+
+@on_volume("STG010", needs=ONE_FILE)
+def override_of_another_case(subject: VolumeSubject, rng: Random) -> Prim:
+    prim = any_field(subject, rng).prim
+    over = Prim(prim.name.swapcase(), specifier="over")
+    over.properties["filePath"] = Attribute("asset", "./another.vdb")
+    subject.prim.children.append(over)
+    return over
+
+
+@on_particles("STG010")
+def override_of_a_near_name(subject: ParticleSubject, rng: Random) -> Prim:
+    over = Prim(subject.root.name.swapcase(), specifier="over", children=[])
+    below = over
+    for name in subject.path.split("/")[2:]:
+        below.children.append(below := Prim(name, specifier="over"))
+    below.properties["extent"] = Attribute("float3[]", [(-2e6, -2e6, -2e6), (2e6, 2e6, 2e6)])
+    subject.layer.prims.append(over)
     return over

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,11 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.clip_losses import ClipLosses
     from usdvol_lint.facts.layers.composition import Composition, CompositionError, MissingLayer
     from usdvol_lint.facts.layers.instancing import LostOverrides
+    from usdvol_lint.facts.layers.misnamed import Misnamed
+    from usdvol_lint.facts.layers.overs import Overs
+    from usdvol_lint.facts.layers.prototypes import LostPrototype
     from usdvol_lint.facts.layers.rates import UnsaidRate
+    from usdvol_lint.facts.layers.selections import WrongSelection
     from usdvol_lint.facts.layers.undefined import Undefined
     from usdvol_lint.facts.layers.units import UnlikeStage
     from usdvol_lint.facts.layers.unresolved import EmptyArc
@@ -35,31 +39,25 @@ class Layers(Wing):
         stage: Any,
         clips: Clips,
         kinds: PrimKinds,
-        undefined: Mapping[Any, Sequence[Any]],
+        overs: Overs,
         drawn: Drawn,
     ) -> None:
-        """`undefined`: by an `over`, the prims of our types that it takes off the stage."""
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
         self._kinds = kinds
-        self._undefined = undefined
+        self.overs = overs
         self._drawn = drawn
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
         """The layers that an arc or a clip set names, and that USD can't open."""
-        return self._composition.missing_layers
-
-    @property
-    def of_unread_formats(self) -> tuple[tuple[MissingLayer, ...], ...]:
-        """Those of them that are there, and in files that no plugin here reads; by formats."""
-        return self._composition.of_unread_formats
+        return self.composition.missing_layers
 
     @property
     def empty_arcs(self) -> tuple[EmptyArc, ...]:
         """The references and payloads to prims that are not there."""
-        return self._composition.empty_arcs
+        return self.composition.empty_arcs
 
     def may_bring_ours(self, *names: str) -> bool:
         """Whether Volumes, fields or particle fields are on the stage, or names speak of them."""
@@ -74,34 +72,30 @@ class Layers(Wing):
     @property
     def errors(self) -> tuple[CompositionError, ...]:
         """All other composition errors."""
-        return self._composition.errors
-
-    @property
-    def unloaded(self) -> tuple[Any, ...]:
-        """The prims with payloads that were not loaded."""
-        return self._composition.unloaded
+        return self.composition.errors
 
     @property
     def are_whole(self) -> bool:
         """Whether every arc could be followed and every payload was loaded."""
-        return self._composition.is_whole
+        return self.composition.is_whole
 
     def may_lack(self, prim: Any) -> bool:
         """Whether an arc that brings nothing may have opinions on a prim or those below it."""
-        return self._composition.may_lack(prim)
+        return self.composition.may_lack(prim)
 
     def may_lack_values(self, prim: Any, name: str = "") -> bool:
         """As `may_lack`, and value clips count too, which supply only values, such as of `name`."""
         may_be_lost = self._clips.are_authored or self._arcs.prims
         is_lost = may_be_lost and self.clip_losses.are_told(prim, name)
-        return bool(is_lost or self._composition.may_lack_values(prim))
+        is_lost = is_lost or self.overs.are_meant_for(prim, self.composition)
+        return bool(is_lost or self.composition.may_lack_values(prim))
 
     @cached_property
     def clip_losses(self) -> ClipLosses:
         """The value clips that do not arrive at prims of ours."""
         from usdvol_lint.facts.layers.clip_losses import ClipLosses
 
-        return ClipLosses(self._stage, self.tables, self._clips, self._arcs, self._composition)
+        return ClipLosses(self._stage, self.tables, self._clips, self._arcs, self.composition)
 
     @property
     def are_several(self) -> bool:
@@ -136,7 +130,7 @@ class Layers(Wing):
             from usdvol_lint.facts.layers.instancing import lost_overrides
 
             layered = self._arcs.layered
-            yield from lost_overrides(self._stage, layered, self._kinds, self._ours())
+            yield from lost_overrides(self._stage, layered, self._kinds, self.tables.ours())
 
     @cached_property
     def _retyped(self) -> dict[Any, Retyped]:
@@ -149,26 +143,34 @@ class Layers(Wing):
     @property
     def undefined(self) -> Iterator[Undefined]:
         """The overs that take prims of ours off the stage, where that is probably a slip."""
-        if not self._undefined:
-            return iter(())
-        from usdvol_lint.facts.layers.undefined import find_undefined
-
-        return find_undefined(self._stage, self._undefined, self._ours, self.may_lack)
+        return self.overs.hiding(self.composition)
 
     @property
-    def undrawn(self) -> Iterator[Any]:
-        """The prims of ours that an `over` takes off the stage, also of libraries, and all that
-        PointInstancers target in a `class`.
-        """
-        return chain(*self._undefined.values(), self._drawn.passed_over)
+    def misnamed(self) -> tuple[Misnamed, ...]:
+        """The overs whose opinions were probably meant for a sibling."""
+        return self.overs.misnamed(self.composition)
+
+    @property
+    def wrong_selections(self) -> Iterator[WrongSelection]:
+        """The selections of variants that are not there, in sets that have to do with us."""
+        if self._arcs.prims:
+            from usdvol_lint.facts.layers.selections import wrong_selections
+
+            found = wrong_selections(self._arcs.prims, self._drawn, self._kinds)
+            yield from (each for each in found if not self.may_lack(each.prim))
+
+    @property
+    def lost_prototypes(self) -> Iterator[LostPrototype]:
+        """The targets of PointInstancers that are not there, where they have to do with us."""
+        if self._drawn.live_instancers:
+            from usdvol_lint.facts.layers.prototypes import lost_prototypes
+
+            yield from lost_prototypes(self._stage, self._drawn, self._kinds, self.may_lack)
 
     @property
     def out_of_reach(self) -> Iterator[Any]:
         """The prims that PointInstancers target and no traversal reaches, and those below them."""
         return self._drawn.out_of_reach
-
-    def _ours(self) -> Iterator[Any]:
-        return chain.from_iterable(map(self.tables.prims, schema.OURS))
 
     @cached_property
     def time_range(self) -> tuple[float, float] | None:
@@ -212,7 +214,8 @@ class Layers(Wing):
         return Arcs(self._stage, self._drawn)
 
     @cached_property
-    def _composition(self) -> Composition:
+    def composition(self) -> Composition:
+        """What USD could not compose, of which the properties here are part."""
         from usdvol_lint.facts.layers.composition import Composition, unloaded_prims
 
         clipped: list[Any] = []

@@ -46,7 +46,8 @@ def find_undefined(
     the stage, and one whose prims are among those that are `drawn`, by another path.
     `may_lack` tells whether a layer that did not open may define a prim.
     """
-    arcs = _Arcs(stage, undefined.values(), drawn)
+    arcs = InnerArcs(stage)
+    shared = _Shared(undefined.values(), drawn)
     faulty = _faulty(stage)
     by_spec: dict[Any, list[Any]] = defaultdict(list)
     for over in sorted(undefined, key=get_path):
@@ -56,10 +57,10 @@ def find_undefined(
         if not similar and over.GetParent().IsPseudoRoot():
             continue
         is_composed = not may_lack(over) and faulty.isdisjoint(over.GetPath().GetPrefixes())
-        if not is_composed or may_be_said(over, _defines):
+        if not is_composed or may_be_said(over, defines):
             continue
         prims = undefined[over]
-        if not arcs.lead_below(over) and not arcs.draw_one_of(prims):
+        if not arcs.lead_below(over) and not shared.draw_one_of(prims):
             yield Undefined(over, tuple(_topmost(prims)), similar, 1 + len(copies))
 
 
@@ -80,7 +81,8 @@ def _similar_sibling(over: Any) -> str | None:
     return shown(siblings[0]).path if len(siblings) == 1 else None
 
 
-def _defines(spec: Any) -> bool:
+def defines(spec: Any) -> bool:
+    """Whether a spec defines its prim."""
     return bool(spec.specifier != Sdf.SpecifierOver)
 
 
@@ -93,23 +95,14 @@ def _topmost(prims: Iterable[Any]) -> Iterator[Any]:
             yield prim
 
 
-class _Arcs:
-    """Where the arcs inside of layers lead, selected or not; read only if there is a question."""
+class _Shared:
+    """What undefined prims have in common with those that are drawn."""
 
     def __init__(
-        self,
-        stage: Any,
-        undefined: Iterable[Iterable[Any]],
-        drawn: Callable[[], Iterable[Any]],
+        self, undefined: Iterable[Iterable[Any]], drawn: Callable[[], Iterable[Any]]
     ) -> None:
-        self._stage = stage
         self._undefined = undefined
         self._drawn = drawn
-
-    def lead_below(self, over: Any) -> bool:
-        """Whether an arc leads to an `over` or below it, by one of its paths."""
-        nodes = nodes_of(over.ComputeExpandedPrimIndex())
-        return not self._targets.isdisjoint(node.path.StripAllVariantSelections() for node in nodes)
 
     def draw_one_of(self, prims: Iterable[Any]) -> bool:
         """Whether a spec of these undefined prims is also that of a prim which is drawn."""
@@ -122,6 +115,18 @@ class _Arcs:
         specs = frozenset(chain.from_iterable(map(get_prim_stack, undefined)))
         stacks = map(get_prim_stack, self._drawn())
         return frozenset(chain.from_iterable(map(specs.intersection, stacks)))
+
+
+class InnerArcs:
+    """Where the arcs inside of layers lead, selected or not; read only if there is a question."""
+
+    def __init__(self, stage: Any) -> None:
+        self._stage = stage
+
+    def lead_below(self, over: Any) -> bool:
+        """Whether an arc leads to an `over` or below it, by one of its paths."""
+        nodes = nodes_of(over.ComputeExpandedPrimIndex())
+        return not self._targets.isdisjoint(node.path.StripAllVariantSelections() for node in nodes)
 
     @cached_property
     def _targets(self) -> frozenset[Any]:

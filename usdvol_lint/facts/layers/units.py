@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from pxr import UsdGeom
 
 from usdvol_lint import schema
+from usdvol_lint.facts.layers.remedies import Remedy, find_remedy
 from usdvol_lint.facts.layers.turns import Corrections, resetting
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.instances import as_shown
@@ -49,6 +50,17 @@ class UnlikeStage(NamedTuple):
     def resetting(self) -> Any | None:
         """The prim with `!resetXformStack!` up to which a rotation or scale of it would count."""
         return resetting(self.prim)
+
+    @property
+    def remedies(self) -> list[Remedy]:
+        """The transform ops that would make up for it, each on another prim."""
+        found = {}
+        for prim in self.prims:
+            remedy = find_remedy(
+                prim, self.layer, self.key, self.said, self.stage_says, resetting(prim)
+            )
+            found[remedy.path] = remedy
+        return list(found.values())
 
 
 def layers_unlike_stage(stage: Any, tables: Tables) -> tuple[UnlikeStage, ...]:

@@ -160,6 +160,10 @@ class Tables:
         self.unreadable: list[tuple[Any, Exception]] = []
         """Prims that facts about the whole stage leave out, each with what was raised for it."""
 
+    def ours(self) -> Iterator[Any]:
+        """The live Volumes, fields and particle fields."""
+        return chain.from_iterable(map(self.prims, schema.OURS))
+
     def tells(self, *codes: str) -> bool:
         """Whether one of these rules is in force, and no milder than it is on its own."""
         return self._telling is None or not self._telling.isdisjoint(codes)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+from math import isclose
 from typing import Any
 
 from pxr import Ar, Sdf
@@ -10,18 +12,38 @@ from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.facts.usd.values import values_of
 
 _UNKNOWN = object()
+_CLOSE = 1e-6
 
 
 def says_the_same(spec: Any, attribute: Any) -> bool:
     """Whether an attribute spec says nothing, or nothing but what an attribute holds anyway.
 
-    Files are compared by what they resolve to, and samples in their order, since the layer of the
-    spec may have other times; an expression counts as the same, because only USD can evaluate it.
+    Files are compared by what they resolve to, and samples in their order and by their times on the
+    stage; an expression counts as the same, because only USD can evaluate it.
     """
     if not spec.HasInfo("default") and not spec.HasInfo("timeSamples"):
         return True
     said, held = _said(spec), _held(attribute)
-    return len(said) == len(held) and all(map(_may_be_equal, said, held))
+    if len(said) != len(held) or not all(map(_may_be_equal, said, held)):
+        return False
+    return all(_may_be_equal(value, said[0]) for value in said) or _has_the_times(spec, attribute)
+
+
+def _has_the_times(spec: Any, attribute: Any) -> bool:
+    """Whether the samples of a spec are at the times of an attribute, where its layer has them."""
+    offset = _offset(spec.owner, attribute.GetPrim())
+    said = [offset * time for time in sorted(spec.GetInfo("timeSamples"))]
+    return all(map(partial(isclose, abs_tol=_CLOSE), said, values_of(attribute).times))
+
+
+def _offset(prim_spec: Any, prim: Any) -> Any:
+    """The `Sdf.LayerOffset` from the time of a spec's layer, which counts on the prim or above."""
+    while prim_spec and prim:
+        for each, offset in prim.GetPrimStackWithLayerOffsets():
+            if each == prim_spec:
+                return offset
+        prim_spec, prim = prim_spec.nameParent, prim.GetParent()
+    return Sdf.LayerOffset()
 
 
 def _said(spec: Any) -> list[Any]:

@@ -129,7 +129,7 @@ class Volumes(Wing):
         if not {prim for prim, _ in self.tables.unreadable}.isdisjoint(volumes):
             return []  # what these target is unknown
         self._used.add(usage.accounted_for(volumes, self.bindings, self._kinds, self._field_index))
-        others = [prim for prim in layers.undrawn if self._prims.is_a(prim, schema.VOLUME)]
+        others = [prim for prim in layers.overs.undrawn if self._prims.is_a(prim, schema.VOLUME)]
         others += (each.prim for each in layers.retyped)
         others += (each.prim for each in self.lookalikes)
         self._used.add(usage.accounted_for_by_others(others, self._kinds))

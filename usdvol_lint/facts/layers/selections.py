@@ -1,0 +1,122 @@
+"""Variant selections that name no variant, where some variant of the set has to do with us."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from itertools import chain, islice
+from typing import Any, NamedTuple
+
+from usdvol_lint import schema
+from usdvol_lint.facts.layers.words import speak_of_ours
+from usdvol_lint.facts.usd.calls import ARCS, get_path, get_prim_stack, has_metadata
+from usdvol_lint.facts.usd.drawn import Drawn
+from usdvol_lint.facts.usd.instances import in_prototype
+from usdvol_lint.facts.usd.kinds import PrimKinds
+from usdvol_lint.nearest import is_one_slip_from
+
+_SELECTION = "variantSelection"
+_GENERAL = frozenset(
+    {
+        *("doubleSided", "extent", "orientation", "purpose", "visibility", "xformOpOrder"),
+        *("primvars:displayColor", "primvars:displayOpacity"),
+    }
+)
+_OWN = frozenset(chain.from_iterable(schema.ATTRIBUTES.values())) - _GENERAL
+"""The attributes that no other schema has."""
+_MOST_SPECS = 10_000
+
+
+class WrongSelection(NamedTuple):
+    """A selection that selects nothing.
+
+    `known`: the variants of the set; empty where the prim has no such set.
+    `similar`: the one of them, or the set, that was probably meant; None if none is near.
+    `copies` counts the prims of the stage that have it from this spec.
+    """
+
+    prim: Any
+    spec: Any
+    set_name: str
+    variant: str
+    known: tuple[str, ...]
+    similar: str | None
+    copies: int
+
+
+def wrong_selections(
+    prims: Iterable[Any], drawn: Drawn, kinds: PrimKinds
+) -> Iterator[WrongSelection]:
+    """What is selected on these prims and is not there, though ours may be in that set."""
+    found: dict[Any, list[WrongSelection]] = defaultdict(list)
+    for prim in sorted(set(prims), key=get_path):
+        if has_metadata(prim, _SELECTION) and in_prototype(prim) in drawn:
+            for wrong in _wrong(prim, kinds):
+                found[wrong.spec, wrong.set_name].append(wrong)
+    for first, *others in found.values():
+        yield first._replace(copies=1 + len(others))
+
+
+def _wrong(prim: Any, kinds: PrimKinds) -> Iterator[WrongSelection]:
+    sets = prim.GetVariantSets()
+    names = sets.GetNames()
+    selected = sets.GetAllVariantSelections()
+    for set_name, variant in selected.items():
+        known: list[str] = []
+        if set_name in names:
+            known = sets.GetVariantSet(set_name).GetVariantNames()
+            similar, concerned = _near(variant, known), set_name
+        else:
+            unselected = (each for each in names if not selected.get(each))
+            similar = _near(set_name, unselected)
+            concerned = similar or ""
+        spec = _authoring(prim, set_name, variant)
+        if (
+            variant
+            and variant not in known
+            and spec
+            and concerned
+            and _has_ours(prim, concerned, kinds)
+        ):
+            yield WrongSelection(prim, spec, set_name, variant, tuple(known), similar, 1)
+
+
+def _near(name: str, others: Iterable[str]) -> str | None:
+    near = [other for other in others if is_one_slip_from(name, other)]
+    return near[0] if len(near) == 1 else None
+
+
+def _authoring(prim: Any, set_name: str, variant: str) -> Any | None:
+    """The strongest spec with the selection; None where no layer says it."""
+    specs = (spec for spec in get_prim_stack(prim) if spec.HasInfo(_SELECTION))
+    return next((each for each in specs if each.variantSelections.get(set_name) == variant), None)
+
+
+def _has_ours(prim: Any, set_name: str, kinds: PrimKinds) -> bool:
+    """Whether a variant of a set has prims or properties of ours, or names that speak of them."""
+    return any(_is_ours(spec, kinds) for spec in islice(_specs(prim, set_name), _MOST_SPECS))
+
+
+def _specs(prim: Any, set_name: str) -> Iterator[Any]:
+    """The specs in the variants of a set."""
+    sets = (spec.variantSets.get(set_name) for spec in get_prim_stack(prim))
+    variants = chain.from_iterable(each.variants.values() for each in sets if each)
+    waiting = [each.primSpec for each in variants]
+    while waiting:
+        spec = waiting.pop()
+        yield spec
+        waiting += spec.nameChildren
+        for inner in spec.variantSets.values():
+            waiting += (each.primSpec for each in inner.variants.values())
+
+
+def _is_ours(spec: Any, kinds: PrimKinds) -> bool:
+    if not schema.OURS.isdisjoint(kinds.names((spec.typeName,))):
+        return True
+    names = spec.properties.keys()
+    if any(name in _OWN or name.startswith(schema.FIELD_NAMESPACE) for name in names):
+        return True
+    items = chain.from_iterable(
+        spec.GetInfo(arc).GetAppliedItems() for arc in filter(spec.HasInfo, ARCS)
+    )
+    return speak_of_ours(map(str, items))
