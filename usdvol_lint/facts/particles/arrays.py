@@ -31,7 +31,7 @@ class Misfits(Values):
     def words(self) -> str:
         """`12 opacities for 16 particles (4 of 240 samples)`."""
         size, particles = next(iter(self))
-        elements, owners = _counted(size, self.noun), _counted(particles, "particles")
+        elements, owners = counted(size, self.noun), counted(particles, "particles")
         return f"{elements} for {owners}{self.count}"
 
     @property
@@ -40,7 +40,7 @@ class Misfits(Values):
         size, particles = next(iter(self))
         if not size or size % particles:
             return self.words
-        return f"{_counted(size, self.noun)}, {size // particles:,} for each particle{self.count}"
+        return f"{counted(size, self.noun)}, {size // particles:,} for each particle{self.count}"
 
 
 class Degree(NamedTuple):
@@ -245,7 +245,7 @@ class ParticleArrays:
                 yield time, size, particles
 
 
-def _counted(number: int, noun: str) -> str:
+def counted(number: int, noun: str) -> str:
     """`1 opacity`, `2 opacities`."""
     if number == 1:
         noun = f"{noun[:-3]}y" if noun.endswith("ies") else noun.removesuffix("s")
