@@ -7,10 +7,11 @@ from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rul
 def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
-    if not each:
-        return  # ARR005 says it
-    authored = "" if degree.is_authored else ", what USD falls back to,"
+    is_lost = facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName()) and not arrays.suit_degree
+    if not each or is_lost:
+        return  # ARR005 or SCH004 says it
     for array in arrays.used("coefficients"):
+        authored = "" if degree.is_authored else ", what USD falls back to,"
         short, long = arrays.too_short(array, each), arrays.too_long(array, each)
         takes = f"degree {degree.value}{authored} takes {each:,}{' for each' * (fitting is None)}"
         remedy = facts.particles.misfitting_default(particles, array) if short or long else None
@@ -43,7 +44,6 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             )
 
 
-def _is_told(code: str, facts: Facts, particles: Prim, *, are_long: bool) -> bool:
+def _is_told(code: str, facts: Facts, prim: Prim, *, are_long: bool) -> bool:
     """Whether another rule names the coefficients too, among other arrays."""
-    found = facts.particles.misfits(particles, are_long=are_long)
-    return facts.tells(code) and any(misfits.join_coefficients for misfits in found)
+    return facts.tells(code) and any(it.join_coefficients for it in facts.particles.misfits(prim, are_long=are_long))

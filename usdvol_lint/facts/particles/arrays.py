@@ -224,6 +224,16 @@ class ParticleArrays:
         root = isqrt(share)
         return root - 1 if share and not rest and root * root == share else None
 
+    @property
+    def suit_degree(self) -> bool:
+        """Whether there are not too few coefficients, nor those of another degree, if any."""
+        each, fitting = self.degree.coefficients, self.fitting_degree
+        used = self.used("coefficients") if each else ()
+        return not any(
+            self.too_short(array, each or 1) or fitting not in (None, self.degree.value)
+            for array in used
+        )
+
     def _misfits(
         self, array: ParticleArray, per_particle: int, is_misfit: Callable[[int, int], bool]
     ) -> Misfits | None:
