@@ -13,6 +13,7 @@ from usdvol_lint.facts.usd.values import Value, Values
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.particles.array import ParticleArray
+    from usdvol_lint.facts.particles.spoilt import Spoilt
 
 
 POSITIONS, COEFFICIENTS = "positions", "radiance:sphericalHarmonicsCoefficients"
@@ -134,6 +135,16 @@ class ParticleArrays:
         """The array with this noun that renderers read elements of, if all numbers are finite."""
         array = next(self.used(noun), None)
         return None if array is None or array.has_nan or array.has_infinity else array
+
+    def non_finite(self) -> list[Spoilt]:
+        """The arrays with numbers that are not finite, those of the same particles together."""
+        found = ((array, array.non_finite()) for array in self.used())
+        present = [(array, elements) for array, elements in found if elements]
+        if not present:
+            return []
+        from usdvol_lint.facts.particles.spoilt import spoilt_arrays
+
+        return spoilt_arrays(present, self)
 
     @property
     def late_positions(self) -> LateArray | None:
