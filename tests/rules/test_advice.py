@@ -257,7 +257,7 @@ def test_half_precision_may_round_positions(half: bool, found: bool, lint_text: 
 
 
 def test_extent_as_advised_holds_the_kernels_too(lint_text: Lint) -> None:
-    extent = "[(0, 0, 0), (0.5, 0.5, 0.5)]"
+    extent = "[(0, 0, 0), (0.5, 0.5, 20)]"
     text = f"""#usda 1.0
 def ParticleField3DGaussianSplat "Splat" {{
 float3[] extent = {extent}
