@@ -5,7 +5,7 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR003", on="ParticleField", severity=WARNING, since="0.1")
 def array_too_long(particles: Prim, facts: Facts) -> Problems:
-    for surplus in facts.particles.surpluses(particles):
+    for surplus in facts.particles.misfits(particles, are_long=True):
         if surplus.nouns == "coefficients" and facts.tells("ARR004"):
             continue
         if surplus.are_all:

@@ -5,13 +5,15 @@ from usdvol_lint.rule import ERROR, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR002", on="ParticleField", severity=ERROR, since="0.1")
 def array_too_short(particles: Prim, facts: Facts) -> Problems:
-    arrays = facts.particles.arrays(particles)
-    for array in arrays.used("orientations", "scales", "opacities"):
-        short = arrays.too_short(array)
-        if short:
-            remedy = facts.particles.misfitting_default(particles, array)
-            yield Problem(
-                short.words,
-                at=short,
-                suggestion=remedy or "author one element for each position",
-            )
+    positions = facts.particles.arrays(particles).positions
+    for short in facts.particles.misfits(particles, are_long=False):
+        if short.nouns == "coefficients":
+            continue  # ARR004 says it
+        message = short.words if len(short.arrays) > 1 else short.misfits.words
+        advice = "author one element for each position"
+        if short.are_all:
+            message = f"{message}: only the positions differ, and none of the others is read"
+            advice = "find the particles that the other arrays lack, and leave them out of the positions"
+        remedy = facts.particles.misfitting_default(particles, short.arrays[0])
+        place = short.at(positions) if short.are_all and positions else short.misfits
+        yield Problem(message, at=place, suggestion=remedy or advice)

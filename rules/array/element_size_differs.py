@@ -9,6 +9,8 @@ def element_size_differs(particles: Prim, facts: Facts) -> Problems:
     degree, each = arrays.degree, arrays.degree.coefficients
     if each is None or (arrays.fitting_degree not in (None, degree.value) and facts.tells("ARR004")):
         return
+    if facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName()):
+        return
     for array in arrays.authored("coefficients"):
         size = array.attribute.GetMetadata("elementSize")
         if array.attribute.HasAuthoredMetadata("elementSize") and size != each:

@@ -11,10 +11,8 @@ _NAN = "; particles with NaN have to be exported again, or left out"
 
 @rule("ARR007", on="ParticleField", severity=ERROR, since="0.1")
 def non_finite(particles: Prim, facts: Facts) -> Problems:
-    for array in facts.particles.arrays(particles).used():
-        found = array.non_finite()
-        if not found:
-            continue
+    for spoilt in facts.particles.arrays(particles).non_finite():
+        array, found = spoilt.array, spoilt.found
         raw = facts.particles.raw_numbers(array)
         meaning = _meaning_of_infinity(array.noun, bool(raw)) if array.has_infinity else ""
         overflows = array.is_half and array.has_infinity and not meaning
@@ -22,7 +20,7 @@ def non_finite(particles: Prim, facts: Facts) -> Problems:
         what = " or ".join(name for name, is_there in kinds if is_there)
         yield Problem(
             f"{found.amount_that(*_verbs(array.noun, what))}"
-            f"{', beyond the 65,504 that half goes up to' * overflows}, {found.first}"
+            f"{', beyond the 65,504 that half goes up to' * overflows}, {found.first}{spoilt.shared}"
             f"{', so the extent is not finite either' * array.spoils(facts.prims.extents(particles))}"
             + (f", and {raw.words}" if raw else ""),
             at=raw.at if raw else found,

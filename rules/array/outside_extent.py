@@ -5,17 +5,15 @@ from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
 
 @rule("ARR013", on="ParticleField", severity=WARNING, since="0.1")
 def outside_extent(
-    particles: Prim,
-    facts: Facts,
-    *,
-    slack: float = 1e-5,
-    half_slack: float = 2**-10,
-    clamp: float = 50_000.0,
+    particles: Prim, facts: Facts, *, slack: float = 1e-5, half_slack: float = 2**-10, clamp: float = 50_000.0
 ) -> Problems:
     outside = facts.particles.positions_outside_extent(particles, slack, half_slack, clamp)
+    kernels = facts.particles.kernels_outside_extent(particles, 0.0, clamp) if outside else None
     if outside:
         yield Problem(
             f"{outside.elements.amount} outside of the extent, {outside.shown_extent}, {outside.elements.first}",
             at=outside,
-            suggestion=f"the positions span {outside.shown_positions}: author at least that",
+            suggestion=f"author at least {outside.shown_with(kernels.fitting)}, which holds their kernels too"
+            if kernels
+            else f"the positions span {outside.shown_positions}: author at least that",
         )

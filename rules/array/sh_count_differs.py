@@ -1,20 +1,21 @@
 """ARR004: each particle has as many spherical harmonics coefficients as the degree says."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, ParticleArray, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
 
 
 @rule("ARR004", on="ParticleField", severity=ERROR, since="0.1")
 def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
-    if not each:
-        return  # ARR005 says it
-    authored = "" if degree.is_authored else ", what USD falls back to,"
+    is_lost = facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName()) and not arrays.suit_degree
+    if not each or is_lost:
+        return  # ARR005 or SCH004 says it
     for array in arrays.used("coefficients"):
+        authored = "" if degree.is_authored else ", what USD falls back to,"
         short, long = arrays.too_short(array, each), arrays.too_long(array, each)
         takes = f"degree {degree.value}{authored} takes {each:,}{' for each' * (fitting is None)}"
         remedy = facts.particles.misfitting_default(particles, array) if short or long else None
-        if short:
+        if short and not _is_told("ARR002", facts, particles, are_long=False):
             yield Problem(
                 f"{short.shares}; {takes}",
                 at=short,
@@ -27,7 +28,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
                     else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
                 ),
             )
-        if long and not _is_told_with_others(array, facts, particles):
+        if long and not _is_told("ARR003", facts, particles, are_long=True):
             alone = arrays.others_fit(array)
             shift = ": if particles were left out of the others, every later one has the colours of another"
             yield Problem(
@@ -43,7 +44,6 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             )
 
 
-def _is_told_with_others(array: ParticleArray, facts: Facts, particles: Prim) -> bool:
-    """Whether ARR003 names the coefficients too."""
-    groups = [surplus.arrays for surplus in facts.particles.surpluses(particles)]
-    return facts.tells("ARR003") and any(array in group and len(group) > 1 for group in groups)
+def _is_told(code: str, facts: Facts, prim: Prim, *, are_long: bool) -> bool:
+    """Whether another rule names the coefficients too, among other arrays."""
+    return facts.tells(code) and any(it.join_coefficients for it in facts.particles.misfits(prim, are_long=are_long))

@@ -11,38 +11,39 @@ _LOSSES = {
     "extent": "so USD takes the bounds for empty",
     "positions": "so there are no particles",
     "radiance:sphericalHarmonicsCoefficients": "so every particle is mid-grey",
+    "radiance:sphericalHarmonicsDegree": "and the coefficients do not fit the degree that USD takes",
 }
+_GRAVE = ("filePath", "positions", "radiance:sphericalHarmonicsDegree")
 _SLIPS = When(Prims.authored, lambda authored: bool(authored.misspellings))
 
 
 @rule("SCH004", on=OURS, when=_SLIPS, severity=ERROR, since="0.1")
 def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
     for slip in () if facts.prims.encoding(prim) else facts.prims.misspelt(prim):
-        meant, loss = slip.intended, _loss(slip, prim, facts)
+        meant, loss = slip.intended, _LOSSES[slip.pair] if _is_lost(slip, prim, facts) else ""
         yield Problem(
-            f"{prim.GetTypeName()} has no attribute {slip.shown!r}"
-            + (f", only {f'{slip.hiding} {slip.attribute.GetName()}'!r}" if slip.hiding else "")
+            f"{prim.GetTypeName()} has no attribute {slip.shown}"
             + (f", so {meant!r} keeps the value of a weaker layer" if slip.overridden else "")
             + (f", {loss}" if loss else ""),
             at=slip.attribute,
-            severity=None if slip.hiding or (loss and slip.pair in ("filePath", "positions")) else WARNING,
+            severity=None if slip.hiding or (loss and slip.pair in _GRAVE) else WARNING,
             suggestion=f"did you mean {meant!r}?",
             absent=[lacks(prim, slip.pair)] if loss else (),
         )
 
 
-def _loss(slip: Any, prim: Prim, facts: Facts) -> str:
-    """In words what nothing says instead; empty where something else may, or was not meant to."""
-    is_open = slip.overridden or slip.pair not in _LOSSES or facts.layers.may_lack_values(prim, slip.pair)
-    return "" if is_open or _is_elsewhere(slip, prim, facts) else _LOSSES[slip.pair]
-
-
-def _is_elsewhere(slip: Any, prim: Prim, facts: Facts) -> bool:
+def _is_lost(slip: Any, prim: Prim, facts: Facts) -> bool:
+    """Whether nothing else says what an attribute was meant to say, as far as that matters."""
+    if slip.pair not in _LOSSES or facts.layers.may_lack_values(prim, slip.pair):
+        return False
+    if slip.pair == "radiance:sphericalHarmonicsDegree":
+        return not facts.particles.arrays(prim).suit_degree
+    if slip.overridden or slip.pair in ("fieldName", "fieldDataType"):
+        return not slip.overridden
     if slip.pair == "filePath":
-        return facts.files.paths(prim).is_only_declared
-    if slip.pair in ("extent", "fieldName", "fieldDataType"):
-        return slip.pair == "extent" and prim not in facts.prims.without_extent
+        return not facts.files.paths(prim).is_only_declared
+    if slip.pair == "extent":
+        return prim in facts.prims.without_extent
     if slip.pair == "positions":
-        is_likely = facts.particles.arrays(prim).lack_positions and slip.attribute.GetTypeName().isArray
-        return not is_likely or not any(map(len, facts.prims.values(prim, slip.attribute.GetName())))
-    return not facts.particles.arrays(prim).are_colourless or facts.particles.material_is_bound(prim)
+        return facts.particles.arrays(prim).lack_positions and slip.has_elements
+    return facts.particles.arrays(prim).are_colourless and not facts.particles.material_is_bound(prim)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -253,3 +254,22 @@ def test_half_precision_may_round_positions(half: bool, found: bool, lint_text: 
     text = splats(f"{DEGREE} = 0", f"{colours} = [(1, 1, 1), (1, 1, 1)]").replace(POSITIONS, points)
     report = lint_text("#usda 1.0" + text)
     assert ("ARR013" in {finding.code for finding in report.findings}) == found
+
+
+def test_extent_as_advised_holds_the_kernels_too(lint_text: Lint) -> None:
+    extent = "[(0, 0, 0), (0.5, 0.5, 20)]"
+    text = f"""#usda 1.0
+def ParticleField3DGaussianSplat "Splat" {{
+float3[] extent = {extent}
+point3f[] positions = [(0.2, 0.2, 0.2), (0.8, 0.3, 0.3), (0.3, 0.3, 0.9)]
+float3[] scales = [(0.2, 0.1, 0.1), (0.2, 0.1, 0.1), (0, 0.1, 0.1)]
+{DEGREE} = 0
+{COEFFICIENTS} = [(1, 1, 1), (1, 1, 1), (1, 1, 1)]
+}}
+"""
+    (outside,) = lint_text(text).findings
+    advised = re.match(r"author at least (.*) to (.*), which holds", outside.suggestion or "")
+    assert outside.code == "ARR013"
+    assert advised
+    assert lint_text(text.replace(extent, f"[{advised[1]}, {advised[2]}]")).findings == ()
+    assert lint_text(text.replace(extent, "[(0.2, 0.2, 0.2), (0.8, 0.3, 0.9)]")).findings != ()

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.particles.copies import Copies
     from usdvol_lint.facts.particles.elements import Elements
     from usdvol_lint.facts.particles.extent import OutsideExtent
+    from usdvol_lint.facts.particles.misfits import MisfitArrays
     from usdvol_lint.facts.particles.raw import RawNumbers
     from usdvol_lint.facts.particles.reach import KernelsOutside
     from usdvol_lint.facts.particles.scales import Scales
-    from usdvol_lint.facts.particles.surplus import Surplus
     from usdvol_lint.facts.particles.unseen import Unseen
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Tables
@@ -126,14 +126,11 @@ class Particles(Wing):
 
         return copied_particles(prim, arrays, unseen.selected if unseen else None)
 
-    def surpluses(self, prim: Any) -> tuple[Surplus, ...]:
-        """The arrays that hold the elements of more particles than there are."""
-        arrays = self.arrays(prim)
-        if not arrays.most_particles:
-            return ()  # and NumPy need not be imported
-        from usdvol_lint.facts.particles.surplus import surpluses
+    def misfits(self, prim: Any, *, are_long: bool) -> tuple[MisfitArrays, ...]:
+        """The arrays that hold the elements of more particles than there are, or of fewer."""
+        from usdvol_lint.facts.particles.misfits import misfit_arrays
 
-        return surpluses(arrays)
+        return misfit_arrays(self.arrays(prim), are_long)
 
     def is_told_as_misspelt(self, prim: Any, name: str) -> bool:
         """Whether SCH004 tells what is probably the float or half array of this float name."""

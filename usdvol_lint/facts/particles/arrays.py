@@ -13,6 +13,7 @@ from usdvol_lint.facts.usd.values import Value, Values
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.particles.array import ParticleArray
+    from usdvol_lint.facts.particles.spoilt import Spoilt
 
 
 POSITIONS, COEFFICIENTS = "positions", "radiance:sphericalHarmonicsCoefficients"
@@ -31,7 +32,7 @@ class Misfits(Values):
     def words(self) -> str:
         """`12 opacities for 16 particles (4 of 240 samples)`."""
         size, particles = next(iter(self))
-        elements, owners = _counted(size, self.noun), _counted(particles, "particles")
+        elements, owners = counted(size, self.noun), counted(particles, "particles")
         return f"{elements} for {owners}{self.count}"
 
     @property
@@ -40,7 +41,7 @@ class Misfits(Values):
         size, particles = next(iter(self))
         if not size or size % particles:
             return self.words
-        return f"{_counted(size, self.noun)}, {size // particles:,} for each particle{self.count}"
+        return f"{counted(size, self.noun)}, {size // particles:,} for each particle{self.count}"
 
 
 class Degree(NamedTuple):
@@ -135,6 +136,16 @@ class ParticleArrays:
         array = next(self.used(noun), None)
         return None if array is None or array.has_nan or array.has_infinity else array
 
+    def non_finite(self) -> list[Spoilt]:
+        """The arrays with numbers that are not finite, those of the same particles together."""
+        found = ((array, array.non_finite()) for array in self.used())
+        present = [(array, elements) for array, elements in found if elements]
+        if not present:
+            return []
+        from usdvol_lint.facts.particles.spoilt import spoilt_arrays
+
+        return spoilt_arrays(present, self)
+
     @property
     def late_positions(self) -> LateArray | None:
         """Float positions that begin empty, so that OpenUSD draws no particle at any time."""
@@ -224,6 +235,16 @@ class ParticleArrays:
         root = isqrt(share)
         return root - 1 if share and not rest and root * root == share else None
 
+    @property
+    def suit_degree(self) -> bool:
+        """Whether there are not too few coefficients, nor those of another degree, if any."""
+        each, fitting = self.degree.coefficients, self.fitting_degree
+        used = self.used("coefficients") if each else ()
+        return not any(
+            self.too_short(array, each or 1) or fitting not in (None, self.degree.value)
+            for array in used
+        )
+
     def _misfits(
         self, array: ParticleArray, per_particle: int, is_misfit: Callable[[int, int], bool]
     ) -> Misfits | None:
@@ -245,7 +266,7 @@ class ParticleArrays:
                 yield time, size, particles
 
 
-def _counted(number: int, noun: str) -> str:
+def counted(number: int, noun: str) -> str:
     """`1 opacity`, `2 opacities`."""
     if number == 1:
         noun = f"{noun[:-3]}y" if noun.endswith("ies") else noun.removesuffix("s")

@@ -56,6 +56,10 @@ class OutsideExtent:
     def shown_positions(self) -> str:
         return _shown(self.positions)
 
+    def shown_with(self, box: Bounds) -> str:
+        """A box around the positions and another box."""
+        return _shown(union([self.positions, box]))
+
 
 def positions_outside_extent(
     arrays: ParticleArrays, extent: Any, slack: float, clamp: float

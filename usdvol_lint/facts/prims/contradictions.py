@@ -47,9 +47,18 @@ class Misspelt(NamedTuple):
 
     @property
     def shown(self) -> str:
-        """The attribute as messages name it, with its type where the type makes the slip."""
+        """The attribute as messages name it, with both types where the type makes the slip."""
         name = self.attribute.GetName()
-        return f"{_authored_type(self.attribute)} {name}" if self.hiding else name
+        if not self.hiding:
+            return f"{name!r}"
+        own, declared = f"{_authored_type(self.attribute)} {name}", f"{self.hiding} {name}"
+        return f"{own!r}, only {declared!r}"
+
+    @property
+    def has_elements(self) -> bool:
+        """Whether it is an array, and holds something at some time."""
+        is_array = self.attribute.GetTypeName().isArray
+        return is_array and any(map(len, values_of(self.attribute)))
 
 
 class Unlisted(NamedTuple):
