@@ -110,6 +110,7 @@ CASES = [
         "rel field:density = None",
         "",
         "'field:density' is authored to have no target",
+        "leave it, if the Volume is to go without this field; if not, target one",
     ),
     Case(
         "VOL004 error",
@@ -198,7 +199,13 @@ CASES = [
         "USD knows 'field:a:density' as 'density' only",
         "name it 'field:a_density'",
     ),
-    Case("VOL010 info", "", "", "the Volume has no field"),
+    Case(
+        "VOL010 info",
+        "",
+        "",
+        "the Volume has no field",
+        "add a field, or leave it, if a renderer fills the Volume by other means",
+    ),
     Case(
         "VOL010 warning",
         "",

@@ -138,7 +138,7 @@ def test_a_layer_that_is_there_and_broken_is_no_slip_of_the_pen(
     layer(tmp_path / "scene_mein.usda", 'def "other" {}')
     [finding] = lint("(\n    subLayers = [@./scene_main.usda@]\n)", "STG001")
     assert "can't be read" in finding.message
-    assert finding.suggestion is None
+    assert finding.suggestion == "correct that layer, or export it again"
 
 
 # --- lists ---

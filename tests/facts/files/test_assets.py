@@ -18,6 +18,9 @@ from usdvol_lint.model import StageReport
 Lint = Callable[..., StageReport]
 
 
+WRITE = " -> write or copy it there, or name a file that is there"
+
+
 @pytest.mark.parametrize(
     ("authored", "expected"),
     [
@@ -53,8 +56,8 @@ def test_a_package_that_is_not_there(
                 " -> did you mean './vdb/cloud.vdb'?"
             ],
         ),
-        ("vdb/gone.vdb", ["AST002 no file at 'vdb/gone.vdb' in 'shot.usdz'"]),
-        ("./vdb", ["AST002 no file at './vdb' in 'shot.usdz'"]),
+        ("vdb/gone.vdb", ["AST002 no file at 'vdb/gone.vdb' in 'shot.usdz'" + WRITE]),
+        ("./vdb", ["AST002 no file at './vdb' in 'shot.usdz'" + WRITE]),
         (
             "./vdb/nothing.vdb",
             [
@@ -113,7 +116,9 @@ def test_names_in_a_package_that_are_no_text(
     entry = content.rindex(b"PK\1\2")
     content = content[: entry + 8] + flag.to_bytes(2, "little") + content[entry + 10 :]
     (tmp_path / "shot.usdz").write_bytes(content)
-    assert said(engine.lint("shot.usdz")) == ["AST002 no file at './vdb/gone.vdb' in 'shot.usdz'"]
+    assert said(engine.lint("shot.usdz")) == [
+        f"AST002 no file at './vdb/gone.vdb' in 'shot.usdz'{WRITE}"
+    ]
 
 
 @pytest.mark.parametrize(
@@ -138,7 +143,7 @@ def test_a_folder_that_a_package_lacks_is_one_finding(
         [finding] = found
         assert finding.startswith(f"AST002 no file at '{one}'{others}")
     else:
-        assert found == [f"AST002 no file at '{path}' in 'shot.usdz'" for path in (one, two)]
+        assert found == [f"AST002 no file at '{path}' in 'shot.usdz'{WRITE}" for path in (one, two)]
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
@@ -169,7 +174,7 @@ def test_symbolic_links_that_lead_nowhere(lint_text: Lint, tmp_path: Path) -> No
     }
     for path, reason in texts.items():
         report = lint_text(volume(f"asset filePath = @{path}@"))
-        assert said(report) == [f"AST002 no file at {path!r}: {reason}"]
+        assert said(report) == [f"AST002 no file at {path!r}: {reason}{WRITE}"]
 
 
 def test_a_symbolic_link_to_a_file_is_a_file(lint_text: Lint, tmp_path: Path) -> None:
@@ -279,7 +284,7 @@ def test_expressions_in_a_usd_that_forgets_them(
     monkeypatch.setattr(classify, "authored_path", lambda asset: "")
     variables = '(\n    expressionVariables = {\n        string TAKE = "clod"\n    }\n)'
     expressions = {
-        '`"./${TAKE}.vdb"`': "AST002 no file at './clod.vdb' (from '`\"./${TAKE}.vdb\"`')",
+        '`"./${TAKE}.vdb"`': "AST002 no file at './clod.vdb' (from '`\"./${TAKE}.vdb\"`')" + WRITE,
         '`"./${NOPE}.vdb"`': (
             "AST004 the expression '`\"./${NOPE}.vdb\"`' needs a variable that is not set: NOPE -> "
             "set NOPE in expressionVariables of the root layer; USD does not read those of "
@@ -292,7 +297,7 @@ def test_expressions_in_a_usd_that_forgets_them(
         ),
         '`if(defined("NOPE"), "./${NOPE}.vdb", "./clod.vdb")`': (
             "AST002 no file at './clod.vdb' (from "
-            '\'`if(defined("NOPE"), "./${NOPE}.vdb", "./clod.vdb")`\')'
+            '\'`if(defined("NOPE"), "./${NOPE}.vdb", "./clod.vdb")`\')' + WRITE
         ),
         '`""`': "AST001 filePath is empty -> author the path of the file that holds the field",
     }
@@ -305,5 +310,5 @@ def test_expressions_in_a_usd_that_forgets_them(
     stage = f"#usda 1.0\n{variables[:-1]}    subLayers = [@./fx.usda@ (offset = 10)]\n)\n"
     assert said(lint_text(stage)) == [
         "AST002 no file at './clod.vdb' (from '`\"./${TAKE}.vdb\"`') "
-        "(1 of 1 samples, authored as frame 1)"
+        "(1 of 1 samples, authored as frame 1)" + WRITE
     ]

@@ -120,7 +120,9 @@ def test_a_second_lint_sees_what_the_disk_holds_by_then(
         settle(tmp_path / "vdb", LONG_AGO + second)
         assert said(engine.lint("stage.usda")) == [similar]
     (tmp_path / "vdb" / "cloud.vdb").rename(tmp_path / "vdb" / "smoke.vdb")
-    assert said(engine.lint("stage.usda")) == ["AST002 no file at './vdb/clod.vdb'"]
+    assert said(engine.lint("stage.usda")) == [
+        "AST002 no file at './vdb/clod.vdb' -> write or copy it there, or name a file that is there"
+    ]
     write(tmp_path, "vdb/clod.vdb")
     assert said(engine.lint("stage.usda")) == []
 

@@ -56,7 +56,10 @@ def test_what_a_resolver_that_is_registered_does_not_find(
     one, *others = (volume(f"asset filePath = @{path}@") for path in paths)
     for number, other in enumerate(others):
         one += other.replace("cloud", f"cloud_{number}").replace("#usda 1.0", "")
-    assert said(lint_text(one)) == [f"AST002 no file at {path!r}" for path in paths]
+    assert said(lint_text(one)) == [
+        f"AST002 no file at {path!r} -> write or copy it there, or name a file that is there"
+        for path in paths
+    ]
 
 
 @pytest.mark.parametrize(("resolved", "expected"), [("a.vdb", []), ("a", ["AST006"])])

@@ -41,9 +41,10 @@ def test_missing_layers_are_known_by_their_place(lint_text: Lint, tmp_path: Path
     reference = 'def "p{}" (\n    references = @./lib.usda@</a>\n)\n{{\n}}\n'
     report = lint_text("#usda 1.0\n" + "".join(map(reference.format, range(3))))
     assert said(report) == [
-        "STG001 the sublayer './sub.usda' does not exist; what it holds was not checked",
+        "STG001 the sublayer './sub.usda' does not exist; what it holds was not checked"
+        + NOT_THERE,
         "STG001 the reference './other.usda' does not exist; what it holds was not checked "
-        "(on 3 prims)",
+        "(on 3 prims)" + NOT_THERE,
     ]
     assert [(f.site.layer, f.site.line) for f in findings(report)] == [
         ("lib.usda", 3),
@@ -74,6 +75,7 @@ def test_what_hides_the_target_of_an_arc_is_the_finding(lint_text: Lint, tmp_pat
     )
     assert said(report) == [
         "STG001 the reference './gone.usda' does not exist; what it holds was not checked"
+        + NOT_THERE
     ]
     [finding] = findings(report)
     assert (finding.site.prim, finding.site.layer, finding.site.line) == ("/tree", "lib.usda", 3)
@@ -149,6 +151,7 @@ def test_one_sample_has_no_rate(lint_text: Lint, tmp_path: Path) -> None:
     assert not rates(lint_text, tmp_path, rated(30), [1])
 
 
+NOT_THERE = " -> write or copy it there, or name a layer that is there"
 NAMED = "name a prim that is there, or define this one"
 
 
@@ -243,7 +246,7 @@ def test_layers_that_are_there_and_do_not_open(lint_text: Lint, tmp_path: Path) 
     names = ("empty", "folder", "broken")
     arcs = (f'def "{name}" (\n    references = @./{name}.usda@\n)\n{{\n}}\n' for name in names)
     broken, empty, folder = said(lint_text("#usda 1.0\n" + "".join(arcs)))
-    unchecked = "; what it holds was not checked"
+    unchecked = "; what it holds was not checked -> correct that layer, or export it again"
     assert (
         empty
         == f"STG001 the reference './empty.usda' can't be read: it is a file of 0 bytes{unchecked}"
@@ -259,4 +262,5 @@ def test_unset_variables_in_arcs(lint_text: Lint) -> None:
     report = lint_text('#usda 1.0\ndef "a" (\n    references = @`"./${SET}.usda"`@\n)\n{\n}\n')
     assert said(report) == [
         "STG001 the reference '`\"./${SET}.usda\"`' does not exist; what it holds was not checked"
+        + NOT_THERE
     ]

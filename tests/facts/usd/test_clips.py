@@ -100,7 +100,7 @@ def test_a_clip_that_can_not_be_read(
     clips = clips.replace("asset manifestAssetPath = @./manifest.usda@", manifest)
     assert said(lint_text("#usda 1.0\n" + clips % f"asset[] assetPaths = [{broken}]")) == [
         "STG001 the clip './broken.usda' can't be read: broken.usda:2:1: unexpected 'def (' in "
-        "</>; what it holds was not checked"
+        "</>; what it holds was not checked -> correct that layer, or export it again"
     ]
 
 
@@ -117,7 +117,7 @@ def test_a_manifest_that_can_not_be_read_is_one_finding(
     about = [each for each in said(report) if each[:6] not in ("FLD001", "FLD002", "VOL012")]
     assert about == [
         "STG001 the clip manifest './manifest.usda' can't be read: manifest.usda:2:1: unexpected "
-        "'def (' in </>; what it holds was not checked"
+        "'def (' in </>; what it holds was not checked -> correct that layer, or export it again"
     ]
 
 
@@ -137,6 +137,7 @@ def test_a_clip_template_that_fits_no_file(lint_text: Lint, tmp_path: Path) -> N
             double templateStride = 1"""
     assert said(lint_text("#usda 1.0\n" + CLIPS % template)) == [
         "STG001 the clip template './gone.#.usda' does not exist; what it holds was not checked"
+        " -> write or copy it there, or name a layer that is there"
     ]
 
 
@@ -151,6 +152,7 @@ def test_samples_of_their_own_beside_a_clip_that_can_not_be_read(
     stage = f"#usda 1.0\n{clips % 'asset[] assetPaths = [@./broken.usda@]'}{{\n{own}}}\n"
     assert said(lint_text(stage)) == [
         "STG001 the clip './broken.usda' can't be read: broken.usda:2:1: unexpected 'def (' in "
-        "</>; what it holds was not checked",
-        "AST002 no file at './gone.vdb' (1 of 1 samples)",
+        "</>; what it holds was not checked -> correct that layer, or export it again",
+        "AST002 no file at './gone.vdb' (1 of 1 samples) -> write or copy it there, or name a file "
+        "that is there",
     ]

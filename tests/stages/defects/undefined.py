@@ -9,6 +9,7 @@ from ..subjects import ParticleSubject, VolumeSubject
 from .declaration import ONE_FILE, any_field, on_particles, on_scene, on_volume
 
 _NAMES = (("fx", "FX"), ("effects", "efects"), ("Effects", "Effetcs"), ("smoke", "smokes"))
+_HIDING = ("inherited", "prototype below over")
 
 
 def _slip(rng: Random) -> list[Prim]:
@@ -45,21 +46,19 @@ def over_unlike_its_siblings(subject: VolumeSubject, rng: Random) -> Prim:
     return over
 
 
-@on_volume("STG010", needs=ONE_FILE)
+@on_volume("STG010", needs={**ONE_FILE, "place": "below"}, without=_HIDING)
 def override_of_another_case(subject: VolumeSubject, rng: Random) -> Prim:
-    prim = any_field(subject, rng).prim
-    over = Prim(prim.name.swapcase(), specifier="over")
+    return _override(subject, any_field(subject, rng).prim.name.swapcase())
+
+
+@on_volume("STG010", needs={**ONE_FILE, "place": "below"}, without=_HIDING)
+def override_of_a_near_name(subject: VolumeSubject, rng: Random) -> Prim:
+    name = any_field(subject, rng).prim.name
+    return _override(subject, f"{name}s" if len(name) > 4 else name.upper())
+
+
+def _override(subject: VolumeSubject, name: str) -> Prim:
+    over = Prim(name, specifier="over")
     over.properties["filePath"] = Attribute("asset", "./another.vdb")
     subject.prim.children.append(over)
-    return over
-
-
-@on_particles("STG010")
-def override_of_a_near_name(subject: ParticleSubject, rng: Random) -> Prim:
-    over = Prim(subject.root.name.swapcase(), specifier="over", children=[])
-    below = over
-    for name in subject.path.split("/")[2:]:
-        below.children.append(below := Prim(name, specifier="over"))
-    below.properties["extent"] = Attribute("float3[]", [(-2e6, -2e6, -2e6), (2e6, 2e6, 2e6)])
-    subject.layer.prims.append(over)
     return over
