@@ -10,5 +10,5 @@ def prototype_not_found(root: Prim, facts: Facts) -> Problems:
             f"there is no prim <{target}>, so the instances with index {number} draw nothing",
             at=relationship,
             severity=None if similar else INFO,
-            suggestion=f"did you mean <{similar}>?" if similar else None,
+            suggestion=f"did you mean <{similar}>?" if similar else "name a prim that is there, or define this one",
         )
