@@ -6,8 +6,16 @@ import posixpath
 from random import Random
 
 from ..files import original, shared
-from ..model import Attribute, File, Prim
-from .declaration import ONE_FILE, VolumeSubject, any_field, extent_for_all, field_of, on_volume
+from ..model import Attribute, File, Layer, Prim, Relationship, Scene
+from .declaration import (
+    ONE_FILE,
+    VolumeSubject,
+    any_field,
+    extent_for_all,
+    field_of,
+    on_scene,
+    on_volume,
+)
 
 
 @on_volume("SCH001")
@@ -62,3 +70,28 @@ def folder_of_all_fields_missing(subject: VolumeSubject, rng: Random) -> Prim:
         name = f"./published/{rng.choice(('', 'v2/'))}{part.prim.name}.vdb"
         part.prim.properties["filePath"] = Attribute("asset", name)
     return min(subject.fields, key=lambda part: part.path).prim
+
+
+@on_scene("STG011")
+def variant_misspelt(scene: Scene, layer: Layer, rng: Random) -> Prim:
+    written = rng.choice(("thik", "Thick", "thcik"))
+    prim = Prim("selecting", "Xform")
+    prim.metadata = [
+        (f'variants = {{ string density = "{written}" }}',),
+        ('prepend variantSets = "density"',),
+    ]
+    prim.variants = {"density": {"thick": [Prim("smoke", "Volume")], "none": []}}
+    layer.prims.append(prim)
+    return prim
+
+
+@on_volume("STG012", needs={"place": "beside"})
+def prototype_misspelt(subject: VolumeSubject, rng: Random) -> Prim:
+    instancer = Prim("crowd", "PointInstancer")
+    instancer.properties = {
+        "prototypes": Relationship([f"{subject.path}s"]),
+        "protoIndices": Attribute("int[]", [0]),
+        "positions": Attribute("point3f[]", [(0, 0, 0)]),
+    }
+    subject.root.children.append(instancer)
+    return instancer
