@@ -1,4 +1,4 @@
-"""GRD012: few renderers draw a grid that stands in a frustum."""
+"""GRD012: Storm draws no grid that stands in a frustum where it is."""
 
 from usdvol_lint.rule import WARNING, Content, Facts, Prim, Problem, Problems, contents, quoted, rule
 
