@@ -178,24 +178,25 @@ def internal_reference(scene: Scene, placed: Placed, name: str, rng: Random) -> 
     return below(layer, placed, f"/{name}")
 
 
+def says_no_rate(scene: Scene, placed: Placed) -> bool:
+    """Whether a layer says no rate, so that USD takes it for 24."""
+    metadata = placed.layer.metadata if placed.layer else []
+    return not any(RATE in str(line[0]) for line in metadata)
+
+
 @arc
+@where(says_no_rate)
 def rate_undone(scene: Scene, placed: Placed, name: str, rng: Random) -> Placed:
     """A rate that is not 24, and a scale that undoes it for layers that say none."""
     rate = rng.choice((12, 48))  # exact scales: others USD may round to the sample before
     kind = rng.choice(("references", "payload"))
-    scale = _said_rate(placed) / rate
+    scale = 24 / rate
     line = (f"prepend {kind} = ", *target(placed), f" (offset = 5; scale = {scale!r})")
     placed = composed(scene, placed, name, rng, line)
     assert placed.layer
     said = [each for each in placed.layer.metadata if RATE not in str(each[0])]
     placed.layer.metadata = [*said, (f"{RATE} = {rate}",), (UNDONE,)]
     return placed
-
-
-def _said_rate(placed: Placed) -> float:
-    """The rate of a layer, which is 24 where it says none."""
-    said = [str(line[0]) for line in (placed.layer.metadata if placed.layer else ())]
-    return next((float(line.partition("=")[2]) for line in said if RATE in line), 24.0)
 
 
 @arc

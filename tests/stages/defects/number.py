@@ -135,3 +135,9 @@ def one_kernel_outside(subject: ParticleSubject, rng: Random) -> None:
         values[3] = (3.0, 3.0, 3.0)
     for values in subject.lists("opacities"):
         values[3] = 1
+
+
+@on_particles("ARR026", needs={**_ALL, "animated": True}, is_info=True)
+def positions_blocked_for_a_frame(subject: ParticleSubject, rng: Random) -> None:
+    samples = subject.array("positions").samples
+    samples[sorted(samples)[1]] = None

@@ -14,11 +14,11 @@ _SEPARATORS = re.compile(r"[/\\\[\]]")
 
 
 def is_library_item(field: Any, digits: str) -> bool:
-    """Whether a prim, a layer or the folder of a layer that brings a field ends in these digits.
+    """Whether a prim, a layer or the folder of a layer that brings a field ends in this number.
 
-    Not where they number versions or shots.
+    It may have other zeros before it; not where it numbers versions or shots.
     """
-    ending = re.compile(f"(?s)(.*(?<![0-9])){digits}").fullmatch
+    ending = re.compile(f"(?s)(.*(?<![0-9]))0*{int(digits)}").fullmatch
     numbered = filter(None, map(ending, _names(field)))
     return any(not numbers_an_issue(found[1]) for found in numbered)
 

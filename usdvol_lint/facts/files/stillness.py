@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from pxr import Sdf
@@ -12,7 +11,7 @@ from pxr import Sdf
 from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.families import Families, Family, Frames, read_family
 from usdvol_lint.facts.files.library import is_library_item
-from usdvol_lint.facts.files.paths import FORMAT_ARGUMENTS
+from usdvol_lint.facts.files.named import in_layer, in_variants, numbers_in
 from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.clips import ClipSet
@@ -74,8 +73,9 @@ class Packs:
         return next((other for other in played if _volume_above(other) == volume), None)
 
     def are_shown(self, frames: Frames, field: Any) -> bool:
-        """Whether other fields, or other variants above this one, name other files of a family."""
-        others = self._shown[frames.family] | set(_in_variants(field, frames.family))
+        """Whether other fields, of its layer too, or variants above it name others of a family."""
+        others = self._shown[frames.family] | set(in_variants(field, frames.family))
+        others.update(in_layer(field, frames.family))
         return bool(others - {frames.name.number})
 
 
@@ -233,43 +233,9 @@ def _is_animated_below(paths: AssetSamples, frames: Frames, clips: Sequence[Clip
     named: set[int] = set()
     for spec in paths.attribute.GetPropertyStack():
         for time in spec.layer.ListTimeSamplesForPath(spec.path):
-            named |= _numbers(spec, spec.layer.QueryTimeSample(spec.path, time), frames.family)
+            named |= numbers_in(spec, spec.layer.QueryTimeSample(spec.path, time), frames.family)
     in_clips = (len(each.clips) > 1 and each.layer_with_samples(paths.attribute) for each in clips)
     return len(named) > 1 or any(in_clips)
-
-
-def _in_variants(field: Any, family: Family) -> Iterator[int]:
-    """The numbers of the files of a family that variants of the field, or above it, name."""
-    prim = field.GetStage().GetPrimAtPath(shown(field).path)
-    while prim and not prim.IsPseudoRoot():
-        for spec in prim.GetPrimStack() if prim.HasVariantSets() else ():
-            for variant_set in spec.variantSets.values():
-                for variant in variant_set.variants.values():
-                    yield from _in_spec(variant.primSpec, family)
-        prim = prim.GetParent()
-
-
-def _in_spec(prim_spec: Any, family: Family) -> Iterator[int]:
-    found: list[Any] = []
-
-    def visit(path: Any) -> None:
-        if path.IsPropertyPath() and path.name == "filePath":
-            found.append(prim_spec.layer.GetAttributeAtPath(path))
-
-    prim_spec.layer.Traverse(prim_spec.path, visit)
-    for spec in filter(None, found):
-        yield from _numbers(spec, spec.default, family)
-        for time in spec.layer.ListTimeSamplesForPath(spec.path):
-            yield from _numbers(spec, spec.layer.QueryTimeSample(spec.path, time), family)
-
-
-def _numbers(spec: Any, value: Any, family: Family) -> set[int]:
-    """The number of the file that a value in a layer names, if it is of the family."""
-    if not isinstance(value, Sdf.AssetPath) or not value.path:
-        return set()
-    path, _, _ = value.path.partition(FORMAT_ARGUMENTS)
-    found = read_family(spec.layer.ComputeAbsolutePath(path).replace(os.sep, "/"))
-    return {found[0].number} if found and found[1] == family else set()
 
 
 def _advice_beside(field: Any) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from pxr import Usd
+from pxr import Usd, UsdGeom
 
 from usdvol_lint import schema
 from usdvol_lint.facts.layers.words import speak_of_ours
@@ -50,11 +50,16 @@ def lost_prototypes(
 
 
 def _may_be_used(instancer: Any, index: int) -> bool:
-    """Whether an instance may have the prototype with this index."""
+    """Whether an instance that is drawn may have the prototype with this index."""
     indices = instancer.GetAttribute("protoIndices")
     if not indices or indices.GetNumTimeSamples():
         return bool(indices)
-    return bool((np.asarray(indices.Get() or ()) == index).any())
+    uses = np.asarray(indices.Get() or ()) == index
+    hidden = instancer.GetAttribute("invisibleIds")
+    if not hidden.GetNumTimeSamples():
+        mask = UsdGeom.PointInstancer(instancer).ComputeMaskAtTime(Usd.TimeCode.Default())
+        uses = uses[np.asarray(mask)] if len(mask) == len(uses) else uses
+    return bool(uses.any())
 
 
 def _nearest(stage: Any, path: Any) -> Any:

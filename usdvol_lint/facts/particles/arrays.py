@@ -13,6 +13,7 @@ from usdvol_lint.facts.usd.values import Value, Values
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.particles.array import ParticleArray
+    from usdvol_lint.facts.particles.holes import Hole
     from usdvol_lint.facts.particles.spoilt import Spoilt
 
 
@@ -145,6 +146,15 @@ class ParticleArrays:
         from usdvol_lint.facts.particles.spoilt import spoilt_arrays
 
         return spoilt_arrays(present, self)
+
+    def holes(self) -> list[Hole]:
+        """The arrays that hold nothing at a few times, and something before and after."""
+        gappy = [array for array in self.used() if any(each.is_blocked for each in array.samples)]
+        if not gappy:
+            return []
+        from usdvol_lint.facts.particles.holes import find_holes
+
+        return find_holes(gappy, self.positions)
 
     @property
     def late_positions(self) -> LateArray | None:

@@ -2,38 +2,49 @@
 
 from __future__ import annotations
 
-from functools import partial
-from math import isclose
 from typing import Any
 
-from pxr import Ar, Sdf
+from pxr import Ar, Gf, Sdf, Vt
 
 from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.facts.usd.steps import StepSamples
 from usdvol_lint.facts.usd.values import values_of
 
 _UNKNOWN = object()
 _CLOSE = 1e-6
+_INTERPOLATED = (float, Gf.Vec3f, Gf.Vec3d, Vt.Vec3fArray, Vt.Vec3hArray, Vt.FloatArray)
 
 
 def says_the_same(spec: Any, attribute: Any) -> bool:
     """Whether an attribute spec says nothing, or nothing but what an attribute holds anyway.
 
-    Files are compared by what they resolve to, and samples in their order and by their times on the
-    stage; an expression counts as the same, because only USD can evaluate it.
+    That is, at each time at which one of them has a sample.  Files are compared by what they
+    resolve to; an expression counts as the same, because only USD can evaluate it.
     """
     if not spec.HasInfo("default") and not spec.HasInfo("timeSamples"):
         return True
-    said, held = _said(spec), _held(attribute)
-    if len(said) != len(held) or not all(map(_may_be_equal, said, held)):
+    said, held = _said(spec, attribute), _held(attribute)
+    if not said.times and not held.times:
+        return _may_be_equal(said.default, held.default)
+    return all(_may_be_equal(*_at(time, said, held, attribute)) for time in said.times) and all(
+        _is_between(said, time) or _may_be_equal(*_at(time, said, held, attribute))
+        for time in held.times
+    )
+
+
+def _at(time: float, said: Any, held: Any, attribute: Any) -> tuple[Any, Any]:
+    """What is said and what is held at a time; only USD knows what it interpolates."""
+    value = attribute.Get(time) if _is_between(held, time) else held.at(time + _CLOSE)
+    return said.at(time + _CLOSE), value
+
+
+def _is_between(samples: Any, time: float) -> bool:
+    """Whether a value that is interpolated lies between two samples at a time."""
+    times = samples.times
+    if not times or not isinstance(samples.at(time), _INTERPOLATED):
         return False
-    return all(_may_be_equal(value, said[0]) for value in said) or _has_the_times(spec, attribute)
-
-
-def _has_the_times(spec: Any, attribute: Any) -> bool:
-    """Whether the samples of a spec are at the times of an attribute, where its layer has them."""
-    offset = _offset(spec.owner, attribute.GetPrim())
-    said = [offset * time for time in sorted(spec.GetInfo("timeSamples"))]
-    return all(map(partial(isclose, abs_tol=_CLOSE), said, values_of(attribute).times))
+    is_inside = times[0] < time < times[-1]
+    return is_inside and all(abs(time - each) > _CLOSE for each in times)
 
 
 def _offset(prim_spec: Any, prim: Any) -> Any:
@@ -46,20 +57,21 @@ def _offset(prim_spec: Any, prim: Any) -> Any:
     return Sdf.LayerOffset()
 
 
-def _said(spec: Any) -> list[Any]:
+def _said(spec: Any, attribute: Any) -> StepSamples[Any]:
+    offset = _offset(spec.owner, attribute.GetPrim())
     samples = spec.GetInfo("timeSamples") if spec.HasInfo("timeSamples") else {}
-    values = [samples[time] for time in sorted(samples)] or [spec.default]
-    return [
-        _UNKNOWN if _is_expression(value) else _comparable(value, spec.layer) for value in values
-    ]
+    timed = [(offset * time, samples[time]) for time in sorted(samples)]
+    return StepSamples(
+        (time, _UNKNOWN if _is_expression(value) else _comparable(value, spec.layer))
+        for time, value in timed or [(None, spec.default)]
+    )
 
 
-def _held(attribute: Any) -> list[Any]:
+def _held(attribute: Any) -> StepSamples[Any]:
     held = values_of(attribute)
     opinion = strongest_opinion(attribute, held.samples[-1].time)
     layer = opinion.spec.layer if opinion else None
-    values = [value for time, value in held.samples if time is not None or not held.total]
-    return [_comparable(value, layer) for value in values]
+    return StepSamples((time, _comparable(value, layer)) for time, value in held.samples)
 
 
 def _comparable(value: Any, layer: Any) -> Any:
