@@ -7,20 +7,30 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from usdvol_lint.facts.files.frame_names import numbers_an_issue
+from usdvol_lint.facts.files.frame_names import FrameName, numbers_an_issue
 from usdvol_lint.facts.usd.instances import shown
 
 _SEPARATORS = re.compile(r"[/\\\[\]]")
+_NUMBERED = re.compile(r"(?s)(.*?)([0-9]+)")
 
 
-def is_library_item(field: Any, digits: str) -> bool:
-    """Whether a prim, a layer or the folder of a layer that brings a field ends in this number.
+def is_library_item(field: Any, file: FrameName) -> bool:
+    """Whether a prim, a layer or the folder of a layer that brings a field has a file's number.
 
-    It may have other zeros before it; not where it numbers versions or shots.
+    It ends in the same digits, or in another spelling of the number after the same word; not where
+    these number versions or shots.
     """
-    ending = re.compile(f"(?s)(.*(?<![0-9]))0*{int(digits)}").fullmatch
-    numbered = filter(None, map(ending, _names(field)))
-    return any(not numbers_an_issue(found[1]) for found in numbered)
+    numbered = filter(None, map(_NUMBERED.fullmatch, _names(field)))
+    return any(
+        int(digits) == file.number
+        and (digits == file.digits or _letters(before) == _letters(file.before) != "")
+        and not numbers_an_issue(before)
+        for before, digits in (found.groups() for found in numbered)
+    )
+
+
+def _letters(name: str) -> str:
+    return "".join(filter(str.isalpha, name)).lower()
 
 
 def _names(field: Any) -> Iterator[str]:

@@ -155,7 +155,7 @@ def _volume_above(field: Any) -> Any | None:
 def _is_one_of_a_kind(paths: AssetSamples, frames: Frames, packs: Packs) -> bool:
     """Whether the file is one of a pack or of a library, each of which stands for itself."""
     field = paths.attribute.GetPrim()
-    return packs.are_shown(frames, field) or is_library_item(field, frames.name.digits)
+    return packs.are_shown(frames, field) or is_library_item(field, frames.name)
 
 
 def _still(
