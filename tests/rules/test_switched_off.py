@@ -25,6 +25,7 @@ SILENT = (
     ("ARR001", "ARR018", "ARR001 Wrong 4"),
     ("ARR002", "ARR004", "ARR002 Wrong 4"),
     ("ARR003", "ARR004", "ARR003 Wrong 3"),
+    ("ARR004", "ARR002", "ARR004 Wrong 3"),
     ("ARR004", "ARR003", "ARR004 Wrong 2"),
     ("ARR004", "ARR006", "ARR004 Wrong 4"),
     ("ARR004", "ARR015", "ARR015 Right 2"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from typing import Any
 
 from pxr import Ar, Gf, Sdf, Vt
@@ -12,7 +13,10 @@ from usdvol_lint.facts.usd.values import values_of
 
 _UNKNOWN = object()
 _CLOSE = 1e-6
-_INTERPOLATED = (float, Gf.Vec3f, Gf.Vec3d, Vt.Vec3fArray, Vt.Vec3hArray, Vt.FloatArray)
+_INTERPOLATED = (
+    *(float, Gf.Vec3f, Gf.Vec3d, Gf.Matrix4d, Gf.Quatf),
+    *(Vt.FloatArray, Vt.HalfArray, Vt.Vec3fArray, Vt.Vec3hArray, Vt.QuatfArray, Vt.QuathArray),
+)
 
 
 def says_the_same(spec: Any, attribute: Any) -> bool:
@@ -43,8 +47,8 @@ def _is_between(samples: Any, time: float) -> bool:
     times = samples.times
     if not times or not isinstance(samples.at(time), _INTERPOLATED):
         return False
-    is_inside = times[0] < time < times[-1]
-    return is_inside and all(abs(time - each) > _CLOSE for each in times)
+    following = bisect_left(times, time - _CLOSE)
+    return 0 < following < len(times) and times[following] > time + _CLOSE
 
 
 def _offset(prim_spec: Any, prim: Any) -> Any:
