@@ -22,7 +22,8 @@ ENGINE = ROOT / "usdvol_lint"
 RULES = ROOT / "rules"
 
 PACKAGES = (
-    {"model", "nearest"},
+    {"words", "nearest"},
+    {"model"},
     {"schema", "paths", "config"},
     {"spelling"},
     {"volumefile"},

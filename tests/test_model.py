@@ -16,10 +16,9 @@ from usdvol_lint.model import (
     Site,
     StageReport,
     Status,
-    format_time,
-    frame_ranges,
     with_fingerprints,
 )
+from usdvol_lint.words import format_time, frame_ranges
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from usdvol_lint.facts.grids import Grids
 from usdvol_lint.facts.prims import Prims
 from usdvol_lint.facts.volumes import Volumes
 from usdvol_lint.facts.volumes.states import BindingMark, Emptiness, TargetState
-from usdvol_lint.model import Severity, format_time, frame_ranges, quoted
+from usdvol_lint.model import Severity
 from usdvol_lint.precondition import (
     When,
     authored,
@@ -24,6 +24,7 @@ from usdvol_lint.precondition import (
     layered,
 )
 from usdvol_lint.schema import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE
+from usdvol_lint.words import format_time, frame_ranges, quoted
 
 __all__ = [
     "ABSTRACT_TYPE",

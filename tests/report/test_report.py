@@ -28,9 +28,10 @@ from reports import (
     without_styles,
 )
 
-from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status, printable
+from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status
 from usdvol_lint.report import FORMATS, Options, render
 from usdvol_lint.report.text import verdict
+from usdvol_lint.words import printable
 
 GOLDEN = ROOT / "tests" / "golden"
 

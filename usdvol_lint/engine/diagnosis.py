@@ -8,9 +8,9 @@ from typing import BinaryIO
 
 from usdvol_lint.engine.trouble import Trouble, UnreadableStageError
 from usdvol_lint.layertext.signatures import TEXT_SIGNATURES
-from usdvol_lint.model import quoted
 from usdvol_lint.paths import SUFFIXES
 from usdvol_lint.volumefile.signatures import LFS_POINTER
+from usdvol_lint.words import quoted
 
 CRATE_SIGNATURE = b"PXR-USDC"
 ZIP_SIGNATURE = b"PK\x03\x04"

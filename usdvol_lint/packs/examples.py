@@ -8,9 +8,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from usdvol_lint.model import Finding, printable
+from usdvol_lint.model import Finding
 from usdvol_lint.packs.page import Example, Page, read_page
 from usdvol_lint.rule import Rule
+from usdvol_lint.words import printable
 
 STAGE = "example.usda"
 """What the stage of every example is called."""

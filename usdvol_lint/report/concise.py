@@ -9,10 +9,11 @@ from collections.abc import Iterator
 from os.path import normpath
 from pathlib import Path
 
-from usdvol_lint.model import Finding, Report, Site, StageReport, printable
+from usdvol_lint.model import Finding, Report, Site, StageReport
 from usdvol_lint.report import Options
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
 from usdvol_lint.report.text import location
+from usdvol_lint.words import printable
 
 
 def render(report: Report, options: Options) -> str:

@@ -14,7 +14,7 @@ SEVERITY_STYLES = {
 def paint(text: str, style: str, color: bool) -> str:
     """Text in a style of rich, such as `bold red`; without `color` the text itself.
 
-    Text has to be printable already: see `model.printable`.
+    Text has to be printable already: see `words.printable`.
     """
     if not color:
         return text

@@ -15,11 +15,11 @@ from usdvol_lint.model import (
     StageReport,
     Status,
     Summary,
-    printable,
 )
 from usdvol_lint.report import Options
 from usdvol_lint.report.figures import figures
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
+from usdvol_lint.words import printable
 
 _LONGEST_SUGGESTION = 400
 

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from zipfile import ZipFile
 
 from usdvol_lint.config import Config
-from usdvol_lint.model import Finding, PackError, printable
+from usdvol_lint.model import Finding, PackError
 from usdvol_lint.packs.catalog import USD_TOO_OLD, load
 from usdvol_lint.packs.examples import (
     STAGE,
@@ -32,6 +32,7 @@ from usdvol_lint.packs.page import Page
 from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.lint import lint
+from usdvol_lint.words import printable
 
 _PACKED = "cloud.vdb"
 """The asset of a pack that is put into each package of an example."""

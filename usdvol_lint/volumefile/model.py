@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final, Literal, NamedTuple, TypeAlias
 
-from usdvol_lint import model
 from usdvol_lint.volumefile.transform import Bounds, Matrix, Transform, finite
+from usdvol_lint.words import quoted
 
 Format: TypeAlias = Literal["openvdb", "nanovdb", "field3d"]
 ErrorCode: TypeAlias = Literal[
@@ -174,4 +174,4 @@ def invalid(message: str, offset: int) -> VolumeFileError:
 
 def quoted_short(text: str) -> str:
     """Text from a file in quotes, printable and cut off after 80 characters."""
-    return model.quoted(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")
+    return quoted(text if len(text) <= _LONGEST_QUOTE else text[:_LONGEST_QUOTE] + "…")

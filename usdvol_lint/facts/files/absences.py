@@ -18,7 +18,7 @@ from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.sequences import SampleSequence
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.instances import as_shown
-from usdvol_lint.model import frame_ranges
+from usdvol_lint.words import frame_ranges
 
 _ANY = "write or copy it there, or name a file that is there"
 

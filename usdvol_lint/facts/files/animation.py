@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from usdvol_lint.facts.usd.calls import ARCS
 from usdvol_lint.facts.usd.clips import ClipSet, open_layer
 from usdvol_lint.facts.usd.held import has_default, misspelt_in
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 _BRINGS = (*ARCS, "variantSetNames")
 

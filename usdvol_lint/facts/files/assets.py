@@ -15,7 +15,7 @@ from usdvol_lint.facts.files.patterns import as_expression, has_frame
 from usdvol_lint.facts.files.states import ON_DISK_OR_PATTERN, AssetState
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import Occurrences
-from usdvol_lint.model import frame_ranges, quoted
+from usdvol_lint.words import frame_ranges, quoted
 
 _LAYERS_NAMED = 3
 _NOTHING = frozenset({AssetState.EMPTY, AssetState.BLOCKED})

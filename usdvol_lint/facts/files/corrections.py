@@ -13,8 +13,8 @@ from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.paths import count_names, is_packaged
 from usdvol_lint.facts.files.patterns import matching_frames
 from usdvol_lint.facts.files.places import place_of
-from usdvol_lint.model import quoted
 from usdvol_lint.nearest import by_nearness, closest_match
+from usdvol_lint.words import quoted
 
 _NAMED = 3
 

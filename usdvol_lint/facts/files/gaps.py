@@ -13,7 +13,7 @@ from usdvol_lint.facts.files.numbering import Numbering
 from usdvol_lint.facts.files.sequences import SampleSequence, most_frequent
 from usdvol_lint.facts.files.states import ON_DISK
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
-from usdvol_lint.model import format_time, quoted
+from usdvol_lint.words import format_time, quoted
 
 _SHOWN = 4
 

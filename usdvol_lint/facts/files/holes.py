@@ -14,7 +14,7 @@ from usdvol_lint.facts.files.sequences import SampleSequence
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
-from usdvol_lint.model import format_time, quoted
+from usdvol_lint.words import format_time, quoted
 
 _NOTHING = frozenset({AssetState.EMPTY, AssetState.BLOCKED})
 _LONGEST_SLIP = 3

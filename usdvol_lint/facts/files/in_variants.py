@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf
 
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 
 class VariantPath(NamedTuple):

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
-from usdvol_lint.model import format_time
+from usdvol_lint.words import format_time
 
 
 def advice_on_shift(attribute: Any, first: float, shift: float) -> str:

@@ -17,7 +17,7 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
-from usdvol_lint.model import format_time
+from usdvol_lint.words import format_time
 
 _FEWEST = 5
 """A range of fewer frames than these proves nothing, however well the files fit."""

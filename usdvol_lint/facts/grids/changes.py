@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeAlias
 from usdvol_lint.facts.files.assets import Affected
 from usdvol_lint.facts.grids.contents import Content
 from usdvol_lint.facts.grids.timelines import FieldContents
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 Grids: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 """The names of grids, in their order, each with the value types of the grids of that name."""

@@ -9,7 +9,7 @@ from pxr import Sdf
 
 from usdvol_lint.facts.usd.clip_faults import ClipFault
 from usdvol_lint.facts.usd.held import default_of, misspelt_in
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 
 def bring_anything(prim: Any, prim_path: str, layers: Iterable[Any]) -> bool:

@@ -26,7 +26,7 @@ from usdvol_lint.facts.usd.clip_faults import (
 from usdvol_lint.facts.usd.clips import Clips, ClipSet, open_layer
 from usdvol_lint.facts.usd.held import attribute_paths
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-from usdvol_lint.model import format_time, quoted
+from usdvol_lint.words import format_time, quoted
 
 _OPENED = 4
 """How many clips of a set are searched, since opening all may take long."""

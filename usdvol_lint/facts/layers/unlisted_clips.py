@@ -11,8 +11,8 @@ from usdvol_lint.facts.usd.clip_faults import find_fault, used_sets
 from usdvol_lint.facts.usd.clips import Clips, ClipSet, authored_path, open_layer
 from usdvol_lint.facts.usd.hidden import HiddenAnimation
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-from usdvol_lint.model import quoted
 from usdvol_lint.schema import DECLARED_BY
+from usdvol_lint.words import quoted
 
 _NEEDED = frozenset({"filePath", "positions", "positionsh"})
 """Without one of these, there is nothing to draw."""

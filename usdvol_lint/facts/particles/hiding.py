@@ -8,7 +8,7 @@ from typing import Any
 from usdvol_lint.facts.particles.array import ParticleArray
 from usdvol_lint.facts.particles.arrays import ParticleArrays
 from usdvol_lint.facts.usd.hidden import HiddenAnimation
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 
 def misfitting_default(

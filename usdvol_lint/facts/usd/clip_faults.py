@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd, Vt
 
-from usdvol_lint.model import format_time, quoted
 from usdvol_lint.nearest import closest_match
+from usdvol_lint.words import format_time, quoted
 
 _TYPES: dict[str, tuple[type | tuple[type, ...], str]] = {
     "active": (Vt.Vec2dArray, "double2[]"),

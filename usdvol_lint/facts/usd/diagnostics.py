@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from pxr import Tf
 
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
 """What USD raises for what it can't read; the latter for a string that is not valid UTF-8."""

@@ -10,7 +10,7 @@ from pxr import Sdf
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 
 class HiddenAnimation(NamedTuple):

@@ -10,7 +10,7 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.volumes.bindings import FieldBindings
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 _KNOWN = frozenset({AssetState.FILE, AssetState.UNVERIFIABLE})
 _FILES_NAMED = 3

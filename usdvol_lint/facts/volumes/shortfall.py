@@ -24,9 +24,9 @@ from usdvol_lint.facts.usd.steps import StepSamples, Time
 from usdvol_lint.facts.volumes.hulls import GridBoxes, bounds_in_volume
 from usdvol_lint.facts.volumes.placement import Placement
 from usdvol_lint.facts.volumes.targets import Target
-from usdvol_lint.model import format_time, quoted
 from usdvol_lint.volumefile import Bounds, Grid, Matrix
 from usdvol_lint.volumefile.transform import IDENTITY
+from usdvol_lint.words import format_time, quoted
 
 _MOST_SAMPLES = 6
 _STATEMENT = "float3[] extent = "

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from usdvol_lint.facts.grids.timelines import Timeline
-from usdvol_lint.model import quoted
+from usdvol_lint.words import quoted
 
 
 @dataclass(frozen=True, slots=True)

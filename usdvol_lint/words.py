@@ -1,0 +1,69 @@
+"""How texts and times are written in a line: in quotes, printable, as ranges of frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+def quoted(text: str) -> str:
+    """Text in quotes, unchanged, backslashes too, but for what `printable` escapes."""
+    mark = '"' if "'" in text and '"' not in text else "'"
+    return f"{mark}{printable(text)}{mark}"
+
+
+def printable(text: str) -> str:
+    r"""Text on one line, in which characters that don't print are escaped: `\x1b`, `\u202e`.
+
+    These are control characters, line breaks, bidirectional overrides, invisible characters,
+    spaces other than U+0020, and bytes that could not be decoded (`\xff`).
+    """
+    return text if text.isprintable() else "".join(map(_visible, text))
+
+
+def _visible(char: str) -> str:
+    if char.isprintable():
+        return char
+    point = ord(char)
+    if 0xDC80 <= point <= 0xDCFF:  # a byte that could not be decoded, as a lone surrogate
+        point -= 0xDC00
+    if point <= 0xFF:
+        return f"\\x{point:02x}"
+    return f"\\u{point:04x}" if point <= 0xFFFF else f"\\U{point:08x}"
+
+
+def format_time(time: float) -> str:
+    """A time code without superfluous decimals: `101`, `101.5`, never `101.0`."""
+    rounded = round(time, 6)
+    return str(int(rounded)) if rounded.is_integer() and abs(rounded) < 2**53 else repr(rounded)
+
+
+def frame_ranges(times: Sequence[float]) -> str:
+    """Ascending time codes as ranges: `102-104, 117`; a step other than 1 is added, `0-10x2`."""
+    parts: list[str] = []
+    start = 0
+    while start < len(times):
+        stop = _end_of_run(times, start)
+        step = times[start + 1] - times[start] if stop - start > 1 else 0.0
+        if stop - start > 2 or _same(step, 1.0):
+            suffix = "" if _same(step, 1.0) else f"x{format_time(step)}"
+            parts.append(f"{format_time(times[start])}-{format_time(times[stop - 1])}{suffix}")
+            start = stop
+        else:
+            parts.append(format_time(times[start]))
+            start += 1
+    return ", ".join(parts)
+
+
+def _end_of_run(times: Sequence[float], start: int) -> int:
+    """The index after the last of the evenly spaced times that begin at index `start`."""
+    stop = start + 2
+    if stop > len(times):
+        return len(times)
+    step = times[start + 1] - times[start]
+    while stop < len(times) and _same(times[stop] - times[stop - 1], step):
+        stop += 1
+    return stop
+
+
+def _same(one: float, other: float) -> bool:
+    return abs(one - other) < 1e-6
