@@ -24,6 +24,7 @@ RULES = ROOT / "rules"
 PACKAGES = (
     {"words", "nearest"},
     {"model"},
+    {"results"},
     {"schema", "paths", "config"},
     {"spelling"},
     {"volumefile"},

@@ -1,9 +1,8 @@
-"""The data of a run, plain, frozen and picklable, and how it is written; nothing of USD."""
+"""What a stage came to, as plain, frozen and picklable data that knows nothing of USD."""
 
 from __future__ import annotations
 
 import builtins
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from enum import IntEnum, StrEnum
 from typing import NamedTuple, TypeAlias
@@ -41,16 +40,16 @@ class Status(StrEnum):
 
 
 class Site(NamedTuple):
-    """Where a finding is: the layer with the opinion, the composed prim, the time codes.
+    """Where a finding is seen: the layer and line to look at, the composed prim, the time codes.
 
-    `layer` is relative to the working directory, with `/`.
+    `layer` is relative to the working directory, with `/`; None where the machine is to blame.
     `variant` is the variant in which the opinion is authored, `look=thin`; or, for what is so only
     under another selection than the authored one, that selection: `/model{look=thin}`.
     `line` and `column` count from 1 and are None in binary layers.
     `times` are time codes of the stage, ascending; `at_default` adds USD's default time.
     """
 
-    layer: str
+    layer: str | None
     prim: str | None = None
     property: str | None = None
     variant: str | None = None
@@ -66,6 +65,37 @@ class Site(NamedTuple):
             return None
         ranges = frame_ranges(self.times)
         return f"default, {ranges}" if self.at_default else ranges
+
+
+class Source(NamedTuple):
+    """What is to blame: a spec in a layer.  It is the same wherever and however often it shows.
+
+    `layer` is the real path of the layer's file, in a package `x.usdz[inner.usda]`, or the
+    identifier of a layer without a file; None where the machine is to blame.
+    `path` is the spec's own path in that layer, with the variants that it stands in.
+    `subject` tells what stands at one spec apart, such as the name of a token.
+    """
+
+    layer: str | None
+    path: str | None = None
+    property: str | None = None
+    subject: str = ""
+
+
+class Cover(NamedTuple):
+    """How much of what is to blame a finding covers: more than before is worse.
+
+    `frames` are time codes of the layer to blame, of the stage for value clips, in ascending order;
+    None are all that there are, or ever will be.  `at_default` adds the default time.
+    `share` is the share of an array's elements and `elements` their number, None without an array.
+    `level` is the rule's own, whatever a configuration makes of it.
+    """
+
+    level: Severity
+    frames: tuple[float, ...] | None = None
+    at_default: bool = False
+    share: float | None = None
+    elements: int | None = None
 
 
 Lack: TypeAlias = tuple[str, str, str]
@@ -88,22 +118,29 @@ class Completion(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """One problem, ready to be reported."""
+    """One problem as one stage shows it."""
 
     code: str
     name: str
     severity: Severity
     message: str
     site: Site
+    source: Source
+    cover: Cover
     suggestion: str | None = None
     help: str | None = None
     detail: str | None = None
     """What `--verbose` may add, such as a traceback."""
-    fingerprint: str = ""
+    fold: str | None = None
+    """A report for people tells findings of a rule with the same key, on one stage, in one line."""
     faulty_rule: str | None = None
     """The code of a rule, where this is about that rule and no stage: reported once in a run."""
     absent: tuple[frozenset[Lack], ...] = ()
     """What is absent, if nothing else is wrong: of each set one has to be completed elsewhere."""
+    ignored: str | None = None
+    """The reason why a suppression in the stage ignores it."""
+    since: str | None = None
+    """The version in which the rule came to see this, where that is younger than the rule."""
 
 
 class ParticleFieldStats(NamedTuple):
@@ -128,7 +165,7 @@ class ParticleFieldStats(NamedTuple):
 
 
 class StageReport(NamedTuple):
-    """The result for one stage.
+    """What a worker process found on one stage.
 
     `path` is the stage as the user named it or as it was found in a folder.
     `stats` are counts by name, such as `volumes`; `seconds` is wall-clock time by phase.
@@ -147,74 +184,9 @@ class StageReport(NamedTuple):
     completes: Completion | None = None
 
 
-class Summary(NamedTuple):
-    """Counts over all stages."""
-
-    stages: int
-    errors: int
-    warnings: int
-    infos: int
-    by_code: dict[str, int]
-    by_status: dict[str, int]
-    stats: dict[str, int]
-    stages_with_findings: int
-
-    @property
-    def findings(self) -> int:
-        return self.errors + self.warnings + self.infos
-
-
-class Report(NamedTuple):
-    """The result of a run: all that the output formats print."""
-
-    version: str
-    usd_version: str | None
-    settings: dict[str, object]
-    stages: tuple[StageReport, ...]
-    seconds: float
-
-    @property
-    def summary(self) -> Summary:
-        findings = [finding for stage in self.stages for finding in stage.findings]
-        severities = Counter(finding.severity for finding in findings)
-        stats: Counter[str] = Counter()
-        for stage in self.stages:
-            stats.update(stage.stats)
-        return Summary(
-            stages=len(self.stages),
-            errors=severities[Severity.ERROR],
-            warnings=severities[Severity.WARNING],
-            infos=severities[Severity.INFO],
-            by_code=dict(sorted(Counter(finding.code for finding in findings).items())),
-            by_status=dict(sorted(Counter(str(stage.status) for stage in self.stages).items())),
-            stats=dict(sorted(stats.items())),
-            stages_with_findings=sum(1 for stage in self.stages if stage.findings),
-        )
-
-
-def with_fingerprints(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """The findings, sorted and without duplicates, each with its fingerprint.
-
-    A fingerprint is a hash of code, layer, prim, property and variant, so it is the same on other
-    machines, in other runs and after unrelated edits; findings that share all five are numbered.
-    """
-    stamped: list[Finding] = []
-    seen: Counter[tuple[str | None, ...]] = Counter()
-    for finding in sorted(dict.fromkeys(findings), key=_order):
-        site = finding.site
-        identity = (finding.code, site.layer, site.prim, site.property, site.variant)
-        text = "\0".join(part or "" for part in identity)
-        if seen[identity]:
-            text += f"\0{seen[identity]}"
-        seen[identity] += 1
-        stamped.append(finding._replace(fingerprint=_digest(text)))
-    return tuple(stamped)
-
-
-def _digest(text: str) -> str:
-    from hashlib import sha256  # costs start-up time, and clean stages need none
-
-    return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16]
+def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """The findings of a stage by prim, property and place, without duplicates."""
+    return tuple(sorted(dict.fromkeys(findings), key=_order))
 
 
 def _order(finding: Finding) -> tuple[object, ...]:
@@ -222,7 +194,7 @@ def _order(finding: Finding) -> tuple[object, ...]:
     return (
         site.prim or "",
         site.property or "",
-        site.layer,
+        site.layer or "",
         site.line or 0,
         site.column or 0,
         finding.code,

@@ -28,10 +28,13 @@ from usdvol_lint.words import format_time, frame_ranges, quoted
 
 __all__ = [
     "ABSTRACT_TYPE",
+    "APIS",
     "ERROR",
     "INFO",
+    "NAME",
     "OURS",
     "STAGE",
+    "TYPE",
     "UNKNOWN_TYPE",
     "WARNING",
     "AssetSample",
@@ -81,6 +84,9 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 OURS = tuple(sorted(schema.OURS))
 """What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
+TYPE, APIS, NAME = "typeName", "apiSchemas", "name"
+"""Whose opinion counts: see `Problem`."""
+
 Prim: TypeAlias = Any
 """A `pxr.Usd.Prim`; spelt so that rules can be loaded where pxr is not imported."""
 
@@ -108,15 +114,27 @@ def lacks(prim: Prim, *names: str) -> tuple[tuple[Prim, str], ...]:
 
 
 class _Result:
-    """What a rule reports, and where.
+    """What a rule reports, where it shows, and what is to blame.
 
     `at` is a `Usd.Prim`, a `Usd.Property`, or an `Occurrence`, which brings `times`, `at_default`
     and `asset` along.
-    The layer and line are those of the strongest opinion at `at` (and the first of `times`), unless
+    To blame is the spec whose opinion counts at `at`, at the first of `times`: for a property that
+    with its value, for a prim the weakest that makes it what it is, since what it lacks each
+    stronger one merely did not bring.
+    `of` asks for the opinion on something else: on TYPE, on APIS, or on NAME, which the weakest
+    spec of a property has.
+    `against` is what contradicts it, as prims, properties, occurrences, specs, or pairs of a prim
+    and the metadata that counts: then the strongest spec of all is to blame.
     `spec` names another `Sdf` spec.
+    `machine` says that the machine lacks something, and names it: then no layer is to blame.
+    `subject` tells apart what a rule reports of one spec; it holds no number, time or wording.
+    `fold` is a key: a report for people tells problems of the rule that have it in one line.
     """
 
-    __slots__ = ("asset", "at", "at_default", "message", "spec", "suggestion", "times")
+    __slots__ = (
+        *("against", "asset", "at", "at_default", "cover", "fold", "machine", "message", "of"),
+        *("spec", "subject", "suggestion", "times"),
+    )
 
     def __init__(
         self,
@@ -128,10 +146,16 @@ class _Result:
         suggestion: str | None = None,
         spec: Any = None,
         asset: str | None = None,
+        of: str | None = None,
+        against: Iterable[Any] = (),
+        subject: str = "",
+        fold: str | None = None,
+        machine: str | None = None,
     ) -> None:
         # What is no text here would fail where reports are written, for all stages at once.
-        if not all(isinstance(text, str) for text in (message, suggestion or "")):
-            raise TypeError("message and suggestion of a problem are text")
+        if not all(isinstance(text, str) for text in (message, suggestion or "", subject)):
+            raise TypeError("message, suggestion and subject of a problem are text")
+        self.cover = at
         if hasattr(at, "at_default"):
             at, times, at_default, asset = at.attribute, at.times, at.at_default, at.asset
         self.message = message
@@ -141,31 +165,39 @@ class _Result:
         self.suggestion = suggestion
         self.spec = spec
         self.asset = asset
+        self.of = of
+        self.against = tuple(against)
+        self.subject = subject
+        self.fold = fold
+        self.machine = machine
 
 
 class Problem(_Result):
     """What a rule yields: what is wrong, and where.
 
     `severity` may lower the rule's own for a milder case, never raise it.
+    `since` is the version that came to see this case, where that is younger than the rule.
     `holds` is called after all variant selections were checked; if it returns False, the problem is
     not reported.
     `absent` is what is absent, if nothing is wrong: the problem is not reported where another stage
     of the run composes this one and has all of it, of each part (see `lacks`) one.
     """
 
-    __slots__ = ("absent", "holds", "severity")
+    __slots__ = ("absent", "holds", "severity", "since")
 
     def __init__(
         self,
         message: str,
         *,
         severity: Severity | None = None,
+        since: str | None = None,
         holds: Callable[[], bool] | None = None,
         absent: Iterable[tuple[tuple[Prim, str], ...]] = (),
         **where: Any,
     ) -> None:
         super().__init__(message, **where)
         self.severity = severity
+        self.since = since
         self.holds = holds
         self.absent = tuple(absent)
 

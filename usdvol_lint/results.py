@@ -1,0 +1,172 @@
+"""What a run came to: causes, each told once, and the stages that show them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from enum import StrEnum
+from typing import NamedTuple
+
+from usdvol_lint.model import (
+    Completion,
+    Cover,
+    Finding,
+    ParticleFieldStats,
+    Severity,
+    Source,
+    Status,
+)
+
+
+class State(StrEnum):
+    """What a cause is beside the baseline in use: `known` is in it, `worse` goes beyond it.
+
+    `suppressed` is what a suppression with a reason takes out of the run.
+    """
+
+    NEW = "new"
+    WORSE = "worse"
+    KNOWN = "known"
+    SUPPRESSED = "suppressed"
+
+    @property
+    def counts(self) -> bool:
+        """Whether it is in the verdict and the exit code."""
+        return self in (State.NEW, State.WORSE)
+
+
+class Place(NamedTuple):
+    """Where a cause shows: the number of the stage in the run, and how it looks there."""
+
+    stage: int
+    finding: Finding
+
+
+class Cause(NamedTuple):
+    """One thing to mend, whatever number of stages, instances and variants show it.
+
+    `source` is what is to blame, with the layer as fingerprints have it: in relation to the root.
+    `severity` is the worst of all places, `cover` joins theirs; `places` are the first ones, and
+    `count` is the number of all.
+    `was` is what the baseline has, where that is less; `reason` is why it is suppressed.
+    """
+
+    fingerprint: str
+    severity: Severity
+    source: Source
+    cover: Cover
+    places: tuple[Place, ...]
+    count: int  # type: ignore[assignment]  # hides tuple.count
+    state: State = State.NEW
+    was: Cover | None = None
+    reason: str | None = None
+
+    @property
+    def first(self) -> Finding:
+        """How it looks at the first of its places."""
+        return self.places[0].finding
+
+    @property
+    def code(self) -> str:
+        return self.first.code
+
+    @property
+    def name(self) -> str:
+        return self.first.name
+
+
+class StageResult(NamedTuple):
+    """What came of one stage.
+
+    `path` is the stage as the user named it or as it was found in a folder.
+    `causes` are the numbers of the causes that it shows, ascending; `levels` are the number of
+    findings by level as this stage has them, without what is known or suppressed.
+    """
+
+    path: str
+    status: Status
+    stats: Mapping[str, int] = {}
+    seconds: Mapping[str, float] = {}
+    particle_fields: tuple[ParticleFieldStats, ...] | None = None
+    completes: Completion | None = None
+    causes: tuple[int, ...] = ()
+    levels: Mapping[Severity, int] = {}
+
+
+class Summary(NamedTuple):
+    """Counts over all stages; causes that are known or suppressed are in `by_state` alone."""
+
+    stages: int
+    errors: int
+    warnings: int
+    infos: int
+    by_code: dict[str, int]
+    by_state: dict[str, int]
+    by_status: dict[str, int]
+    stats: dict[str, int]
+    stages_with_findings: int
+
+    @property
+    def findings(self) -> int:
+        return self.errors + self.warnings + self.infos
+
+
+class BaselineUse(NamedTuple):
+    """The baseline that a run was compared with, or wrote.
+
+    `gone` are the entries that nothing matches any more, in words, or None where the run does not
+    cover what the baseline does, so that nobody can say; `partial` then says what is lacking.
+    `moved` are pairs of places in which as many entries are gone as are new elsewhere.
+    """
+
+    path: str
+    entries: int
+    gone: tuple[str, ...] | None = None
+    partial: str = ""
+    moved: tuple[tuple[str, str], ...] = ()
+    written: bool = False
+
+
+class RunInfo(NamedTuple):
+    """What may differ between equal runs."""
+
+    date: str = ""
+    command: tuple[str, ...] = ()
+    config_file: str | None = None
+    seconds: float = 0.0
+    jobs: int = 1
+
+
+class Report(NamedTuple):
+    """The result of a run: all that the output formats print.
+
+    `root` is the folder that layers go by in fingerprints; None where they go by absolute path.
+    """
+
+    version: str
+    usd_version: str | None
+    settings: Mapping[str, object]
+    root: str | None
+    stages: tuple[StageResult, ...]
+    causes: tuple[Cause, ...]
+    run: RunInfo
+    baseline: BaselineUse | None = None
+
+    @property
+    def summary(self) -> Summary:
+        counted = [cause for cause in self.causes if cause.state.counts]
+        severities = Counter(cause.severity for cause in counted)
+        stats: Counter[str] = Counter()
+        for stage in self.stages:
+            stats.update(stage.stats)
+        return Summary(
+            stages=len(self.stages),
+            errors=severities[Severity.ERROR],
+            warnings=severities[Severity.WARNING],
+            infos=severities[Severity.INFO],
+            by_code=dict(sorted(Counter(cause.code for cause in counted).items())),
+            by_state=dict(sorted(Counter(str(cause.state) for cause in self.causes).items())),
+            by_status=dict(sorted(Counter(str(stage.status) for stage in self.stages).items())),
+            stats=dict(sorted(stats.items())),
+            stages_with_findings=sum(1 for stage in self.stages if stage.levels),
+        )
