@@ -33,6 +33,7 @@ PACKAGES = (
     {"precondition"},
     {"rule"},
     {"packs"},
+    {"baseline"},
     {"engine"},
     {"child"},
     {"run"},

@@ -7,24 +7,34 @@ if TYPE_CHECKING:
     from typing import Any
 
     from usdvol_lint.config import Config
-    from usdvol_lint.model import Finding, Report, Severity, Site, StageReport, Status, UsageError
+    from usdvol_lint.model import Cover, Finding, Severity, Site, Source, Status, UsageError
+    from usdvol_lint.results import Cause, Place, Report, StageResult, State
     from usdvol_lint.run.lint import lint
 
 __version__ = "0.1.0"
 __all__ = [
+    "Cause",
     "Config",
+    "Cover",
     "Finding",
+    "Place",
     "Report",
     "Severity",
     "Site",
-    "StageReport",
+    "Source",
+    "StageResult",
+    "State",
     "Status",
     "UsageError",
     "__version__",
     "lint",
 ]
 
-_HOMES = {"Config": "config", "lint": "run.lint"}
+_HOMES = {
+    "Config": "config",
+    "lint": "run.lint",
+    **dict.fromkeys(("Cause", "Place", "Report", "StageResult", "State"), "results"),
+}
 
 
 def __getattr__(name: str) -> Any:

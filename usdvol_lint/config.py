@@ -32,6 +32,8 @@ class Config(NamedTuple):
     `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
     for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
     `show` is what reports for people have besides errors and warnings.
+    `max_places` is how many places of a cause a report has in full; `root` is the folder that
+    layers go by in fingerprints, `version_pattern` what stands for any version in their paths.
     See `Depth` for `load`, `content`, `times` and `statistics`.
     """
 
@@ -53,6 +55,9 @@ class Config(NamedTuple):
     variant_limit: int = 100
     times: str | int = "all"
     statistics: bool = False
+    max_places: int = 20
+    root: str | None = None
+    version_pattern: str | None = None
 
     @property
     def least_shown(self) -> Severity:
@@ -113,7 +118,8 @@ def read_config(path: Path) -> Config:
         values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
     config = Config(**values)
     packs = tuple(str(path.parent / pack) for pack in config.packs)
-    return config._replace(packs=packs)
+    root = None if config.root is None else str(path.parent / config.root)
+    return config._replace(packs=packs, root=root)
 
 
 def _own_table(project: Path) -> Any | None:
@@ -187,6 +193,23 @@ def _boolean(where: str, value: Any) -> bool:
     return value
 
 
+def _text(where: str, value: Any) -> str:
+    if not isinstance(value, str) or not value:
+        raise UsageError(f"{where} must be a text, not {value!r}")
+    return value
+
+
+def _pattern(where: str, value: Any) -> str:
+    """The value, if it is a regular expression."""
+    import re  # few configurations have one
+
+    try:
+        re.compile(_text(where, value))
+    except re.error as error:
+        raise UsageError(f"{where}: {value!r} is no regular expression: {error}") from error
+    return str(value)
+
+
 def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
@@ -230,6 +253,9 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "variant-limit": partial(_whole_number, least=1),
     "times": _times,
     "statistics": _boolean,
+    "max-places": partial(_whole_number, least=1),
+    "root": _text,
+    "version-pattern": _pattern,
 }
 """For each key of the configuration a function that returns the value for the `Config`.
 

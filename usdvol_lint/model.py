@@ -39,6 +39,13 @@ class Status(StrEnum):
     TIMED_OUT = "timed_out"
 
 
+class Excerpt(NamedTuple):
+    """A line of a text layer without its indent, or a part of it; `column` counts from 1 there."""
+
+    text: str
+    column: int
+
+
 class Site(NamedTuple):
     """Where a finding is seen: the layer and line to look at, the composed prim, the time codes.
 
@@ -57,6 +64,7 @@ class Site(NamedTuple):
     column: int | None = None
     times: tuple[float, ...] = ()
     at_default: bool = False
+    excerpt: Excerpt | None = None
 
     @builtins.property
     def frames(self) -> str | None:
@@ -133,8 +141,6 @@ class Finding(NamedTuple):
     """What `--verbose` may add, such as a traceback."""
     fold: str | None = None
     """A report for people tells findings of a rule with the same key, on one stage, in one line."""
-    faulty_rule: str | None = None
-    """The code of a rule, where this is about that rule and no stage: reported once in a run."""
     absent: tuple[frozenset[Lack], ...] = ()
     """What is absent, if nothing else is wrong: of each set one has to be completed elsewhere."""
     ignored: str | None = None

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import os
 import re
+import sys
+from collections.abc import Callable, Iterable
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 """The suffixes of USD's own file formats."""
+FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
+"""Stands between a path and the arguments for the file format plugin that reads it."""
 _IN_PACKAGE = r"(?is)(?P<package>.+?\.usdz)(?P<inside>\[.+\])"
 
 
@@ -14,6 +18,54 @@ def real(path: str) -> str:
     """The absolute path without links; of `package.usdz[inner]` that of the package."""
     outer, inner = _split(path)
     return os.path.realpath(outer) + inner
+
+
+def canonical(path: str) -> str:
+    """The name of the file that a path is: real, with `/`, in NFC, and without format arguments.
+
+    It is spelt as its folder spells it, also where the case of letters does not matter.
+    """
+    outer, inner = _split(path.partition(FORMAT_ARGUMENTS)[0])
+    outer = os.path.realpath(outer)
+    if sys.platform == "darwin":  # elsewhere `realpath` does it, or letters have one case
+        outer = as_spelt(outer)
+    return _composed(outer.replace(os.sep, "/") + inner)
+
+
+def as_spelt(path: str, names_in: Callable[[str], Iterable[str]] = os.listdir) -> str:
+    """A path with each name as its folder spells it; what is not found there stays as it is."""
+    folder, name = os.path.split(path)
+    if not name:
+        return path
+    try:
+        names = list(names_in(folder))
+    except OSError:
+        return path
+    if name not in names:
+        folded = _folded(name)
+        name = next((each for each in names if _folded(each) == folded), name)
+    return os.path.join(as_spelt(folder, names_in), name)
+
+
+def _folded(name: str) -> str:
+    return _composed(name).casefold()
+
+
+def _composed(text: str) -> str:
+    """A text in NFC."""
+    if text.isascii():
+        return text
+    from unicodedata import normalize  # costs start-up time
+
+    return normalize("NFC", text)
+
+
+def below(path: str, root: str | None) -> str:
+    """A canonical path in relation to a canonical folder; what lies outside stays absolute."""
+    if root is None:
+        return path
+    inside = path.removeprefix(f"{root.rstrip('/')}/")
+    return "." if path == root else inside
 
 
 def display(path: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -79,8 +79,9 @@ class StageResult(NamedTuple):
     """What came of one stage.
 
     `path` is the stage as the user named it or as it was found in a folder.
-    `causes` are the numbers of the causes that it shows, ascending; `levels` are the number of
-    findings by level as this stage has them, without what is known or suppressed.
+    `causes` are the numbers of the causes that it shows, ascending, and `worst` how bad each is
+    here, None where a suppression takes it out; `levels` are the numbers of causes by level as
+    this stage has them, without what is known or suppressed.
     """
 
     path: str
@@ -90,7 +91,14 @@ class StageResult(NamedTuple):
     particle_fields: tuple[ParticleFieldStats, ...] | None = None
     completes: Completion | None = None
     causes: tuple[int, ...] = ()
+    worst: tuple[Severity | None, ...] = ()
     levels: Mapping[Severity, int] = {}
+
+    def judged(self, causes: Sequence[Cause]) -> StageResult:
+        """The same with the levels that follow from the states of the causes."""
+        shown = zip(self.causes, self.worst, strict=True)
+        counted = [level for number, level in shown if level and causes[number].state.counts]
+        return self._replace(levels=dict(sorted(Counter(counted).items())))
 
 
 class Summary(NamedTuple):
@@ -151,6 +159,11 @@ class Report(NamedTuple):
     causes: tuple[Cause, ...]
     run: RunInfo
     baseline: BaselineUse | None = None
+
+    def with_causes(self, causes: Sequence[Cause]) -> Report:
+        """The same with other states of its causes, whose number and order stay."""
+        stages = tuple(stage.judged(causes) for stage in self.stages)
+        return self._replace(causes=tuple(causes), stages=stages)
 
     @property
     def summary(self) -> Summary:

@@ -206,6 +206,8 @@ class NotChecked(_Result):
     """What a rule could not check, and why: reported as LNT005, never as an error."""
 
     __slots__ = ()
+    severity = since = holds = None
+    absent = ()
 
 
 Problems: TypeAlias = Iterator[Problem | NotChecked]

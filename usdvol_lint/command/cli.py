@@ -11,13 +11,15 @@ from usdvol_lint import __version__
 from usdvol_lint.model import UsageError
 
 if TYPE_CHECKING:
+    from pathlib import Path
     from subprocess import Popen
 
     from usdvol_lint.command.output import Destination
     from usdvol_lint.config import Config
-    from usdvol_lint.model import Report
     from usdvol_lint.packs.catalog import Catalog
     from usdvol_lint.report import Options
+    from usdvol_lint.results import Report, RunInfo
+    from usdvol_lint.run.lint import Naming
 
 CLEAN, FINDINGS, FAILED = 0, 1, 2
 
@@ -85,6 +87,10 @@ def _complete_from(constant: str) -> Any:
               help="Look at all time samples of particles (default), or at some.")
 @click.option("--statistics", is_flag=True,
               help="Add what particle fields hold: count, bounds, opacity, scale.")
+@click.option("--max-places", type=click.IntRange(min=1), metavar="N",
+              help="How many places of a cause a report has in full (default: 20).")
+@click.option("--root", type=click.Path(), metavar="FOLDER",
+              help="The folder that layers go by in fingerprints (default: the repository's).")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), metavar="N",
               help="Worker processes (default: one for each processor).")
 @click.option("--timeout", type=float, metavar="SECONDS",
@@ -155,35 +161,55 @@ def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
     from usdvol_lint.command import output
     from usdvol_lint.command.progress import ProgressBar
     from usdvol_lint.command.settings import read_settings
-    from usdvol_lint.run.lint import lint
+    from usdvol_lint.run.causes import versions_in
+    from usdvol_lint.run.lint import Naming, lint
+    from usdvol_lint.run.roots import root_of
 
-    settled: list[tuple[Config, list[Destination]]] = []
+    settled: list[tuple[Config, Path | None, list[Destination]]] = []
 
     def settle() -> Config:
-        config, _ = read_settings(given)
+        config, file = read_settings(given)
         destinations = output.pair(given["output_format"], given["output"], config.output_format)
         output.check_writable(destinations)
-        settled.append((config, destinations))
+        settled.append((config, file, destinations))
         return config
 
+    def naming(config: Config) -> Naming:
+        _, file, _ = settled[0]
+        return Naming(
+            root_of(paths, config.root, config_folder=str(file.parent) if file else None),
+            versions_in(config.version_pattern),
+        )
+
     with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
-        report = lint(paths, settle, progress, click.get_current_context().obj)
-    config, destinations = settled[0]
+        report = lint(paths, settle, progress, click.get_current_context().obj, naming)
+    config, file, destinations = settled[0]
+    report = report._replace(run=_run_info(report, file))
     output.write(report, destinations, _options(given, config))
     return _exit_code(report, config.fail_on)
+
+
+def _run_info(report: Report, file: Path | None) -> RunInfo:
+    from datetime import UTC, datetime
+
+    return report.run._replace(
+        date=datetime.now(UTC).isoformat(timespec="seconds"),
+        command=("usdvol-lint", *sys.argv[1:]),
+        config_file=str(file) if file else None,
+    )
 
 
 def _exit_code(report: Report, fail_on: str) -> int:
     from usdvol_lint.model import Severity
     from usdvol_lint.packs.catalog import NOT_IGNORABLE
 
-    findings = [finding for stage in report.stages for finding in stage.findings]
-    if any(finding.code in NOT_IGNORABLE for finding in findings):
+    if any(cause.code in NOT_IGNORABLE for cause in report.causes):
         return FAILED
     if fail_on == "never":
         return CLEAN
     threshold = Severity[fail_on.upper()]
-    return FINDINGS if any(finding.severity >= threshold for finding in findings) else CLEAN
+    counted = (cause.severity for cause in report.causes if cause.state.counts)
+    return FINDINGS if any(severity >= threshold for severity in counted) else CLEAN
 
 
 def _options(given: dict[str, Any], config: Config | None = None) -> Options:

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from usdvol_lint.model import Report, UsageError
+from usdvol_lint.model import UsageError
 from usdvol_lint.report import FORMATS, Options, render
+from usdvol_lint.results import Report
 
 MACHINE_FORMATS = frozenset(FORMATS) - {"full", "concise"}
 

@@ -10,7 +10,10 @@ import click
 from usdvol_lint.config import CHECKS, Config, find_config_file, level, read_config, shown
 from usdvol_lint.model import UsageError
 
-_REPLACING = ("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics")
+_REPLACING = (
+    *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
+    *("max-places", "root"),
+)
 """The options that replace what the file says; the others add to it."""
 
 

@@ -43,6 +43,7 @@ def never_run(rules: Iterable[Rule], root: Any) -> Iterator[tuple[Rule, NotCheck
                     f"rule {rule.code} ({rule.name}) looked at nothing: no schema that is "
                     f"installed here is called {types}",
                     at=root,
+                    machine=rule.code,
                     suggestion="install the plugin that has it, or correct the rule"
                     + did_you_mean(rule.on[0], _names()),
                 ),

@@ -47,6 +47,7 @@ class StageCheck:
                 f"USD {usd_version()} knows no particle fields, which came with {since}: they are "
                 "checked by the names of their types, APIs and attributes",
                 at=facts.stage.GetPseudoRoot(),
+                machine="usd-core",
                 suggestion=f"install usd-core {since} or later",
             )
             yield from self._stamp.stamp(USD_TOO_OLD, too_old)
@@ -54,9 +55,7 @@ class StageCheck:
     def never_run(self, facts: Facts) -> Iterator[Stamped]:
         """Reports the rules that ask for types which nobody knows; of a run, only the first do."""
         for rule, idle in never_run(self._rules, facts.stage.GetPseudoRoot()):
-            for stamped in self._stamp.stamp(rule, idle):
-                finding = stamped.finding._replace(faulty_rule=rule.code)
-                yield stamped._replace(finding=finding)
+            yield from self._stamp.stamp(rule, idle)
 
     def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:
         """What the rules find under the selection composed now, and where they failed."""

@@ -19,7 +19,7 @@ from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
-from usdvol_lint.model import Completion, Finding, StageReport, Status, with_fingerprints
+from usdvol_lint.model import Completion, Finding, StageReport, Status, in_order
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
@@ -106,7 +106,7 @@ class Engine:
             found += self._sent(check.others(others, {stamped.identity for stamped in found}))
             stats["variant_selections"] = others.composed
             clock.lap("variants")
-        findings = with_fingerprints(_still(found))
+        findings = in_order(_still(found))
         clock.lap("check")
         return StageReport(
             display(path),

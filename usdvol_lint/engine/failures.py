@@ -17,7 +17,7 @@ from usdvol_lint.facts.usd.diagnostics import (
     is_by_usd,
     without_parser_rule,
 )
-from usdvol_lint.model import Finding, Severity
+from usdvol_lint.model import Cover, Finding, Severity
 from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.rule import NotChecked, Rule
 
@@ -46,6 +46,10 @@ class _Failure:
         self.of_precondition = of_precondition
         self.is_by_usd = is_by_usd(error) and not of_precondition
         self.count = 0
+
+    @property
+    def subject(self) -> str:
+        return "" if self.is_by_usd else self.rule.code
 
     @property
     def message(self) -> str:
@@ -93,16 +97,19 @@ class Failures:
         """One finding for each kind of failure."""
         for key, failure in self._failures.items():
             code = STAGE_UNREADABLE if failure.is_by_usd else RULE_FAILED
+            machine = failure.rule.code if failure.of_precondition else None
+            located = sites.locate(NotChecked("", at=failure.prim, machine=machine))
             finding = Finding(
                 code=code.code,
                 name=code.name,
                 severity=Severity.ERROR,
                 message=failure.message[:_LONGEST_MESSAGE],
-                site=sites.locate(NotChecked("", at=failure.prim)).site,
+                site=located.site,
+                source=located.source._replace(subject=failure.subject),
+                cover=Cover(Severity.ERROR),
                 suggestion=_OF_THE_STAGE if failure.is_by_usd else _OF_THE_RULE,
                 help=help_for(code),
                 detail=failure.traceback,
-                faulty_rule=failure.rule.code if failure.of_precondition else None,
             )
             yield Stamped(finding, key)
 
@@ -141,6 +148,8 @@ def _beside(found: Finding, error: BaseException) -> Finding:
         suggestion=_OF_THE_STAGE if by_usd else _OF_THE_RULE,
         help=help_for(code),
         detail=_traceback(error),
+        source=found.source._replace(subject="" if by_usd else found.code),
+        cover=Cover(Severity.ERROR),
     )
 
 

@@ -1,4 +1,4 @@
-"""Finds the site of a problem: the layer with the opinion, its line, and the prim on the stage."""
+"""Finds the place of a problem: what is to blame, its layer and line, and the prim on the stage."""
 
 from __future__ import annotations
 
@@ -6,19 +6,21 @@ from typing import Any, NamedTuple
 
 from pxr import Usd
 
+from usdvol_lint.engine.blame import Blame, blamed
+from usdvol_lint.engine.layer_names import LayerNames
+from usdvol_lint.engine.strength import prim_path
 from usdvol_lint.facts.usd.instances import shown
-from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.layertext.source import LayerTexts
-from usdvol_lint.model import Site
-from usdvol_lint.paths import display
+from usdvol_lint.model import Cover, Severity, Site, Source
 from usdvol_lint.rule import NotChecked, Problem
 
 
 class Located(NamedTuple):
-    """A site, the spec to blame if there is one, and how many instances show it on the stage."""
+    """A site, what is to blame, and how many instances show it on the stage."""
 
     site: Site
-    spec: Any | None
+    source: Source
+    blame: Blame
     instances: int
 
 
@@ -27,55 +29,69 @@ class Sites:
 
     def __init__(self) -> None:
         self._texts = LayerTexts()
+        self._names = LayerNames()
 
     def locate(self, problem: Problem | NotChecked) -> Located:
-        """The site of a problem, the spec to blame for it, and how many instances show it."""
+        """The site of a problem, what is to blame for it, and how many instances show it."""
         prim = problem.at.GetPrim()
-        is_property = isinstance(problem.at, Usd.Property)
-        spec, time = (problem.spec, None) if problem.spec else _blamed_spec(problem)
-        layer = spec.layer if spec else prim.GetStage().GetRootLayer()
-        path = spec.path if spec else "/"
-        text = self._texts.of(layer)
-        position = text.find(str(path), time=time, asset=problem.asset) if text else None
         on_stage = shown(prim)
         site = Site(
-            layer=display(layer.realPath or layer.identifier),
+            layer=None,
             prim=None if prim.IsPseudoRoot() else on_stage.path,
-            property=problem.at.GetName() if is_property else None,
-            variant=_variants(spec.path) if spec else None,
-            line=position.line if position else None,
-            column=position.column if position else None,
+            property=problem.at.GetName() if isinstance(problem.at, Usd.Property) else None,
             times=problem.times,
             at_default=problem.at_default,
         )
-        return Located(site, spec, on_stage.instances)
+        if problem.machine is not None:
+            return Located(
+                site, Source(None, subject=problem.machine), Blame(None), on_stage.instances
+            )
+        blame = blamed(problem)
+        spec = blame.spec
+        layer = spec.layer if spec else prim.GetStage().GetRootLayer()
+        path = str(spec.path) if spec else "/"
+        position = self._find(layer, path, blame, problem.asset)
+        source = Source(
+            self._names.real(layer),
+            str(prim_path(spec)) if spec else None,
+            blame.property,
+            blame.subject,
+        )
+        site = site._replace(
+            layer=self._names.shown(layer),
+            variant=_variants(spec.path) if spec else None,
+            line=position.line if position else None,
+            column=position.column if position else None,
+            excerpt=position.excerpt if position else None,
+        )
+        return Located(site, source, blame, on_stage.instances)
+
+    def _find(self, layer: Any, path: str, blame: Blame, asset: str | None) -> Any | None:
+        text = self._texts.of(layer)
+        return text.find(path, time=blame.time, asset=blame.clip or asset) if text else None
 
 
-def _blamed_spec(problem: Problem | NotChecked) -> tuple[Any | None, float | None]:
-    """The spec whose opinion counts, and the first time of the problem in the time of its layer."""
-    if not isinstance(problem.at, Usd.Property):
-        return _blamed_prim_spec(problem.at), None
-    if isinstance(problem.at, Usd.Attribute) and (problem.at_default or problem.times):
-        time = None if problem.at_default else problem.times[0]
-        if strongest := strongest_opinion(problem.at, time):
-            spec, offset = strongest
-            return spec, None if time is None else offset.GetInverse() * time
-    specs = problem.at.GetPropertyStack()
-    spec = next((spec for spec in specs if _has_value(spec)), specs[0] if specs else None)
-    return spec or _blamed_prim_spec(problem.at.GetPrim()), None
+def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Cover:
+    """How much a problem covers, in the time of the layer to blame; of value clips the stage's."""
+    found = problem.cover
+    share = getattr(found, "share", None)
+    elements = getattr(found, "number", None)
+    if not problem.times or _are_all(problem):
+        return Cover(level, None, problem.at_default, share, elements)
+    frames = problem.times
+    if blame.offset and not blame.offset.IsIdentity():
+        inverse = blame.offset.GetInverse()
+        frames = tuple(sorted(inverse * time for time in frames))
+    return Cover(level, frames, problem.at_default, share, elements)
 
 
-def _blamed_prim_spec(prim: Any) -> Any | None:
-    """The strongest spec that defines the prim with a type, or else its strongest one."""
-    if prim.IsPseudoRoot():
-        return prim.GetStage().GetRootLayer().pseudoRoot
-    session = prim.GetStage().GetSessionLayer()
-    stack = [spec for spec in prim.GetPrimStack() if spec.layer != session]
-    return next((spec for spec in stack if spec.typeName), stack[0] if stack else None)
-
-
-def _has_value(spec: Any) -> bool:
-    return any(spec.HasInfo(key) for key in ("default", "timeSamples", "targetPaths", "spline"))
+def _are_all(problem: Problem | NotChecked) -> bool:
+    """Whether the problem is at all time samples there are."""
+    total = getattr(problem.cover, "total", None)
+    if total is None:
+        is_attribute = isinstance(problem.at, Usd.Attribute)
+        total = problem.at.GetNumTimeSamples() if is_attribute else 0
+    return 0 < total <= len(problem.times)
 
 
 def _variants(path: Any) -> str | None:

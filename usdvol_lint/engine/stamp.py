@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
-from usdvol_lint.engine.site import Sites
+from usdvol_lint.engine.parts import parts_of
+from usdvol_lint.engine.site import Sites, cover_of
 from usdvol_lint.model import Finding, Lack, Severity
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
+from usdvol_lint.words import quoted
 
 
 class Stamped(NamedTuple):
@@ -42,30 +44,44 @@ class Stamp:
         severity = self._active.severities.get(reported_as.code)
         if severity is None:
             return
-        site, spec, instances = self.sites.locate(problem)
+        for part in parts_of(problem):
+            yield self._stamped(rule, reported_as, part, severity)
+
+    def _stamped(
+        self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
+    ) -> Stamped:
+        site, source, blame, instances = self.sites.locate(problem)
         shown = f" (shown by {instances:,} instances)" if instances > 1 else ""
+        clip = f" (in the clip {quoted(blame.clip)})" if blame.clip else ""
+        if reported_as is not rule and source.layer is not None:
+            source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())
+        own = min(reported_as.severity, problem.severity or reported_as.severity)
         finding = Finding(
             code=reported_as.code,
             name=reported_as.name,
             severity=self._lowered(severity, problem, reported_as.code),
-            message=problem.message + shown,
+            message=problem.message + clip + shown,
             site=site,
+            source=source,
+            cover=cover_of(problem, blame, own),
             suggestion=problem.suggestion,
             help=help_for(reported_as),
-            absent=_absent(problem) if isinstance(problem, Problem) else (),
+            fold=problem.fold,
+            absent=_absent(problem),
+            since=problem.since,
         )
-        same = identity(rule, problem, spec) if self._several_selections else ()
-        yield Stamped(finding, same, problem.holds if isinstance(problem, Problem) else None)
+        same = identity(rule, problem, blame.spec) if self._several_selections else ()
+        return Stamped(finding, same, problem.holds)
 
     def _lowered(self, severity: Severity, problem: Problem | NotChecked, code: str) -> Severity:
         """The severity of a milder case, unless the user chose one for the rule."""
-        milder = problem.severity if isinstance(problem, Problem) else None
+        milder = problem.severity
         if milder is None or code in self._active.chosen:
             return severity
         return min(severity, milder)
 
 
-def _absent(problem: Problem) -> tuple[frozenset[Lack], ...]:
+def _absent(problem: Problem | NotChecked) -> tuple[frozenset[Lack], ...]:
     """What is absent, in terms of the specs in files of the prims that lack it."""
     return tuple(
         frozenset(

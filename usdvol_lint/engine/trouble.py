@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from usdvol_lint.model import Finding, Severity, Site, StageReport, Status, with_fingerprints
+from usdvol_lint.model import Cover, Finding, Severity, Site, Source, StageReport, Status, in_order
 from usdvol_lint.packs.catalog import STAGE_UNREADABLE, help_for
-from usdvol_lint.paths import display
+from usdvol_lint.paths import canonical, display
 
 
 class Trouble(NamedTuple):
@@ -46,10 +46,10 @@ def report_trouble(
         severity=Severity.ERROR,
         message=trouble.message,
         site=Site(display(trouble.layer or path), line=trouble.line, column=trouble.column),
+        source=Source(canonical(trouble.layer or path)),
+        cover=Cover(Severity.ERROR),
         suggestion=trouble.suggestion,
         help=help_for(STAGE_UNREADABLE),
         detail=trouble.detail,
     )
-    return StageReport(
-        display(path), status, {}, with_fingerprints([finding, *found]), seconds or {}
-    )
+    return StageReport(display(path), status, {}, in_order([finding, *found]), seconds or {})

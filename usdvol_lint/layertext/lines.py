@@ -12,6 +12,9 @@ from itertools import islice
 from operator import le
 from typing import NamedTuple
 
+from usdvol_lint.layertext.excerpts import excerpt
+from usdvol_lint.model import Excerpt
+
 # The lexical elements in which brackets and separators have no meaning.  None of them can fail to
 # match once it has begun (the closing mark is optional) and none backtracks, so that the time is
 # linear for any text.
@@ -93,10 +96,11 @@ _BLOCK_SIZE = 1 << 16
 
 
 class Position(NamedTuple):
-    """A position in a text, 1-based; the column counts characters."""
+    """A position in a text, 1-based, and what stands there; the column counts characters."""
 
     line: int
     column: int
+    excerpt: Excerpt
 
 
 class _Span(NamedTuple):
@@ -181,7 +185,8 @@ class TextLayer:
         line = before[block] + self._data.count(b"\n", block * _BLOCK_SIZE, offset)
         line_start = self._data.rfind(b"\n", 0, offset) + 1
         text = self._data[line_start:offset].decode("utf-8", "replace")
-        return Position(line + 1, len(text.removeprefix("\ufeff")) + 1)
+        column = len(text.removeprefix("\ufeff")) + 1
+        return Position(line + 1, column, excerpt(self._data, line_start, offset))
 
 
 class _Outline:

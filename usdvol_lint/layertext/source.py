@@ -50,7 +50,7 @@ def _read(layer: Any) -> bytes:
 
 def _root_layer_of_package(path: str) -> str:
     """The path of the first file in a package, which is what USD opens."""
-    from usdvol_lint.volumefile.package import Package  # costs start-up time; few are packages
+    from usdvol_lint.volumefile.package import first_in  # costs start-up time; few are packages
 
-    names = Package(path).names
-    return str(Ar.JoinPackageRelativePath(path, names[0])) if names else path
+    first = first_in(path)
+    return str(Ar.JoinPackageRelativePath(path, first)) if first else path

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import os
+import re
 import time
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from usdvol_lint import __version__
 from usdvol_lint.config import Config
-from usdvol_lint.model import Report, StageReport
+from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import load
+from usdvol_lint.results import Cause, Report, RunInfo, StageResult
+from usdvol_lint.run.causes import Causes
 from usdvol_lint.run.discovery import discover
-from usdvol_lint.run.parts import without_completed
+from usdvol_lint.run.parts import completed_by
 from usdvol_lint.run.pool import Pool
 from usdvol_lint.run.protocol import Setup
 
@@ -41,11 +45,19 @@ class _Silent:
     def stage_done(self) -> None: ...
 
 
+class Naming(NamedTuple):
+    """How layers are named in fingerprints: see `Causes`."""
+
+    root: str | None = None
+    versions: re.Pattern[str] | None = None
+
+
 def lint(
     paths: Iterable[str],
     config: Config | Callable[[], Config] | None = None,
     progress: Progress | None = None,
     child: Popen[bytes] | None = None,
+    naming: Callable[[Config], Naming] | None = None,
 ) -> Report:
     """Checks the stages at `paths`, files or folders.
 
@@ -58,42 +70,65 @@ def lint(
     pool = Pool(child)
     try:
         settled = config() if callable(config) else config or Config()
+        root, versions = naming(settled) if naming else Naming()
         active = activate(settled, load(settled.packs))
-        stages = _run(pool, discover(paths), settled, active, progress or _Silent())
-        return Report(
+        jobs = settled.jobs or os.cpu_count() or 1
+        causes = Causes(root, versions, settled.max_places)
+        stages, found = _folded(
+            causes, stage_reports(pool, discover(paths), settled, active, jobs, progress)
+        )
+        report = Report(
             version=__version__,
             usd_version=pool.usd_version,
             settings=settings_of(settled, active),
+            root=root,
             stages=stages,
-            seconds=time.perf_counter() - began,
+            causes=(),
+            run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs),
         )
+        return report.with_causes(found)
     finally:
         pool.close()
 
 
-def _run(
-    pool: Pool, paths: Iterable[str], config: Config, active: ActiveRules, progress: Progress
-) -> tuple[StageReport, ...]:
-    """The reports on stages, in their order."""
-    futures = [pool.submit(path) for path in paths]
+def stage_reports(
+    pool: Pool,
+    paths: Iterable[str],
+    config: Config,
+    active: ActiveRules,
+    jobs: int,
+    progress: Progress | None = None,
+) -> Iterator[StageReport]:
+    """The reports on stages, in their order, each as soon as it is there."""
+    shown = progress or _Silent()
+    futures = deque(pool.submit(path) for path in paths)
     for future in futures:
-        future.add_done_callback(lambda _: progress.stage_done())
-    progress.begin(len(futures))
+        future.add_done_callback(lambda _: shown.stage_done())
+    shown.begin(len(futures))
     setup = Setup(active, config.packs, config.depth)
-    pool.run(setup, config.jobs or os.cpu_count() or 1, config.timeout, progress.advance)
-    stages = list(_without_repeated_faults(future.result() for future in futures))
-    return tuple(without_completed(stages))
+    pool.run(setup, jobs, config.timeout, shown.advance)
+    while futures:
+        yield futures.popleft().result()
 
 
-def _without_repeated_faults(stages: Iterable[StageReport]) -> Iterator[StageReport]:
-    """A fault of a rule itself stays only in the report of the first stage that shows it."""
-    reported: set[str] = set()
-    for stage in stages:
-        faulty = {finding.faulty_rule for finding in stage.findings if finding.faulty_rule}
-        yield stage._replace(
-            findings=tuple(each for each in stage.findings if each.faulty_rule not in reported)
-        )
-        reported |= faulty
+def _folded(
+    causes: Causes, reports: Iterable[StageReport]
+) -> tuple[tuple[StageResult, ...], tuple[Cause, ...]]:
+    """The stages and the causes; of the findings only those are kept that may be completed."""
+    kept: list[StageReport] = []
+    waiting: list[tuple[int, int, Finding]] = []
+    for stage, report in enumerate(reports):
+        numbered = list(enumerate(report.findings))
+        causes.add(stage, report.path, (pair for pair in numbered if not pair[1].absent))
+        absent = [(stage, *pair) for pair in numbered if pair[1].absent]
+        waiting += absent
+        kept.append(report._replace(findings=tuple(finding for *_, finding in absent)))
+    is_completed = completed_by(kept)
+    for stage, number, finding in waiting:
+        if not is_completed(kept[stage], finding):
+            causes.add(stage, kept[stage].path, [(number, finding)])
+    found, numbers = causes.result()
+    return tuple(causes.stage(*each, numbers) for each in enumerate(kept)), found
 
 
 def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import TypeAlias
 
@@ -13,8 +13,8 @@ from usdvol_lint.paths import real
 _Layers: TypeAlias = frozenset[str]
 
 
-def without_completed(stages: Sequence[StageReport]) -> list[StageReport]:
-    """The stages without findings about what other stages complete.
+def completed_by(stages: Sequence[StageReport]) -> Callable[[StageReport, Finding], bool]:
+    """Whether a finding on one of the stages is about what other stages of them complete.
 
     A stage completes another one if it composes its root layer, and brings to a spec of that stage
     what this lacks.  Whatever it leaves absent is a finding of its own.
@@ -22,14 +22,7 @@ def without_completed(stages: Sequence[StageReport]) -> list[StageReport]:
     parts = _Parts()
     lacking = [stage for stage in stages if any(each.absent for each in stage.findings)]
     completed = parts.completed(lacking, stages) if lacking else {}
-    if not completed:
-        return list(stages)
-    return [
-        stage._replace(
-            findings=tuple(each for each in stage.findings if not parts.has(each, stage, completed))
-        )
-        for stage in stages
-    ]
+    return lambda stage, finding: parts.has(finding, stage, completed)
 
 
 class _Parts:

@@ -14,6 +14,7 @@ from zipfile import ZipFile
 
 from usdvol_lint.config import Config
 from usdvol_lint.model import Finding, PackError
+from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import USD_TOO_OLD, load
 from usdvol_lint.packs.examples import (
     STAGE,
@@ -31,7 +32,9 @@ from usdvol_lint.packs.examples import (
 from usdvol_lint.packs.page import Page
 from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
-from usdvol_lint.run.lint import lint
+from usdvol_lint.run.lint import stage_reports
+from usdvol_lint.run.parts import completed_by
+from usdvol_lint.run.pool import Pool
 from usdvol_lint.words import printable
 
 _PACKED = "cloud.vdb"
@@ -89,10 +92,22 @@ def run(
         folders = [here / f"example-{number:04}" for number in range(len(examples))]
         for case, folder in zip(examples, folders, strict=True):
             write_example(case, folder, assets)
-        report = lint([f"{folder.name}/{STAGE}" for folder in folders], config)
+        found = findings_in([f"{folder.name}/{STAGE}" for folder in folders], config)
+    return [portable(each, folder) for each, folder in zip(found, folders, strict=True)]
+
+
+def findings_in(paths: Sequence[str], config: Config) -> list[tuple[Finding, ...]]:
+    """What each stage shows, without what others of them complete."""
+    pool = Pool()
+    try:
+        active = activate(config, load(config.packs))
+        reports = list(stage_reports(pool, paths, config, active, os.cpu_count() or 1))
+    finally:
+        pool.close()
+    is_completed = completed_by(reports)
     return [
-        portable(stage.findings, folder)
-        for stage, folder in zip(report.stages, folders, strict=True)
+        tuple(each for each in report.findings if not is_completed(report, each))
+        for report in reports
     ]
 
 
@@ -111,7 +126,7 @@ def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
         finding._replace(
             message=anywhere(finding.message),
             suggestion=finding.suggestion and anywhere(finding.suggestion),
-            site=finding.site._replace(layer=anywhere(finding.site.layer)),
+            site=finding.site._replace(layer=anywhere(finding.site.layer or "")),
         )
         for finding in findings
         if finding.code != USD_TOO_OLD.code

@@ -46,6 +46,11 @@ class Package:
         return member.header_offset + _LOCAL_HEADER.size + name + extra, member.file_size
 
 
+def first_in(path: str) -> str:
+    """The path of the first member of a package, which is the layer that USD opens; or ""."""
+    return next(iter(Package(path).names), "")
+
+
 def _directory(path: str, encoding: str | None) -> list[ZipInfo]:
     """The members of a zip archive; none if it is not readable, which is reported for each.
 

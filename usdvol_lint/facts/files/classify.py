@@ -10,13 +10,14 @@ from pxr import Ar, Sdf, Usd
 
 from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.paths import FORMAT_ARGUMENTS, anchored, is_uri
+from usdvol_lint.facts.files.paths import anchored, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.facts.files.states import AssetState, FileFault
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.clips import authored_path
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.facts.usd.values import read_values
+from usdvol_lint.paths import FORMAT_ARGUMENTS
 
 _LIVE_SCHEMES = frozenset({"op", "opdef", "oplib"})
 """Schemes of paths into a Houdini session."""

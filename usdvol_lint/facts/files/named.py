@@ -9,9 +9,9 @@ from typing import Any
 from pxr import Sdf
 
 from usdvol_lint.facts.files.families import Family, read_family
-from usdvol_lint.facts.files.paths import FORMAT_ARGUMENTS
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.paths import FORMAT_ARGUMENTS
 
 
 def in_variants(field: Any, family: Family) -> Iterator[int]:

@@ -9,9 +9,8 @@ from typing import Any
 from pxr import Ar, Sdf
 
 from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.paths import FORMAT_ARGUMENTS
 
-FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
-"""Stands between a path and the arguments for the file format plugin that reads it."""
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, NamedTuple, TypeVar
 
 from pxr import Usd
 
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
+
+_Found = TypeVar("_Found", bound=Any)
 
 
 class Opinion(NamedTuple):
@@ -43,3 +47,22 @@ def is_from_clips(attribute: Any, time: float | None) -> bool:
         return False
     source = attribute.GetResolveInfo(time).GetSource()
     return bool(source == Usd.ResolveInfoSourceValueClips)
+
+
+def are_of_one(attribute: Any, time: float) -> bool:
+    """Whether one spec gives the value at the default time and that at a time of the stage."""
+    default, sample = strongest_opinion(attribute, None), strongest_opinion(attribute, time)
+    return bool(default and sample and default.spec == sample.spec)
+
+
+def by_opinion(found: _Found) -> Iterator[_Found]:
+    """Occurrences of values, or those at the default time and the others, if two specs hold them.
+
+    They are a dataclass with `samples`, of which that of the default time is the first.
+    """
+    if not (found.at_default and found.times) or are_of_one(found.attribute, found.times[0]):
+        yield found
+        return
+    first, *others = found.samples
+    yield replace(found, samples=(first,))
+    yield replace(found, samples=tuple(others))

@@ -1,0 +1,7 @@
+"""x."""
+
+from usdvol_lint.model import Cover
+
+
+def join(a: Cover, b: Cover) -> Cover:
+    return a

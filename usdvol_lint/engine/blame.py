@@ -1,0 +1,193 @@
+"""Which spec is to blame for a problem: where somebody has to edit, whatever shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from pxr import Usd
+
+from usdvol_lint.engine.strength import Opinion, decisive, is_composed_of, path_beside
+from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
+from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.rule import APIS, NAME, TYPE, NotChecked, Problem
+
+_VALUES = ("default", "timeSamples", "targetPaths", "spline")
+
+
+class Blame(NamedTuple):
+    """What is to blame: a spec, or None where a stage is nothing but what it holds.
+
+    `time` is the first time of the problem in the time of the spec's layer, and `offset` leads from
+    there to the stage's; both are None where the problem is at no time, or the spec holds no value.
+    `property` and `subject` tell what it is about at the spec; `clip` is the clip that holds the
+    value where the spec is the one with the clips.
+    """
+
+    spec: Any | None
+    property: str | None = None
+    subject: str = ""
+    time: float | None = None
+    offset: Any | None = None
+    clip: str | None = None
+
+
+def blamed(problem: Problem | NotChecked) -> Blame:
+    """What is to blame for a problem."""
+    at = problem.at
+    name = at.GetName() if isinstance(at, Usd.Property) else None
+    if problem.spec:
+        return Blame(problem.spec, name, problem.subject)
+    own = _own(problem)
+    if own.spec is None:
+        return own
+    others = [each for other in problem.against for each in _opinions(other)]
+    if not others:
+        return own
+    prim = at.GetPrim()
+    found = decisive([Opinion(prim, own.spec), *others])
+    if found.spec == own.spec:
+        return own
+    return Blame(found.spec, name, problem.subject or _path_of(at, prim, found.spec))
+
+
+def _own(problem: Problem | NotChecked) -> Blame:
+    """The spec whose opinion counts where the problem is."""
+    at, prim, subject = problem.at, problem.at.GetPrim(), problem.subject
+    if not isinstance(at, Usd.Property):
+        return Blame(_of_prim(prim, problem.of, subject), None, subject)
+    name = at.GetName()
+    if problem.of == NAME:
+        return Blame(_weakest(at) or maker(prim), name, subject)
+    if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
+        time = None if problem.at_default else problem.times[0]
+        if found := _value(at, time, subject):
+            return found
+    spec = next(filter(_has_value, at.GetPropertyStack()), None)
+    if spec is None and isinstance(at, Usd.Relationship):
+        spec = _weakest(at)
+    return Blame(spec or maker(prim), name, subject)
+
+
+def _value(attribute: Any, time: float | None, subject: str) -> Blame | None:
+    """The spec with the value at a time of the stage; of a value in clips, that with the clips."""
+    strongest = strongest_opinion(attribute, time)
+    if strongest is None:
+        return None
+    spec, offset = strongest
+    prim = attribute.GetPrim()
+    if time is None:
+        return Blame(spec, attribute.GetName(), subject)
+    if not is_composed_of(prim, spec) and (clips := _clips_with(prim, spec.layer)):
+        below = (
+            prim.GetPath()
+            .MakeRelativePath(clips.prim.GetPath())
+            .AppendProperty(attribute.GetName())
+        )
+        clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
+        bearer = clips.spec_with(clips.key)
+        return Blame(bearer, "clips", subject or str(below), None, None, clips.named(clip))
+    return Blame(spec, attribute.GetName(), subject, offset.GetInverse() * time, offset)
+
+
+def _clips_with(prim: Any, layer: Any) -> ClipSet | None:
+    """The clip set that has a layer among its clips, of a prim or the next one above it."""
+    while not prim.IsPseudoRoot():
+        if prim.HasAuthoredMetadata("clips"):
+            for clip_set in clip_sets_on(prim):
+                if layer.realPath in _resolved(clip_set):
+                    return clip_set
+        prim = prim.GetParent()
+    return None
+
+
+@lru_cache(maxsize=8)
+def _resolved(clip_set: ClipSet) -> frozenset[str]:
+    return frozenset(each.resolvedPath for each in clip_set.clips)
+
+
+def _of_prim(prim: Any, of: str | None, subject: str) -> Any | None:
+    if prim.IsPseudoRoot():
+        return prim.GetStage().GetRootLayer().pseudoRoot
+    if of == TYPE:
+        return _typed(prim) or maker(prim)
+    if of == APIS:
+        return next(filter(_names(subject), _stack(prim)), None) or maker(prim)
+    return maker(prim)
+
+
+def maker(prim: Any) -> Any | None:
+    """The weakest spec that makes a prim what it is: with its type, or else one that defines it."""
+    stack = _stack(prim)
+    wanted = prim.GetTypeName()
+    if wanted:
+        typed = [spec for spec in stack if spec.typeName == wanted]
+    else:
+        typed = [spec for spec in stack if spec.specifier.name == "SpecifierDef"]
+    return (typed or stack or [None])[-1]
+
+
+def _typed(prim: Any) -> Any | None:
+    """The spec whose type counts: the last of those that say the same, one after the other."""
+    typed = [spec for spec in _stack(prim) if spec.typeName]
+    found = None
+    for spec in typed:
+        if found and spec.typeName != found.typeName:
+            break
+        found = spec
+    return found
+
+
+def _names(api: str) -> Any:
+    def names(spec: Any) -> bool:
+        listed = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else None
+        return listed is not None and (not api or api in listed.GetAppliedItems())
+
+    return names
+
+
+def _stack(prim: Any) -> list[Any]:
+    session = prim.GetStage().GetSessionLayer()
+    return [spec for spec in prim.GetPrimStack() if spec.layer != session]
+
+
+def _weakest(prop: Any) -> Any | None:
+    stack = prop.GetPropertyStack()
+    return stack[-1] if stack else None
+
+
+def _has_value(spec: Any) -> bool:
+    return any(map(spec.HasInfo, _VALUES))
+
+
+def _opinions(other: Any) -> Iterator[Opinion]:
+    """The opinions on what contradicts: a prim, a property, an occurrence, a spec, a metadatum."""
+    if isinstance(other, tuple):
+        prim, key = other
+        spec = _typed(prim) if key == TYPE else next(_with_info(_stack(prim), key), None)
+        specs: Iterable[Any] = [spec]
+    elif isinstance(other, Usd.Prim):
+        prim, specs = other, [maker(other)]
+    elif isinstance(other, Usd.Property) or hasattr(other, "at_default"):
+        attribute = getattr(other, "attribute", other)
+        prim = attribute.GetPrim()
+        times = tuple(getattr(other, "times", ()))
+        at_default = getattr(other, "at_default", False)
+        problem = Problem("", at=attribute, times=times, at_default=at_default)
+        specs = [_own(problem).spec]
+    else:
+        raise TypeError(f"a problem is against prims, properties and occurrences, not {other!r}")
+    yield from (Opinion(prim, spec) for spec in specs if spec)
+
+
+def _with_info(specs: Iterable[Any], key: str) -> Iterator[Any]:
+    return (spec for spec in specs if spec.HasInfo(key))
+
+
+def _path_of(at: Any, prim: Any, spec: Any) -> str:
+    """What a problem is about, as the layer to blame sees it; "" if that is the spec itself."""
+    path = path_beside(prim, spec) or str(prim.GetPath())
+    if path == str(spec.path.GetPrimPath().StripAllVariantSelections()):
+        return ""
+    return f"{path}.{at.GetName()}" if isinstance(at, Usd.Property) else path

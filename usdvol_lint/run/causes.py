@@ -1,0 +1,159 @@
+"""Folds what stages show into causes: one for each thing to mend, with its first places."""
+
+from __future__ import annotations
+
+import re
+from bisect import insort
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from operator import attrgetter
+from typing import NamedTuple
+
+from usdvol_lint.baseline.cover import join
+from usdvol_lint.baseline.fingerprint import fingerprint
+from usdvol_lint.model import Cover, Finding, Severity, Source, StageReport
+from usdvol_lint.paths import below
+from usdvol_lint.results import Cause, Place, StageResult, State
+
+MAX_PLACES = 20
+
+
+class _Met(NamedTuple):
+    """A place, and its number among those of its stage."""
+
+    stage: int
+    number: int
+    finding: Finding
+
+
+_ORDER = attrgetter("stage", "number")
+
+
+class _Places:
+    """Some places of a cause: the first ones, the number of all, and what they come to."""
+
+    def __init__(self) -> None:
+        self.first: list[_Met] = []
+        self.count = 0
+        self.severity = Severity.INFO
+        self.cover: Cover | None = None
+
+    def add(self, met: _Met, most: int) -> None:
+        self.count += 1
+        self.severity = max(self.severity, met.finding.severity)
+        cover = met.finding.cover
+        if self.cover is None:
+            self.cover = cover
+        elif self.cover != cover:
+            self.cover = join(self.cover, cover)
+        if len(self.first) < most or _ORDER(met) < _ORDER(self.first[-1]):
+            insort(self.first, met, key=_ORDER)
+            del self.first[most:]
+
+
+class _Gathered:
+    """What is known of one cause so far: the places that are left, and those suppressed."""
+
+    def __init__(self) -> None:
+        self.left = _Places()
+        self.suppressed = _Places()
+        self.reason: str | None = None
+
+    @property
+    def counting(self) -> _Places:
+        return self.left if self.left.count else self.suppressed
+
+
+class Causes:
+    """The causes of a run, whatever stages show them, in whichever order these are added.
+
+    `root` is the folder that layers go by, `versions` a pattern for what is folded in their paths,
+    and `reason_for` says why a finding on a stage is suppressed, or None.
+    """
+
+    def __init__(
+        self,
+        root: str | None = None,
+        versions: re.Pattern[str] | None = None,
+        most: int = MAX_PLACES,
+        reason_for: Callable[[str, Finding, Source], str | None] | None = None,
+    ) -> None:
+        self._most = most
+        self._reason_for = reason_for
+        self._found: dict[tuple[str, Source], _Gathered] = {}
+        self._shown: dict[int, dict[tuple[str, Source], Severity | None]] = {}
+
+        @cache
+        def name_of(layer: str) -> str:
+            name = below(layer, root)
+            return versions.sub("*", name) if versions else name
+
+        self._name_of = name_of
+
+    def add(self, stage: int, path: str, findings: Iterable[tuple[int, Finding]]) -> None:
+        """Adds findings of a stage, each with its number there."""
+        shown = self._shown.setdefault(stage, {})
+        for number, finding in findings:
+            source = finding.source
+            if source.layer is not None:
+                source = source._replace(layer=self._name_of(source.layer))
+            key = finding.code, source
+            gathered = self._found.get(key)
+            if gathered is None:
+                gathered = self._found[key] = _Gathered()
+            reason = finding.ignored
+            if reason is None and self._reason_for:
+                reason = self._reason_for(path, finding, source)
+            met = _Met(stage, number, finding)
+            worst = shown.setdefault(key, None)
+            if reason is None:
+                gathered.left.add(met, self._most)
+                shown[key] = max(worst or finding.severity, finding.severity)
+            else:
+                gathered.suppressed.add(met, self._most)
+                gathered.reason = gathered.reason or reason
+
+    def result(self) -> tuple[tuple[Cause, ...], Mapping[tuple[str, Source], int]]:
+        """The causes in the order of their first places, and the number of each."""
+        keys = sorted(self._found, key=lambda key: _ORDER(self._found[key].counting.first[0]))
+        causes = tuple(_cause(key, self._found[key]) for key in keys)
+        return causes, {key: number for number, key in enumerate(keys)}
+
+    def stage(
+        self, number: int, report: StageReport, numbers: Mapping[tuple[str, Source], int]
+    ) -> StageResult:
+        """What came of a stage, once all findings were added."""
+        shown = self._shown.get(number, {})
+        ordered = sorted((numbers[key], worst) for key, worst in shown.items())
+        return StageResult(
+            path=report.path,
+            status=report.status,
+            stats=report.stats,
+            seconds=report.seconds,
+            particle_fields=report.particle_fields,
+            completes=report.completes,
+            causes=tuple(number for number, _ in ordered),
+            worst=tuple(worst for _, worst in ordered),
+        )
+
+
+def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
+    code, source = key
+    places = gathered.counting
+    assert places.cover
+    is_left = gathered.left.count > 0
+    return Cause(
+        fingerprint=fingerprint(code, source),
+        severity=places.severity,
+        source=source,
+        cover=places.cover,
+        places=tuple(Place(met.stage, met.finding) for met in places.first),
+        count=places.count,
+        state=State.NEW if is_left else State.SUPPRESSED,
+        reason=None if is_left else gathered.reason,
+    )
+
+
+def versions_in(pattern: str | None) -> re.Pattern[str] | None:
+    """What a `version-pattern` matches in a path: between separators, so `v1` not in `rev12`."""
+    return re.compile(rf"(?<![^\W_])(?:{pattern})(?![^\W_])") if pattern else None
