@@ -74,9 +74,8 @@ def root_layer(node: Any) -> Any:
 
 
 def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
-    """The spec with the first arc, on the way from a layer of a prim to the stage, that is meant."""
+    """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
     for node in nodes_of(prim.GetPrimIndex()):
         if layer in node.layerStack.layers:
-            # The index is asked for while the node is in use: a node does not keep it alive.
             return next((each.spec for each in list(crossings(node))[::-1] if is_it(each)), None)
     return None
