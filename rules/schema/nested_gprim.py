@@ -19,7 +19,8 @@ def nested_gprim(prim: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{what}{held} below {_named(prim, facts)}, which is a Gprim too, and Gprims do not nest",
             at=place,
-            against=[prim, gprim],
+            of=None if gprim == place else "references",
+            against=[prim] if gprim == place else [],
             subject=gprim.GetName(),
             suggestion=f"move it beside the {prim.GetTypeName()}, below a common Xform",
         )

@@ -48,6 +48,14 @@ def node_of(prim: Any, spec: Any) -> Any | None:
     return None
 
 
+def node_above(prim: Any, spec: Any) -> Any | None:
+    """The node of a prim that a spec is in, or lies below."""
+    for node in nodes_of(prim.GetPrimIndex()):
+        if spec.path.HasPrefix(node.path) and spec.layer in node.layerStack.layers:
+            return node
+    return None
+
+
 def path_of_prim(spec: Any) -> Any:
     """The path of the prim of a spec, with the variants that it stands in."""
     path = spec.path
