@@ -2,6 +2,9 @@
 
 from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
 
+_FITTING = "author radiance:sphericalHarmonicsDegree"
+_LEAVE_OUT = "leave the same particles out of the coefficients; cut the end off only if it is spare"
+
 
 @rule("ARR004", on="ParticleField", severity=ERROR, since="0.1")
 def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
@@ -27,7 +30,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
                     if fitting is None
                     else f"export all of degree {degree.value} again, or author degree {fitting}"
                     if degree.is_authored
-                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
+                    else f"{_FITTING} = {fitting}, which fits"
                 ),
             )
         if long and not _is_told("ARR003", facts, particles, are_long=True):
@@ -38,12 +41,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
                 at=long,
                 against=against,
                 severity=None if alone or fitting is not None else WARNING,
-                suggestion=remedy
-                or (
-                    "leave the same particles out of the coefficients; cut the end off only if it is spare"
-                    if fitting is None
-                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
-                ),
+                suggestion=remedy or (_LEAVE_OUT if fitting is None else f"{_FITTING} = {fitting}, which fits"),
             )
 
 

@@ -23,8 +23,8 @@ def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
         meant, loss = slip.intended, _LOSSES[slip.pair] if _is_lost(slip, prim, facts) else ""
         yield Problem(
             f"{prim.GetTypeName()} has no attribute {slip.shown}"
-            + (f", so {meant!r} keeps the value of a weaker layer" if slip.overridden else "")
-            + (f", {loss}" if loss else ""),
+            + f", so {meant!r} keeps the value of a weaker layer" * bool(slip.overridden)
+            + f", {loss}" * bool(loss),
             at=slip.attribute,
             of=NAME,
             severity=None if slip.hiding or (loss and slip.pair in _GRAVE) else WARNING,
