@@ -11,8 +11,8 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
     is_lost = facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName()) and not arrays.suit_degree
-    if not each or is_lost:
-        return  # ARR005 or SCH004 says it
+    if not each or is_lost:  # ARR005 or SCH004 says it
+        return
     against = [degree.attribute, *([arrays.positions.attribute] if arrays.positions else ())]
     for array in arrays.used("coefficients"):
         authored = "" if degree.is_authored else ", what USD falls back to,"
@@ -34,13 +34,12 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
                 ),
             )
         if long and not _is_told("ARR003", facts, particles, are_long=True):
-            alone = arrays.others_fit(array)
             shift = ": if particles were left out of the others, every later one has the colours of another"
             yield Problem(
                 f"{long.shares}; {takes}{shift if fitting is None else ''}",
                 at=long,
                 against=against,
-                severity=None if alone or fitting is not None else WARNING,
+                severity=None if arrays.others_fit(array) or fitting is not None else WARNING,
                 suggestion=remedy or (_LEAVE_OUT if fitting is None else f"{_FITTING} = {fitting}, which fits"),
             )
 

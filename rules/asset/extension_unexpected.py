@@ -3,15 +3,11 @@
 from operator import attrgetter
 from typing import Any
 
-from usdvol_lint.rule import ERROR, WARNING, Content, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 from usdvol_lint.schema import FILE_EXTENSIONS, TYPE_NAME
 
 _TYPES = {"OpenVDBAsset": "an OpenVDBAsset", "Field3DAsset": "a Field3DAsset"}
 _other_format = attrgetter("swapped_format")
-
-
-def _no_volume(content: Content) -> bool | None:
-    return content.is_no_volume or None
 
 
 @rule("AST006", on=tuple(_TYPES), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
@@ -22,8 +18,7 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
     alike = facts.files.alike(field)
     where: dict[str, Any] = {"against": [(field, TYPE_NAME)], "fold": alike and f"{alike} {type_name}"}
     paths, inside, wanted = facts.files.paths(field), facts.grids.contents(field), FILE_EXTENSIONS[type_name]
-    others = inside.grouped(_other_format)
-    for other, content, found in others:
+    for other, content, found in (others := inside.grouped(_other_format)):
         yield Problem(
             f"{found.shown} is {content.foreign}{found.count}",
             at=found,
@@ -32,7 +27,7 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
             severity=WARNING if content.is_read_by_some else None,
             **where,
         )
-    by_content = inside.grouped(_no_volume) if facts.tells("GRD001") else ()
+    by_content = inside.grouped(lambda content: content.is_no_volume or None) if facts.tells("GRD001") else ()
     accounted = {wanted, *(sample.extension for _, _, found in (*others, *by_content) for sample in found.samples)}
     misnamed = paths.affected(each for each in paths.samples if each.is_there and each.extension not in accounted)
     if misnamed:
