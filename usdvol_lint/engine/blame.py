@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from pxr import Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
 from usdvol_lint.facts.usd.bringing import node_of
@@ -56,7 +56,10 @@ def _own(problem: Problem | NotChecked) -> Blame:
         return Blame(problem.spec or _of_prim(prim, problem.of), None, subject)
     name = at.GetName()
     if problem.spec:
-        return Blame(problem.spec, name, subject)
+        is_top = problem.spec.path == Sdf.Path.absoluteRootPath
+        return Blame(
+            problem.spec, name, subject or (_path_of(at, prim, problem.spec) if is_top else "")
+        )
     if problem.of == NAME:
         return Blame(_weakest(at) or maker(prim), name, subject)
     if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):

@@ -16,18 +16,30 @@ class TimeRange(NamedTuple):
     start: float
     end: float
 
-    def arc_to_it(self, attribute: Any, time: float | None) -> Any | None:
-        """The spec with the first arc that brings values to a layer which says this range.
+    def meeting(self, attribute: Any, time: float | None) -> Any | None:
+        """The spec that brings values of an attribute into this range; None if they lie in one.
 
-        None if they lie in one.  What is between, with another range or none, has nothing to do
-        with it.
+        It is that with the first arc to a layer which says the range, or this layer's own top if
+        the arc, or the values, are in a sublayer of it.  What is between, with another range or
+        none, has nothing to do with it.
         """
         from usdvol_lint.facts.usd.bringing import arc_that  # costs start-up time; few need it
 
         strongest = strongest_opinion(attribute, time)
-        return strongest and arc_that(
-            attribute.GetPrim(), strongest.spec.layer, lambda arc: self._is_said_by(arc.source)
-        )
+        if strongest is None:
+            return None
+        said_by: list[Any] = []
+
+        def is_it(arc: Any) -> bool:
+            is_said = self._is_said_by(arc.source)
+            said_by.extend([arc.source.layerStack.identifier.rootLayer] if is_said else [])
+            return is_said
+
+        spec = arc_that(attribute.GetPrim(), strongest.spec.layer, is_it) or strongest.spec
+        top = said_by[0] if said_by else attribute.GetStage().GetRootLayer()
+        if spec.layer != top:
+            return top.pseudoRoot
+        return None if spec == strongest.spec else spec
 
     def _is_said_by(self, node: Any) -> bool:
         """Whether the layers of a node say this range; what only the stage says, its root does."""
