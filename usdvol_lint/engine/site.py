@@ -8,7 +8,7 @@ from pxr import Usd
 
 from usdvol_lint.engine.blame import Blame, blamed
 from usdvol_lint.engine.layer_names import LayerNames
-from usdvol_lint.engine.strength import prim_path
+from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.layertext.source import LayerTexts
 from usdvol_lint.model import Cover, Severity, Site, Source
@@ -53,7 +53,7 @@ class Sites:
         position = self._find(layer, path, blame, problem.asset)
         source = Source(
             self._names.real(layer),
-            str(prim_path(spec)) if spec else None,
+            str(path_of_prim(spec)) if spec else None,
             blame.property,
             blame.subject,
         )
