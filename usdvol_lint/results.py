@@ -135,6 +135,11 @@ class BaselineUse(NamedTuple):
     moved: tuple[tuple[str, str], ...] = ()
     written: bool = False
 
+    @property
+    def is_unpruned(self) -> bool:
+        """Whether the file has entries that are gone."""
+        return bool(self.gone) and not self.written
+
 
 class RunInfo(NamedTuple):
     """What may differ between equal runs."""

@@ -3,28 +3,41 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Hashable, Iterable
 from typing import TypeAlias
 
 from usdvol_lint.baseline.entry import Entry, by_fingerprint
+from usdvol_lint.baseline.file import Baseline
 from usdvol_lint.baseline.fingerprint import fingerprint
+from usdvol_lint.baseline.scope import Scope, lies_in, outermost
 from usdvol_lint.model import UsageError
 from usdvol_lint.words import printable
 
 Move: TypeAlias = tuple[str, str]
 
 
-def renamed(file: str, entries: Mapping[str, Entry], moves: Iterable[Move]) -> dict[str, Entry]:
-    """The entries by their new fingerprints, where a layer or a folder is called otherwise now."""
-    named = dict(entries)
+def renamed(baseline: Baseline, moves: Iterable[Move]) -> Baseline:
+    """The baseline as it would be had layers and folders been called so before."""
     for old, new in moves:
-        if all(_inside(entry.source.layer, old) is None for entry in named.values()):
-            raise UsageError(
-                f"--moved {printable(old)}={printable(new)}: {file} has no entry of a layer there, "
-                "write OLD as the baseline has it"
-            )
-        named = by_fingerprint(_in_place(entry, old, new) for entry in named.values())
-    return named
+        entries = baseline.entries.values()
+        if all(_inside(entry.source.layer, old) is None for entry in entries):
+            hint = "write OLD as the baseline has it"
+            where = f"{baseline.file} has no entry of a layer there"
+            raise UsageError(f"--moved {printable(old)}={printable(new)}: {where}, {hint}")
+        moved = by_fingerprint(_in_place(entry, old, new) for entry in entries)
+        scope = _scope_in_place(baseline.scope, old, new)
+        baseline = baseline._replace(entries=moved, scope=scope)
+    return baseline
+
+
+def _scope_in_place(scope: Scope, old: str, new: str) -> Scope:
+    """What was looked at, with the new place if the old one was."""
+    if scope.arguments is None:
+        return scope
+    had = [new] if any(lies_in(old, argument) for argument in scope.arguments) else []
+    rests = ((argument, _inside(argument, old)) for argument in scope.arguments)
+    named = (argument if rest is None else f"{new}{rest}" for argument, rest in rests)
+    return scope._replace(arguments=outermost([*named, *had]))
 
 
 def _in_place(entry: Entry, old: str, new: str) -> Entry:

@@ -7,24 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from usdvol_lint.baseline.entry import (
-    Entry,
-    by_fingerprint,
-    entry_from_json,
-    is_held,
-    least_held,
-)
+from usdvol_lint.baseline.entry import Entry, by_fingerprint, entry_from_json, is_held, least_held
 from usdvol_lint.baseline.file import FORMAT_KEY, Baseline, check_version, read_lines
 from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 from usdvol_lint.baseline.scope import arguments_from_json, scope_from_json
-from usdvol_lint.baseline.values import (
-    found,
-    list_of,
-    optional_string,
-    string,
-    table_of,
-    value_of,
-)
+from usdvol_lint.baseline.values import found, list_of, optional_string, string, table_of, value_of
 from usdvol_lint.config import LEVELS
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.results import State
@@ -73,7 +60,7 @@ def _report(file: str, text: str) -> dict[str, Any] | None:
 def _from_report(file: str, report: dict[str, Any]) -> Baseline:
     version = report.get("schema_version")
     if not isinstance(version, str) or not version.startswith(_SCHEMA):
-        what = f"the 'schema_version' of a report must be {_SCHEMA}x, {found(report, 'schema_version')}"
+        what = f"a report of schema {_SCHEMA}x is a baseline too, {found(report, 'schema_version')}"
         raise UsageError(f"{file}: {what}: write it anew")
     check_version(
         file, report, "fingerprint_version", FINGERPRINT_VERSION, "fingerprints of version"

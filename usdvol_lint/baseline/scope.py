@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -129,15 +130,11 @@ def lies_in(path: str, folder: str) -> bool:
     return is_inside and not any(part.startswith(".") for part in inside.split("/"))
 
 
-def lacking(was: Scope, now: Scope) -> Iterator[str]:
+def lacking(was: Scope, now: Scope, root: str | None) -> Iterator[str]:
     """In words what a run did not look at, that the scope of a baseline has."""
     if was.arguments is None:
         yield "nothing says what the baseline was made of"
-    else:
-        paths = [
-            path for path in was.arguments if not any(lies_in(path, a) for a in now.arguments or ())
-        ]
-        yield from _named(paths, "not checked: {}")
+    yield from _named(list(_unchecked(was, now, root)), "not checked: {}")
     yield from _named(sorted(was.rules.keys() - now.rules.keys()), "not in force: {}")
     if LOADS.index(now.load) > LOADS.index(was.load):
         yield _instead("load", now.load, was.load)
@@ -146,6 +143,14 @@ def lacking(was: Scope, now: Scope) -> Iterator[str]:
     if not _has_times(now.times, was.times):
         yield _instead("times", now.times, was.times)
     yield from _lacking_variants(was, now)
+
+
+def _unchecked(was: Scope, now: Scope, root: str | None) -> Iterator[str]:
+    """The arguments that a run leaves out; what is not there any more, nobody can check."""
+    for path in was.arguments or ():
+        is_covered = any(lies_in(path, argument) for argument in now.arguments or ())
+        if not is_covered and os.path.lexists(os.path.join(root or "", path)):
+            yield path
 
 
 def _lacking_variants(was: Scope, now: Scope) -> Iterator[str]:

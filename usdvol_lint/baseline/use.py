@@ -42,22 +42,51 @@ class Use(NamedTuple):
         return f"--write-baseline {self.write}" if self.write else "--prune-baseline"
 
 
+class Applied(NamedTuple):
+    """A report with the states of its causes, and in a line why not all was done as asked."""
+
+    report: Report
+    failure: str = ""
+
+
 class Prepared(NamedTuple):
-    """What to do, and what was read for it; `root` is what the run's layers are to go by."""
+    """What to do with a baseline, and what was read for it."""
 
     use: Use
     baseline: Baseline | None
 
     @property
     def root(self) -> str | None:
+        """The folder that the layers of the run are to go by, if the baseline says so."""
         return self.baseline.root if self.baseline else None
 
+    def check_root(self, root: str | None) -> None:
+        """Raises UsageError where layers go by another root than those of the baseline do."""
+        use, baseline = self
+        if use.write and root is None:
+            hint = 'set `root = "."` in a usdvol-lint.toml, or --root FOLDER'
+            raise UsageError(f"{use.option}: there is no root that layers go by: {hint}")
+        if baseline and baseline.root and baseline.root != root:
+            theirs, ours = quoted(baseline.root), quoted(str(root))
+            raise UsageError(f"{baseline.file}: its layers go by {theirs}, and the root is {ours}")
+        if baseline and baseline.is_report and baseline.has_root != (root is not None):
+            one, other = ("a", "none") if baseline.has_root else ("no", "one")
+            raise UsageError(f"{baseline.file}: was written with {one} root, this run has {other}")
 
-class Applied(NamedTuple):
-    """A report with the states of its causes, and in a line why not all was done as asked."""
+    def apply(self, report: Report) -> Applied:
+        """Compares the causes of a run with the baseline, and writes what is to be written.
 
-    report: Report
-    failure: str = ""
+        In what was written all causes are known that it holds.
+        """
+        compared, unmatched = _compared(report, self.baseline)
+        now = _scope(compared, self.baseline)
+        told = compared._replace(baseline=_told(compared, self, unmatched, now.lacking))
+        if not self.use.target:
+            return Applied(told)
+        if self.use.prune and now.lacking:
+            why = f"this run sees less than {self.use.read} has: {now.lacking}"
+            return Applied(told, f"--prune-baseline: {why}")
+        return _written(told, self, now)
 
 
 def prepare(use: Use) -> Prepared:
@@ -70,8 +99,7 @@ def prepare(use: Use) -> Prepared:
     if baseline.is_report and not use.write and use.prune:
         hint = "--write-baseline FILE makes a baseline of it"
         raise UsageError(f"--prune-baseline: {use.read} is a report: {hint}")
-    entries = renamed(use.read, baseline.entries, use.moved)
-    return Prepared(use, baseline._replace(entries=entries))
+    return Prepared(use, renamed(baseline, use.moved))
 
 
 def _is_first_write(use: Use) -> bool:
@@ -79,37 +107,6 @@ def _is_first_write(use: Use) -> bool:
     if not use.read or not use.write or os.path.exists(use.read):
         return False
     return canonical(use.read) == canonical(use.write)
-
-
-def check_root(prepared: Prepared, root: str | None) -> None:
-    """Raises UsageError where layers go by another root than those of the baseline do."""
-    use, baseline = prepared
-    if use.write and root is None:
-        hint = 'set `root = "."` in a usdvol-lint.toml, or --root FOLDER'
-        raise UsageError(f"{use.option}: there is no root that layers go by: {hint}")
-    if baseline and baseline.root and baseline.root != root:
-        theirs, ours = quoted(baseline.root), quoted(str(root))
-        raise UsageError(f"{baseline.file}: its layers go by {theirs}, and the root is {ours}")
-    if baseline and baseline.is_report and baseline.has_root != (root is not None):
-        one, other = ("a", "none") if baseline.has_root else ("no", "one")
-        raise UsageError(f"{baseline.file}: was written with {one} root, and this run has {other}")
-
-
-def apply(report: Report, prepared: Prepared) -> Applied:
-    """Compares the causes of a run with the baseline, and writes what is to be written.
-
-    In what was written all causes are known that it holds.
-    """
-    check_root(prepared, report.root)
-    compared, unmatched = _compared(report, prepared.baseline)
-    now = _scope(compared, prepared.baseline)
-    told = compared._replace(baseline=_told(compared, prepared, unmatched, now.lacking))
-    if not prepared.use.target:
-        return Applied(told)
-    if prepared.use.prune and now.lacking:
-        why = f"this run sees less than {prepared.use.read} has: {now.lacking}"
-        return Applied(told, f"--prune-baseline: {why}")
-    return _written(told, prepared, now)
 
 
 class _Scopes(NamedTuple):
@@ -123,7 +120,7 @@ def _scope(report: Report, baseline: Baseline | None) -> _Scopes:
     ours = scope_of(report)
     if baseline is None:
         return _Scopes(ours, "")
-    words = "; ".join((*lacking(baseline.scope, ours), *not_done(report)))
+    words = "; ".join((*lacking(baseline.scope, ours, report.root), *not_done(report)))
     return _Scopes(widest(baseline.scope, ours) if words else ours, words)
 
 
@@ -184,7 +181,7 @@ def _entries(report: Report, prepared: Prepared, covers: bool) -> Mapping[str, E
 def _known(cause: Cause, entries: Mapping[str, Entry]) -> Cause:
     """The cause, known if what was written holds it as it is."""
     entry = entries.get(cause.fingerprint)
-    if entry is None or not cause.state.counts or cause.was and entry.cover == cause.was:
+    if entry is None or not cause.state.counts or (cause.was and entry.cover == cause.was):
         return cause
     return cause._replace(state=State.KNOWN, was=None)
 
