@@ -74,8 +74,8 @@ def _object(where: str, line: str, is_cut: bool) -> dict[str, Any]:
     try:
         value = value_of(line)
     except ValueError as error:
-        cut = ", cut off: the last line is not whole" if is_cut else ""
-        raise UsageError(f"{where}: no JSON{cut}: {error}") from None
+        cut = "; cut off, as the last line is not whole" if is_cut else ""
+        raise UsageError(f"{where}: no JSON: {error}{cut}") from None
     if not isinstance(value, dict):
         raise UsageError(f"{where}: no entry of a baseline: it must be an object")
     return value
@@ -151,12 +151,12 @@ def write_baseline(baseline: Baseline) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def check_writable(option: str, file: str) -> None:
+def check_writable(option: str, file: Path) -> None:
     """Raises UsageError, before any work, where a file can't be written."""
     target = Path(os.path.realpath(file))
     if target.exists() and not target.is_file():
-        raise UsageError(f"{option} {file}: this is no file, name one")
+        raise UsageError(f"{option}: this is no file, name one")
     if not target.parent.is_dir():
-        raise UsageError(f"{option} {file}: there is no folder {Path(file).parent}")
+        raise UsageError(f"{option}: there is no folder {file.parent}")
     if not os.access(target.parent, os.W_OK):
-        raise UsageError(f"{option} {file}: no permission to write there")
+        raise UsageError(f"{option}: no permission to write there")

@@ -49,7 +49,7 @@ def frames_from_text(text: str) -> tuple[float, ...]:
 def _range(part: str) -> Iterator[float]:
     found = _RANGE.fullmatch(part)
     if not found:
-        raise ValueError(part)
+        raise ValueError(f"no frames: {part!r}")
     first, last, step = found.groups()
     if last is None:
         return iter((float(first),))
@@ -59,7 +59,7 @@ def _range(part: str) -> Iterator[float]:
 def _even(first: float, last: float, step: float) -> Iterator[float]:
     """Evenly spread frames from the first to the last: a step that was rounded doesn't add up."""
     if not (step > 0 and first < last and (last - first) / step < _LONGEST_RANGE):
-        raise ValueError(step)
+        raise ValueError(f"no frames: {first} to {last} by {step}")
     gaps = max(round((last - first) / step), 1)
     return (first + (last - first) * gap / gaps for gap in range(gaps + 1))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable, Iterable, Sequence
 from typing import TypeAlias
 
 from usdvol_lint.baseline.entry import Entry, by_fingerprint
@@ -16,36 +16,43 @@ from usdvol_lint.words import printable
 Move: TypeAlias = tuple[str, str]
 
 
-def renamed(baseline: Baseline, moves: Iterable[Move]) -> Baseline:
+def renamed(baseline: Baseline, moves: Sequence[Move]) -> Baseline:
     """The baseline as it would be had layers and folders been called so before."""
-    for old, new in moves:
-        entries = baseline.entries.values()
+    if not moves:
+        return baseline
+    ordered = sorted(moves, key=lambda move: -len(move[0]))  # a layer's own before its folder's
+    entries = baseline.entries.values()
+    for old, new in ordered:
         if all(_inside(entry.source.layer, old) is None for entry in entries):
+            said = f"{baseline.file} has no entry of a layer there"
             hint = "write OLD as the baseline has it"
-            where = f"{baseline.file} has no entry of a layer there"
-            raise UsageError(f"--moved {printable(old)}={printable(new)}: {where}, {hint}")
-        moved = by_fingerprint(_in_place(entry, old, new) for entry in entries)
-        scope = _scope_in_place(baseline.scope, old, new)
-        baseline = baseline._replace(entries=moved, scope=scope)
-    return baseline
+            raise UsageError(f"--moved {printable(old)}={printable(new)}: {said}, {hint}")
+    moved = by_fingerprint(_in_place(entry, ordered) for entry in entries)
+    return baseline._replace(entries=moved, scope=_scope_in_place(baseline.scope, ordered))
 
 
-def _scope_in_place(scope: Scope, old: str, new: str) -> Scope:
-    """What was looked at, with the new place if the old one was."""
+def _in_place(entry: Entry, moves: Sequence[Move]) -> Entry:
+    layer = _renamed(entry.source.layer, moves)
+    if layer == entry.source.layer:
+        return entry
+    source = entry.source._replace(layer=layer)
+    return entry._replace(source=source, fingerprint=fingerprint(entry.code, source))
+
+
+def _scope_in_place(scope: Scope, moves: Sequence[Move]) -> Scope:
+    """What was looked at, with new places where the old ones were."""
     if scope.arguments is None:
         return scope
-    had = [new] if any(lies_in(old, argument) for argument in scope.arguments) else []
-    rests = ((argument, _inside(argument, old)) for argument in scope.arguments)
-    named = (argument if rest is None else f"{new}{rest}" for argument, rest in rests)
-    return scope._replace(arguments=outermost([*named, *had]))
+    arguments = [str(_renamed(argument, moves)) for argument in scope.arguments]
+    for old, new in moves:
+        if any(lies_in(old, argument) for argument in scope.arguments):
+            arguments.append(new)
+    return scope._replace(arguments=outermost(arguments))
 
 
-def _in_place(entry: Entry, old: str, new: str) -> Entry:
-    rest = _inside(entry.source.layer, old)
-    if rest is None:
-        return entry
-    source = entry.source._replace(layer=f"{new}{rest}")
-    return entry._replace(source=source, fingerprint=fingerprint(entry.code, source))
+def _renamed(path: str | None, moves: Sequence[Move]) -> str | None:
+    found = ((new, _inside(path, old)) for old, new in moves)
+    return next((f"{new}{rest}" for new, rest in found if rest is not None), path)
 
 
 def _inside(layer: str | None, place: str) -> str | None:

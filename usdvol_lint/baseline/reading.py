@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -50,10 +49,8 @@ def _report(file: str, text: str) -> dict[str, Any] | None:
         return None
     try:
         value = value_of(text)
-    except json.JSONDecodeError as error:
-        raise UsageError(f"{file}:{error.lineno}: no JSON, or cut off: {error.msg}") from None
     except ValueError as error:
-        raise UsageError(f"{file}: no JSON: {error}") from None
+        raise UsageError(f"{file}: no JSON: {error}; is it cut off?") from None
     return value if isinstance(value, dict) else None
 
 

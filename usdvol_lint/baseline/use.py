@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 from usdvol_lint.baseline.compare import brought_up_to_date, compare, held, pruned
@@ -92,7 +93,7 @@ class Prepared(NamedTuple):
 def prepare(use: Use) -> Prepared:
     """Reads the baseline; raises UsageError for all that can be known to fail before the run."""
     if use.target:
-        check_writable(use.option, use.target)
+        check_writable(use.option, Path(use.target))
     if use.read is None or _is_first_write(use):
         return Prepared(use, None)
     baseline = read_baseline(use.read)

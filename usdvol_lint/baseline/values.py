@@ -24,6 +24,9 @@ def value_of(text: str) -> Any:
     """The value that a text holds; raises ValueError for what is no JSON, in words."""
     try:
         return json.loads(text)
+    except json.JSONDecodeError as error:
+        line = f"line {error.lineno}, " if "\n" in text.rstrip() else ""
+        raise ValueError(f"{error.msg} ({line}column {error.colno})") from None
     except RecursionError:
         raise ValueError("nested too deep") from None
 
