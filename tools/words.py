@@ -15,8 +15,7 @@ from usdvol_lint.command import cli
 from usdvol_lint.config import Config
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.packs.examples import words_of
-from usdvol_lint.run.lint import lint
-from usdvol_lint.run.testing import portable
+from usdvol_lint.run.testing import findings_in, portable
 
 ROOT = Path(__file__).parent.parent
 DATA = ROOT / "tools" / "words.toml"
@@ -119,8 +118,8 @@ def _said_of_stages(stages: Mapping[str, Mapping[str, Any]], here: Path) -> Iter
     for name, made in stages.items():
         _write(Path(name), made)
     config = Config(packs=(str(_ROUGH),), select=("RGH",), timeout=_LIMIT)
-    for stage in lint(stages, config).stages:
-        yield words_of(portable(stage.findings, here))
+    for found in findings_in(list(stages), config):
+        yield words_of(portable(found, here))
 
 
 def _write(path: Path, made: Mapping[str, Any]) -> None:

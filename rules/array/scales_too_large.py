@@ -17,5 +17,6 @@ def scales_too_large(particles: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"the mean of all scales, {scales.mean:.3g}, is more than a tenth of the extent, {side:.6g}",
             at=scales.array.attribute,
+            against=[particles.GetAttribute("extent")],
             suggestion="see whether scales and positions have the same unit, and exp was applied once",
         )

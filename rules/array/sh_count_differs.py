@@ -10,6 +10,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     is_lost = facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName()) and not arrays.suit_degree
     if not each or is_lost:
         return  # ARR005 or SCH004 says it
+    against = [degree.attribute, *([arrays.positions.attribute] if arrays.positions else ())]
     for array in arrays.used("coefficients"):
         authored = "" if degree.is_authored else ", what USD falls back to,"
         short, long = arrays.too_short(array, each), arrays.too_long(array, each)
@@ -19,6 +20,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"{short.shares}; {takes}",
                 at=short,
+                against=against,
                 suggestion=remedy
                 or (
                     f"author {each:,} coefficient{'s' * (each > 1)} for each position"
@@ -34,6 +36,7 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"{long.shares}; {takes}{shift if fitting is None else ''}",
                 at=long,
+                against=against,
                 severity=None if alone or fitting is not None else WARNING,
                 suggestion=remedy
                 or (

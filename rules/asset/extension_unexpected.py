@@ -2,7 +2,7 @@
 
 from operator import attrgetter
 
-from usdvol_lint.rule import ERROR, WARNING, Content, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.rule import ERROR, TYPE, WARNING, Content, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
 from usdvol_lint.schema import FILE_EXTENSIONS
 
 _TYPES = {"OpenVDBAsset": "an OpenVDBAsset", "Field3DAsset": "a Field3DAsset"}
@@ -15,16 +15,20 @@ def _no_volume(content: Content) -> bool | None:
 
 @rule("AST006", on=tuple(_TYPES), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
-    alike = facts.files.alike(field, lambda each: each.GetTypeName())
-    if not alike.is_first or facts.layers.hides_ours(field):
+    if facts.layers.hides_ours(field):
         return
     type_name = next(name for name in _TYPES if facts.prims.is_a(field, name))
+    alike = facts.files.alike(field)
+    fold = f"{alike} {type_name}" if alike else None
     paths, inside, wanted = facts.files.paths(field), facts.grids.contents(field), FILE_EXTENSIONS[type_name]
     others = inside.grouped(_other_format)
     for other, content, found in others:
         yield Problem(
-            f"{found.shown} is {content.foreign}{alike.others}{found.count}",
+            f"{found.shown} is {content.foreign}{found.count}",
             at=found,
+            against=[(field, TYPE)],
+            subject=other,
+            fold=fold,
             suggestion=_advice(other, found.first.extension),
             severity=WARNING if content.is_read_by_some else None,
         )
@@ -39,7 +43,12 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
             what = "is a NanoVDB file, which some renderers read and Storm does not"
             advice = "write it as '.vdb' for renderers that read OpenVDB alone"
         yield Problem(
-            f"{misnamed.shown} {what}{alike.others}{misnamed.count}", at=misnamed, suggestion=advice, severity=WARNING
+            f"{misnamed.shown} {what}{misnamed.count}",
+            at=misnamed,
+            against=[(field, TYPE)],
+            fold=fold,
+            suggestion=advice,
+            severity=WARNING,
         )
 
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from usdvol_lint.rule import ERROR, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, lacks, rule
+from usdvol_lint.rule import ERROR, NAME, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, lacks, rule
 
 _LOSSES = {
     "filePath": "so no file is found",
@@ -26,6 +26,7 @@ def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
             + (f", so {meant!r} keeps the value of a weaker layer" if slip.overridden else "")
             + (f", {loss}" if loss else ""),
             at=slip.attribute,
+            of=NAME,
             severity=None if slip.hiding or (loss and slip.pair in _GRAVE) else WARNING,
             suggestion=f"did you mean {meant!r}?",
             absent=[lacks(prim, slip.pair)] if loss else (),

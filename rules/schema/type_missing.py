@@ -16,6 +16,7 @@ def type_missing(stage: Prim, facts: Facts) -> Problems:
             + (f" on a prim of type {type_name!r}" if type_name else " on a prim without a type")
             + ": nothing is drawn",
             at=prim,
+            against=[binding or prim.GetAttribute("positions")],
             suggestion=f'make it a {wanted}: def {wanted} "{prim.GetName()}"',
             absent=[lacks(prim, TYPE_NAME)],
         )

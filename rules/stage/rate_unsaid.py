@@ -15,7 +15,8 @@ def rate_unsaid(root: Prim, facts: Facts) -> Problems:
             f"times by {format_time(unsaid.scale)} on this stage of {format_time(unsaid.rate)}: "
             f"{len(displaced.times)} of {displaced.total} samples land {where}{more}",
             at=displaced,
-            spec=unsaid.layer.pseudoRoot,
+            spec=unsaid.blamed,
+            subject=unsaid.layer.GetDisplayName(),
             suggestion="write the rate that its samples were made for into the layer, such as "
             f"'timeCodesPerSecond = {format_time(unsaid.rate)}'",
         )

@@ -36,16 +36,12 @@ class Sites:
         prim = problem.at.GetPrim()
         on_stage = shown(prim)
         site = Site(
-            layer=None,
+            layer="",
             prim=None if prim.IsPseudoRoot() else on_stage.path,
             property=problem.at.GetName() if isinstance(problem.at, Usd.Property) else None,
             times=problem.times,
             at_default=problem.at_default,
         )
-        if problem.machine is not None:
-            return Located(
-                site, Source(None, subject=problem.machine), Blame(None), on_stage.instances
-            )
         blame = blamed(problem)
         spec = blame.spec
         layer = spec.layer if spec else prim.GetStage().GetRootLayer()
@@ -57,6 +53,8 @@ class Sites:
             blame.property,
             blame.subject,
         )
+        if problem.machine is not None:
+            source = Source(None, subject=problem.machine)
         site = site._replace(
             layer=self._names.shown(layer),
             variant=_variants(spec.path) if spec else None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
-from usdvol_lint.facts.usd.bringing import FIELDS_OF_ARCS, Crossing, crossings, from_root, node_of
+from usdvol_lint.facts.usd.bringing import FIELDS_OF_ARCS, Crossing, crossings, from_root, node_above, node_of
 from usdvol_lint.facts.usd.nodes import nodes_of
 
 _RANKS = {kind: rank for rank, kind in enumerate(FIELDS_OF_ARCS)}
@@ -57,17 +57,25 @@ def path_beside(prim: Any, spec: Any) -> str:
 
 
 def _standing(opinion: Opinion) -> _Standing | None:
-    prim = opinion.prim
-    while not (node := node_of(prim, opinion.spec)):
-        if prim.IsPseudoRoot():
-            return None
-        prim = prim.GetParent()
+    node = _node(opinion)
+    if node is None:
+        return None
     last = (_LOCAL, 0, 0, node.layerStack.layers.index(opinion.spec.layer))
     steps = [
         (_RANKS.get(each.arcType, len(_RANKS)), -each.namespaceDepth, each.siblingNumAtOrigin, 0)
         for each in from_root(node)
     ]
     return _Standing((*steps, last), tuple(crossings(node)))
+
+
+def _node(opinion: Opinion) -> Any | None:
+    """The node of the spec, or the one above it that it would be below if USD composed it."""
+    prim, spec = opinion
+    node = node_of(prim, spec)
+    while node is None and not prim.IsPseudoRoot():
+        prim = prim.GetParent()
+        node = node_above(prim, spec)
+    return node
 
 
 def _shared(every: Sequence[tuple[Crossing, ...]]) -> int:

@@ -185,6 +185,14 @@ class Layers(Wing):
             return None
         return self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
 
+    def bringing_to_range(self, attribute: Any, time: float | None) -> Any | None:
+        """The spec with the arc that brings values into the stage's range; None without one."""
+        if self.time_range is None:
+            return None
+        from usdvol_lint.facts.layers.ranges import bringing_to_range
+
+        return bringing_to_range(attribute, time, self.time_range)
+
     @cached_property
     def unsaid_rates(self) -> tuple[UnsaidRate, ...]:
         """The layers that say no rate and whose samples the stage therefore has at other times."""

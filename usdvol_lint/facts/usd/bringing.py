@@ -48,6 +48,14 @@ def node_of(prim: Any, spec: Any) -> Any | None:
     return None
 
 
+def node_above(prim: Any, spec: Any) -> Any | None:
+    """The node of a prim that a spec is in, or lies below."""
+    for node in nodes_of(prim.GetPrimIndex()):
+        if spec.path.HasPrefix(node.path) and spec.layer in node.layerStack.layers:
+            return node
+    return None
+
+
 def path_of_prim(spec: Any) -> Any:
     """The path of the prim of a spec, with the variants that it stands in."""
     path = spec.path
@@ -74,9 +82,8 @@ def root_layer(node: Any) -> Any:
 
 
 def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
-    """The spec with the first arc, on the way from a layer of a prim to the stage, that is meant."""
+    """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
     for node in nodes_of(prim.GetPrimIndex()):
         if layer in node.layerStack.layers:
-            # The index is asked for while the node is in use: a node does not keep it alive.
             return next((each.spec for each in list(crossings(node))[::-1] if is_it(each)), None)
     return None
