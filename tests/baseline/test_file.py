@@ -194,12 +194,12 @@ ANEW = "write the baseline anew"
 BAD = {
     "not there": (
         Path.unlink,
-        "--baseline b.jsonl: there is no such file; --write-baseline b.jsonl writes one",
+        "b.jsonl: there is no such baseline; --write-baseline b.jsonl writes one",
     ),
     "empty": (as_bytes(b""), "b.jsonl:1: no baseline, there is nothing in it"),
     "a stage": (
         as_bytes(b"#usda 1.0\n"),
-        "b.jsonl:1: no JSON: Expecting value (column 1)",
+        "b.jsonl:1: no JSON, as a baseline is: Expecting value (column 1)",
     ),
     "a list": (as_bytes(b"[1]\n"), "b.jsonl:1: no entry of a baseline: it must be an object"),
     "UTF-16": (
@@ -212,11 +212,12 @@ BAD = {
     ),
     "nested": (
         as_bytes(b"[" * 100_000),
-        "b.jsonl:1: no JSON: nested too deep; cut off, as the last line is not whole",
+        "b.jsonl:1: no JSON, as a baseline is: nested too deep; "
+        "cut off, as the last line is not whole",
     ),
     "cut off": (
         lambda file: file.write_bytes(file.read_bytes()[:-30]),
-        "b.jsonl:3: no JSON: Unterminated string starting at (column 149); "
+        "b.jsonl:3: no JSON, as a baseline is: Unterminated string starting at (column 149); "
         "cut off, as the last line is not whole",
     ),
     "no first line": (
@@ -315,7 +316,8 @@ def test_a_file_that_is_no_baseline(kind: str, tmp_path: Path) -> None:
 
 
 def test_a_folder_is_no_baseline(tmp_path: Path) -> None:
-    assert said(tmp_path).startswith("--baseline ")
+    with pytest.raises(UsageError, match=": no baseline: "):
+        using(tmp_path)
 
 
 def test_what_merges_and_editors_leave_is_read(tmp_path: Path) -> None:
@@ -337,7 +339,10 @@ def test_another_root_is_named(tmp_path: Path) -> None:
     with pytest.raises(UsageError) as caught:
         prepared.check_root("/other")
     ours = tmp_path.resolve().as_posix()
-    assert str(caught.value) == f"{file}: its layers go by '{ours}', and the root is '/other'"
+    assert str(caught.value) == (
+        f"{file}: its layers go by '{ours}', and the root of this run is '/other': "
+        "leave out --root, or write it anew"
+    )
 
 
 def test_a_baseline_needs_a_root(tmp_path: Path) -> None:

@@ -75,7 +75,7 @@ def _object(where: str, line: str, is_cut: bool) -> dict[str, Any]:
         value = value_of(line)
     except ValueError as error:
         cut = "; cut off, as the last line is not whole" if is_cut else ""
-        raise UsageError(f"{where}: no JSON: {error}{cut}") from None
+        raise UsageError(f"{where}: no JSON, as a baseline is: {error}{cut}") from None
     if not isinstance(value, dict):
         raise UsageError(f"{where}: no entry of a baseline: it must be an object")
     return value

@@ -17,6 +17,7 @@ _RANGE = re.compile(rf"{_NUMBER}(?:-{_NUMBER}(?:x{_NUMBER})?)?")
 _SHOWN = 8
 
 
+@lru_cache(maxsize=4096)
 def frames_as_text(frames: tuple[float, ...]) -> str:
     """Ascending time codes as ranges, `3, 7-9, 20-30x2`, which can be read back."""
     numbers = tuple(frame for frame in frames if frame == frame)  # NaN equals nothing, nor itself

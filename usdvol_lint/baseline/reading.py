@@ -30,9 +30,9 @@ def _text(file: str) -> str:
         data = Path(file).read_bytes()
     except FileNotFoundError:
         hint = f"--write-baseline {file} writes one"
-        raise UsageError(f"--baseline {file}: there is no such file; {hint}") from None
+        raise UsageError(f"{file}: there is no such baseline; {hint}") from None
     except OSError as error:
-        raise UsageError(f"--baseline {file}: {error.strerror}") from None
+        raise UsageError(f"{file}: no baseline: {error.strerror}") from None
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -69,7 +69,8 @@ class Prepared(NamedTuple):
             raise UsageError(f"{use.option}: there is no root that layers go by: {hint}")
         if baseline and baseline.root and baseline.root != root:
             theirs, ours = quoted(baseline.root), quoted(str(root))
-            raise UsageError(f"{baseline.file}: its layers go by {theirs}, and the root is {ours}")
+            said = f"its layers go by {theirs}, and the root of this run is {ours}"
+            raise UsageError(f"{baseline.file}: {said}: leave out --root, or write it anew")
         if baseline and baseline.is_report and baseline.has_root != (root is not None):
             one, other = ("a", "none") if baseline.has_root else ("no", "one")
             raise UsageError(f"{baseline.file}: was written with {one} root, this run has {other}")

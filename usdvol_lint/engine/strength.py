@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
-from usdvol_lint.facts.usd.bringing import FIELDS_OF_ARCS, Crossing, crossings, from_root, node_above, node_of
+from usdvol_lint.facts.usd.bringing import (
+    FIELDS_OF_ARCS,
+    Crossing,
+    crossings,
+    from_root,
+    node_above,
+    node_of,
+)
 from usdvol_lint.facts.usd.nodes import nodes_of
 
 _RANKS = {kind: rank for rank, kind in enumerate(FIELDS_OF_ARCS)}
