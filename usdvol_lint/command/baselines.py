@@ -10,6 +10,7 @@ from usdvol_lint.baseline.moved import Move
 from usdvol_lint.baseline.use import Prepared, Use, prepare
 from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
+from usdvol_lint.paths import display
 
 _NEEDING = ("prune_baseline", "fail_on_unpruned", "moved")
 
@@ -24,8 +25,11 @@ def prepared(given: dict[str, Any], config: Config) -> Prepared:
             if given[name]:
                 option = f"--{name.replace('_', '-')}"
                 raise click.UsageError(f"{option} needs a baseline: name it with --baseline FILE")
+    file = config.baseline
+    if file and given["baseline"] is None:
+        file = display(file)  # the configuration's folder stands before it
     moves = tuple(map(_move, given["moved"]))
-    return prepare(Use(config.baseline, given["write_baseline"], given["prune_baseline"], moves))
+    return prepare(Use(file, given["write_baseline"], given["prune_baseline"], moves))
 
 
 def _move(pair: str) -> Move:
