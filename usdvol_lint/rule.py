@@ -84,7 +84,7 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 OURS = tuple(sorted(schema.OURS))
 """What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
-TYPE, APIS, NAME = "typeName", "apiSchemas", "name"
+TYPE, APIS, NAME = schema.TYPE_NAME, "apiSchemas", "name"
 """Whose opinion counts: see `Problem`."""
 
 Prim: TypeAlias = Any

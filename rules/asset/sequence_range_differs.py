@@ -40,7 +40,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{ranges}: {' and '.join(found)}",
             at=attribute,
-            spec=facts.layers.bringing_to_range(attribute, sequence.times[0]),
+            spec=facts.layers.time_range.arc_to_it(attribute, sequence.times[0]),
             fold=alike and f"{alike} {found}",
             suggestion=sequence.rate_at_fault((start, end)) or advice,
             severity=severity,

@@ -26,6 +26,7 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
     staging = facts.volumes.staging(field, time_range) if time_range and not still.is_sampled else None
     if staging and not staging.is_shown:
         return
+    by_range = time_range if staging and still.by_range else None
     is_staged = staging and still.by_range and not staging.is_still
     there = f"the files {frame_ranges(still.numbers)} lie beside it" if still.numbers else ""
     if still.is_lost:
@@ -39,7 +40,7 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
     yield Problem(
         message,
         at=still.affected,
-        spec=facts.layers.bringing_to_range(still.affected.attribute, None) if staging and still.by_range else None,
+        spec=by_range and by_range.arc_to_it(still.affected.attribute, None),
         fold=facts.files.alike(field),
         suggestion=still.advice,
         severity=None if still.is_certain and not is_staged else INFO,

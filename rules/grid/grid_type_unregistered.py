@@ -16,7 +16,6 @@ def grid_type_unregistered(field: Prim, facts: Facts) -> Problems:
             f"grid {quoted(label)} in {found.shown} is of type {tree_type!r}, "
             f"for which OpenVDB refuses the whole file{found.count}",
             at=found,
-            subject=label,
             fold=facts.files.alike(field),
             suggestion="leave the grid out, or write it as float, int32 or vec3s with 5_4_3 nodes",
         )

@@ -12,8 +12,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
     for first, *others in facts.layers.composition.of_unread_formats:
         what = f"the {first.arc} {quoted(first.asset)}{f' and {len(others)} more' if others else ''}"
         said = f"no plugin here reads {first.extension!r} files: what {what} should bring was not checked"
-        machine = f"a reader of {first.extension}"
-        yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset, machine=machine)
+        yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset, machine=first.extension)
     for missing in facts.layers.missing:
         if missing.extension:
             continue

@@ -17,6 +17,5 @@ def rate_unsaid(root: Prim, facts: Facts) -> Problems:
             at=displaced,
             spec=unsaid.blamed,
             subject=unsaid.layer.GetDisplayName(),
-            suggestion="write the rate that its samples were made for into the layer, such as "
-            f"'timeCodesPerSecond = {format_time(unsaid.rate)}'",
+            suggestion=f"write the rate of its samples into it, such as 'timeCodesPerSecond = {format_time(unsaid.rate)}'",
         )
