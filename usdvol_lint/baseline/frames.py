@@ -71,7 +71,7 @@ def union(one: tuple[float, ...], other: tuple[float, ...]) -> tuple[float, ...]
         return one
     joined: list[float] = []
     for frame in sorted((*one, *other)):
-        if not joined or frame - joined[-1] > TOLERANCE:
+        if not joined or frame - joined[-1] > TOLERANCE / 2:  # so that rounding can't tell
             joined.append(frame)
     return tuple(joined)
 
