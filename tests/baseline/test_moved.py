@@ -97,6 +97,11 @@ def test_what_was_checked_moves_too(tmp_path: Path) -> None:
     assert lacking("b") == ""
     assert lacking("shots") == "not checked: b"
 
+    file = written(tmp_path, cause("a/x.usda"), arguments=["."])
+    (tmp_path.parent / "elsewhere").mkdir(exist_ok=True)
+    outside = (tmp_path.parent / "elsewhere").as_posix()
+    assert lacking(".", to=outside) == f"not checked: {outside}"
+
 
 @pytest.mark.parametrize("old", ["assets/b", "assets/a", "asset", "a.usda"])
 def test_nothing_is_there(old: str, tmp_path: Path) -> None:

@@ -212,6 +212,7 @@ def test_brought_up_to_date_by_a_run_that_sees_less(tmp_path: Path) -> None:
         arguments=["new.usda"],
         content="off",
         times=5,
+        variants="all",
     )
     applied = using(file, write=str(file)).apply(now)
     assert (applied.failure, states(applied.report)) == ("", ["known", "known"])
@@ -219,7 +220,8 @@ def test_brought_up_to_date_by_a_run_that_sees_less(tmp_path: Path) -> None:
     both = report(tmp_path, cause(prim="/A", frames=(3.0, 7.0)))
     assert states(using(file).apply(both).report) == ["known"]
     scope = using(file).baseline.scope  # type: ignore[union-attr]
-    assert (scope.arguments, scope.content, scope.times) == (("new.usda", "shots"), "all", 5)
+    assert scope.arguments == ("new.usda", "shots")
+    assert (scope.content, scope.times, scope.variants) == ("all", 5, "all")
 
 
 def test_brought_up_to_date_in_another_file(tmp_path: Path) -> None:

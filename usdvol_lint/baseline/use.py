@@ -200,5 +200,5 @@ def _left_out(report: Report, file: str) -> str:
     )
     if not stages:
         return ""
-    hint = "mend it, or put it into `exclude`"
+    hint = "mend it, or check the others without it"
     return f"{file} is written, but it can't hold {printable(', '.join(stages))}: {hint}"
