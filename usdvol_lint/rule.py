@@ -127,7 +127,8 @@ class _Result:
     `against` is what contradicts it, as prims, properties, occurrences, or pairs of a prim and such
     an `of`: then the strongest spec of all is to blame, or the arc that brings them together.
     `machine` says that the machine lacks something, and names it: then no layer is to blame.
-    `subject` tells apart what a rule reports of one spec; it holds no number, time or wording.
+    `subject` tells apart what a rule reports of one spec; it holds no number, time or wording, and
+    is the name of the API where there is one.
     `fold` is a key: a report for people tells problems of the rule that have it in one line.
     """
 
@@ -167,7 +168,7 @@ class _Result:
         self.asset = asset
         self.of = of
         self.against = tuple(against)
-        self.subject = subject
+        self.subject = subject or (of[1] if isinstance(of, tuple) else "")
         self.fold = fold
         self.machine = machine
 

@@ -6,10 +6,9 @@ from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
 @rule("ARR015", on="ParticleField", severity=INFO, since="0.1")
 def element_size_differs(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
-    degree, each = arrays.degree, arrays.degree.coefficients
-    if each is None or (arrays.fitting_degree not in (None, degree.value) and facts.tells("ARR004")):
-        return
-    if facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName()):
+    degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
+    is_lost = facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName())
+    if each is None or is_lost or (fitting not in (None, degree.value) and facts.tells("ARR004")):
         return
     for array in arrays.authored("coefficients"):
         size = array.attribute.GetMetadata("elementSize")

@@ -12,11 +12,10 @@ def kernel_outside_extent(particles: Prim, facts: Facts, *, share: float = 0.1, 
         return
     if facts.tells("ARR013") and facts.particles.positions_outside_extent(particles, _SLACK, _HALF_SLACK, clamp):
         return
-    extent, fitting = found.shown
     yield Problem(
         f"{found.reach.outside:,} of {found.reach.total:,} kernels reach{'es' * (found.reach.outside == 1)} out of "
-        f"the extent, {extent}, by up to {found.overhang:.3g}{found.count}",
+        f"the extent, {found.shown_extent}, by up to {found.overhang:.3g}{found.count}",
         at=particles.GetAttribute("extent"),
         against=[array.attribute for array in facts.particles.arrays(particles).used("positions", "scales")],
-        suggestion=f"author at least {fitting}",
+        suggestion=f"author at least {found.shown_fitting}",
     )

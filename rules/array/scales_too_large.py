@@ -8,12 +8,9 @@ _MANY = 1000
 @rule("ARR024", on="ParticleField", severity=INFO, since="0.1")
 def scales_too_large(particles: Prim, facts: Facts) -> Problems:
     scales = facts.particles.scales(particles)
-    if (
-        not scales
-        or scales.array.most < _MANY
-        or scales.low < 0
-        or (scales.are_spread_as_exp and facts.tells("ARR019"))
-    ):
+    if not scales or scales.array.most < _MANY or scales.low < 0:
+        return
+    if scales.are_spread_as_exp and facts.tells("ARR019"):
         return
     side = facts.prims.limits(particles).longest_side
     if 0 < side < 10 * scales.high and scales.mean > side / 10:

@@ -18,6 +18,5 @@ def base_api_alone(particles: Prim, facts: Facts) -> Problems:
             f"{base!r} is applied, but nothing that provides its data",
             at=particles,
             of=(APIS, base),
-            subject=base,
             suggestion=f"apply {' or '.join(providers)} in its place",
         )

@@ -14,7 +14,6 @@ def unknown_api(particles: Prim, facts: Facts) -> Problems:
             f"USD knows no API {name!r}{loss.words}",
             at=particles,
             of=(APIS, name),
-            subject=name,
             fold=facts.prims.shown_path(particles),
             severity=None if loss.is_total else WARNING,
             suggestion=f"write {meant!r} for {name!r}",

@@ -17,5 +17,5 @@ def rate_unsaid(root: Prim, facts: Facts) -> Problems:
             at=displaced,
             spec=unsaid.blamed,
             subject=unsaid.layer.GetDisplayName(),
-            suggestion=f"write the rate of its samples into it, such as 'timeCodesPerSecond = {format_time(unsaid.rate)}'",
+            suggestion=f"write the rate of its samples, such as 'timeCodesPerSecond = {format_time(unsaid.rate)}'",
         )

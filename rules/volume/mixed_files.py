@@ -12,8 +12,7 @@ def mixed_files(volume: Prim, facts: Facts) -> Problems:
     mixed = facts.volumes.mixed_files(volume, is_told)
     if mixed:
         yield Problem(
-            f"the fields name {len(mixed.fields)} files at one time, {mixed.shown}, of which some "
-            "renderers read the first only",
+            f"the fields name {len(mixed.fields)} files at one time, {mixed.shown}: some renderers read the first only",
             at=volume,
             against=mixed.attributes,
             times=mixed.times,

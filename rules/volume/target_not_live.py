@@ -12,9 +12,8 @@ _WHY = {
 @rule("VOL008", on="Volume", when=bindings(*_WHY), severity=ERROR, since="0.1")
 def target_not_live(volume: Prim, facts: Facts) -> Problems:
     for binding, target in facts.volumes.bindings(volume).with_target(*_WHY):
-        below = "" if target.blamed_path == target.shown else f" below <{target.blamed_path}>"
         yield Problem(
-            f"'field:{binding.name}' targets <{target.shown}>{below}, which is {_WHY[target.state][0]}",
+            f"'field:{binding.name}' targets {target.place}, which is {_WHY[target.state][0]}",
             at=binding.property,
             against=[target.reason],
             suggestion=_WHY[target.state][1].format(target.blamed_path),

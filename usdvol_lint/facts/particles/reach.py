@@ -82,9 +82,12 @@ class KernelsOutside(Values):
         return max(*below, *(end - begin for begin, end in zip(high, highest, strict=True)))
 
     @property
-    def shown(self) -> tuple[str, str]:
-        """The extent and the fitting box, in words."""
-        return _shown(self.extent), _shown(self.fitting)
+    def shown_extent(self) -> str:
+        return _shown(self.extent)
+
+    @property
+    def shown_fitting(self) -> str:
+        return _shown(self.fitting)
 
 
 def kernels_outside(

@@ -57,6 +57,12 @@ class Target(NamedTuple):
         return (self.blamed, "active") if self.state is TargetState.INACTIVE else self.blamed
 
     @property
+    def place(self) -> str:
+        """Its path, and that of the prim above it that explains the state, if it is another."""
+        below = "" if self.blamed_path == self.shown else f" below <{self.blamed_path}>"
+        return f"<{self.shown}>{below}"
+
+    @property
     def blamed_path(self) -> str:
         """The path of the prim that explains the state."""
         return self.shown if self.blamed is self.prim else shown(self.blamed).path
