@@ -114,7 +114,8 @@ def test_what_makes_a_run_fail_is_named_and_the_rest_is_written(tmp_path: Path) 
     unread = cause("s0.usda", None, code="LNT001", name=None)
     applied = prepare(Use(write=str(file))).apply(report(tmp_path, cause(), unread))
     assert applied.failure.replace(str(file), "b.jsonl") == (
-        "b.jsonl is written, but it can't hold s0.usda (LNT001): mend it, or check the others without it"
+        "b.jsonl is written, but it can't hold s0.usda (LNT001): "
+        "mend it, or check the others without it"
     )
     assert held(file) == ["AST002 assets/a.usda </A.filePath>"]
     assert states(applied.report) == ["known", "new"]
