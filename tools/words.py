@@ -39,6 +39,10 @@ from usdvol_lint.rule import ERROR, rule
 def {name}(prim, facts):
     yield from ()
 """
+_FIRST = (
+    '{"usdvol_lint_baseline":1,"fingerprint_version":1,"root":".","arguments":[],"settings":'
+    '{"rules":{},"load":"all","content":"all","times":"all","variants":"selected"}}'
+)
 _ROUGH = ROOT / "tests" / "packs" / "rough"
 _VOLUME = (
     '#usda 1.0\ndef Volume "{name}"\n{{\n    float3[] extent = [(0, 0, 0), (1, 1, 1)]\n'
@@ -73,6 +77,7 @@ def _of_bad_input(data: Mapping[str, Any]) -> Iterator[str]:
         (here / "pyproject.toml").write_text("", encoding="utf-8")
         yield _paragraph("The command line", map(_said_to, data["commands"]))
         yield _paragraph("A configuration file", map(_said_of_settings, data["configurations"]))
+        yield _paragraph("A baseline", map(_said_of_baseline, data["baselines"]))
         packs = (_said_of_pack(name, modules) for name, modules in data["packs"].items())
         yield _paragraph("A pack of rules", packs)
         yield _paragraph("A stage", _said_of_stages(data["stages"], here))
@@ -95,6 +100,13 @@ def _said_to(arguments: str, shown: str = "") -> str:
 def _said_of_settings(text: str) -> str:
     Path("usdvol-lint.toml").write_text(f"{text}\n", encoding="utf-8")
     return _said_to("--show-settings --config usdvol-lint.toml", text)
+
+
+def _said_of_baseline(text: str) -> str:
+    holds = text.replace("{first}", _FIRST).replace("{other}", _FIRST.replace('"."', '".."'))
+    Path("known.jsonl").write_text(holds, encoding="utf-8")
+    shown = f"known.jsonl: {' | '.join(text.splitlines()).replace('{first}', '…')}".rstrip()
+    return _said_to("--isolated --baseline known.jsonl smoke.usda", shown)
 
 
 def _said_of_pack(name: str, modules: Mapping[str, str]) -> str:
