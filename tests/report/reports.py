@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ from process import ROOT
 
 from usdvol_lint.model import (
     Cover,
+    Excerpt,
     Finding,
     ParticleFieldStats,
     Severity,
@@ -21,12 +21,12 @@ from usdvol_lint.model import (
     Status,
 )
 from usdvol_lint.report.json_report import SCHEMA_VERSION
-from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, State
+from usdvol_lint.results import BaselineUse, Report, RunInfo, State
+from usdvol_lint.run.causes import Causes
 
 SCHEMA: dict[str, Any] = json.loads(
     (ROOT / f"usdvol_lint/report/report-{SCHEMA_VERSION}.schema.json").read_text(encoding="utf-8")
 )
-
 
 
 def strict(schema: Any) -> Any:
@@ -75,7 +75,7 @@ MISSING = found(
         line=31,
         column=12,
         times=(102.0, 103.0, 104.0, 117.0),
-        excerpt="    asset filePath.timeSamples = {",
+        excerpt=Excerpt("asset filePath.timeSamples = {", 7),
     ),
     suggestion="render the missing frames, or end the clip at frame 101",
     help=f"{HELP}/file-missing",
@@ -113,6 +113,12 @@ SMOKE = StageReport(
                 times=(101.5,),
                 variant="{quality=high}",
             ),
+            source=Source(
+                f"{LONG_FOLDER}/smoke_payload.usda",
+                "/Smoke{quality=high}density",
+                "fieldName",
+            ),
+            cover=Cover(Severity.ERROR, (101.5,)),
             suggestion=None,
             help=None,
         ),
@@ -190,18 +196,14 @@ UNREADABLE = StageReport(path="shots/broken.usdz", status=Status.UNREADABLE)
 
 
 def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Report:
-    """The report on these stages: findings of one code and source have one cause.
+    """The report on these stages, whose causes carry at most so many places.
 
-    `most` is how many places a cause carries; `states` are fields of causes, by their code.
+    `states` are fields of causes, by their code.
     """
-    places: dict[tuple[str, Source], list[Place]] = {}
+    gathered = Causes(most=most)
     for number, stage in enumerate(stages):
-        for finding in stage.findings:
-            places.setdefault((finding.code, finding.source), []).append(Place(number, finding))
-    causes = {
-        key: _cause(number, each, most)._replace(**states.get(key[0], {}))
-        for number, (key, each) in enumerate(places.items())
-    }
+        gathered.add(number, stage.path, enumerate(stage.findings))
+    causes, numbers = gathered.result()
     return Report(
         version="0.1.0",
         usd_version="0.26.8",
@@ -215,41 +217,16 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
             "baseline": None,
         },
         root="/studio",
-        stages=tuple(_result(stage, causes) for stage in stages),
-        causes=tuple(causes.values()),
-        run=RunInfo("2026-11-29T01:30:00Z", ("shots", "-j", "2"), "usdvol-lint.toml", 1.2345, 2),
-    )
-
-
-def _cause(number: int, places: list[Place], most: int) -> Cause:
-    first = places[0].finding
-    return Cause(
-        fingerprint=f"{number:016x}",
-        severity=max(place.finding.severity for place in places),
-        source=first.source,
-        cover=first.cover,
-        places=tuple(places[:most]),
-        count=len(places),
-    )
-
-
-def _result(stage: StageReport, causes: dict[tuple[str, Source], Cause]) -> StageResult:
-    keys = list(causes)
-    shown = [(finding.code, finding.source) for finding in stage.findings]
-    return StageResult(
-        stage.path,
-        stage.status,
-        stage.stats,
-        stage.seconds,
-        stage.particle_fields,
-        stage.completes,
-        tuple(sorted({keys.index(key) for key in shown})),
-        Counter(
-            finding.severity
-            for finding, key in zip(stage.findings, shown, strict=True)
-            if causes[key].state.counts
+        stages=tuple(gathered.stage(*each, numbers) for each in enumerate(stages)),
+        causes=causes,
+        run=RunInfo(
+            "2026-11-29T01:30:00Z",
+            ("usdvol-lint", "shots", "-j", "2"),
+            "usdvol-lint.toml",
+            1.2345,
+            2,
         ),
-    )
+    ).with_causes([cause._replace(**states.get(cause.code, {})) for cause in causes])
 
 
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
@@ -278,6 +255,9 @@ FIGURES = report(
     CLEAN._replace(particle_fields=()),
 )
 UNUSED = SMOKE._replace(findings=SMOKE.findings[3:4])
+UNUSED_TOO = UNUSED._replace(
+    findings=tuple(each._replace(source=Source("other.usda")) for each in UNUSED.findings)
+)
 INFOS = report(UNUSED, CLEAN)
 
 

@@ -13,21 +13,16 @@ import pytest
 from process import ROOT
 from reports import (
     BY_CAUSE,
-    CLEAN,
     EVERYTHING,
     FIGURES,
-    HOSTILE,
     INFOS,
     LONG_PRIM,
     MISSING,
     NOTHING,
     SCHEMA,
-    SHOTS,
     SHOTS_ALONE,
     SMOKE,
     STRICT,
-    TIMED_OUT,
-    UNREADABLE,
     found,
     report,
     without_styles,
@@ -35,7 +30,6 @@ from reports import (
 
 from usdvol_lint.model import Severity, Site, StageReport, Status
 from usdvol_lint.report import FORMATS, Options, render
-from usdvol_lint.report.verdict import verdict
 from usdvol_lint.results import Report
 from usdvol_lint.words import printable
 
@@ -93,7 +87,7 @@ def test_quiet_says_nothing_when_clean() -> None:
     assert render(NOTHING, "full", Options(quiet=True)) == ""
     assert render(NOTHING, "full", Options(quiet=True, verbose=True)) == ""
     assert render(NOTHING, "concise", Options()) == ""
-    healthy = FIGURES._replace(stages=FIGURES.stages[1:])
+    healthy = FIGURES._replace(stages=FIGURES.stages[1:], causes=())
     assert render(healthy, "full", Options(quiet=True)) == ""
     assert "holds:" not in render(FIGURES, "full", Options(quiet=True))
 
@@ -101,46 +95,6 @@ def test_quiet_says_nothing_when_clean() -> None:
 def test_json_does_not_depend_on_presentation() -> None:
     options = Options(color=True, width=10, quiet=True, verbose=True)
     assert render(EVERYTHING, "json", options) == render(EVERYTHING, "json", Options())
-
-
-@pytest.mark.parametrize(
-    ("stages", "expected"),
-    [
-        ((), "no stages checked"),
-        ((CLEAN,), "no findings in 1 stage; 1 volume, 1 file checked in 1.2 s"),
-        (
-            (SMOKE,),
-            "3 errors, 1 warning in 1 stage; 1 info, shown with --show info; "
-            "11 volumes, 1 particle field, 31,204 files checked in 1.2 s",
-        ),
-        (
-            (HOSTILE, CLEAN._replace(stats={})),
-            "1 error in 1 of 2 stages; no volumes or particle fields found in 1.2 s",
-        ),
-        (
-            (CLEAN._replace(stats={"volumes": 0, "variant_selections": 2}),),
-            "no findings in 1 stage; no volumes or particle fields as variants are selected, "
-            "2 other selections checked in 1.2 s",
-        ),
-        (
-            (UNREADABLE, CLEAN, TIMED_OUT),
-            "no findings in 3 stages; 1 volume, 1 file checked in 1.2 s; "
-            "2 stages could not be checked",
-        ),
-        (
-            (UNUSED, CLEAN, UNUSED_ELSEWHERE),
-            "no errors or warnings in 3 stages; 2 infos, shown with --show info; "
-            "23 volumes, 2 particle fields, 62,409 files checked in 1.2 s",
-        ),
-    ],
-    ids=["none", "clean", "one", "no-volumes", "other-variants", "unchecked", "infos"],
-)
-def test_verdict(stages: tuple[StageReport, ...], expected: str) -> None:
-    assert verdict(report(*stages), Options()) == expected
-
-
-def test_verdict_of_a_short_run() -> None:
-    assert verdict(NOTHING._replace(run=NOTHING.run._replace(seconds=0.049)), Options()).endswith(" in 0.05 s")
 
 
 def test_infos_are_shown_where_they_are_asked_for() -> None:

@@ -18,7 +18,6 @@ from usdvol_lint.report import Options
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
 
 SCHEMA_VERSION = "2.0"
-FINGERPRINT_VERSION = 1
 
 # Lone surrogates are not valid UTF-8; a terminal would obey the others instead of showing them.
 _TO_ESCAPE = re.compile(r"[\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff]")
@@ -57,6 +56,7 @@ def _line(value: object) -> str:
 
 def _report(report: Report) -> dict[str, object]:
     from usdvol_lint.baseline.cover import cover_as_json
+    from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 
     covers: Covers = cache(cover_as_json)
     return {
@@ -127,7 +127,7 @@ def _stage(stage: StageResult) -> dict[str, object]:
         "completes": stage.completes and _completion(stage.completes),
         "causes": stage.causes,
         "levels": {
-            _LABELS[level]: stage.levels[level] for level in sorted(stage.levels, reverse=True)
+            _LABELS[level]: number for level, number in sorted(stage.levels.items(), reverse=True)
         },
     }
 
@@ -177,7 +177,10 @@ def _cause(cause: Cause, covers: Covers) -> dict[str, object]:
 
 
 def _excerpt(site: Site) -> dict[str, object] | None:
-    return None if site.excerpt is None else {"text": site.excerpt, "column": site.column}
+    if site.excerpt is None:
+        return None
+    text, column = site.excerpt
+    return {"text": text, "column": column}
 
 
 def _place(place: Place, first: Finding) -> dict[str, object]:

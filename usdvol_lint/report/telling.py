@@ -8,7 +8,7 @@ from typing import NamedTuple
 from usdvol_lint.model import Finding
 from usdvol_lint.report import Options
 from usdvol_lint.report.numbers import count, few
-from usdvol_lint.results import Cause, Report, State
+from usdvol_lint.results import Cause, Report, StageResult, State
 from usdvol_lint.words import printable
 
 
@@ -72,10 +72,17 @@ def _stages_by_cause(report: Report) -> Mapping[int, list[int]]:
         number: [] for number, cause in enumerate(report.causes) if cause.count > 1
     }
     for number, stage in enumerate(report.stages):
-        for cause in stage.causes:
+        for cause in shown(stage, report):
             if cause in shown_in:
                 shown_in[cause].append(number)
     return shown_in
+
+
+def shown(stage: StageResult, report: Report) -> Iterator[int]:
+    """The numbers of the causes that a stage shows, without what is suppressed on it alone."""
+    for number, worst in zip(stage.causes, stage.worst, strict=True):
+        if worst is not None or report.causes[number].state is State.SUPPRESSED:
+            yield number
 
 
 # --- in words -------------------------------------------------------------------------------------
@@ -136,7 +143,7 @@ def _other_prims(one: Told, every: bool, named: bool) -> str:
 
 
 def remarks(one: Told) -> Iterator[tuple[str, str]]:
-    """What is to be said of its state, each with a label: how it got worse, why it is suppressed."""
+    """What is to be said of its state, with labels: how it got worse, or why it is suppressed."""
     cause = one.first
     if cause.state == State.WORSE and cause.was is not None:
         from usdvol_lint.baseline.cover import exceeds  # few runs have anything that is worse

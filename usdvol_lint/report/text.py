@@ -11,7 +11,7 @@ from usdvol_lint.report import Options
 from usdvol_lint.report.figures import figures
 from usdvol_lint.report.numbers import counts
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
-from usdvol_lint.report.telling import Told, elsewhere, message, remarks, told
+from usdvol_lint.report.telling import Told, elsewhere, message, remarks, shown, told
 from usdvol_lint.report.verdict import advice, verdict
 from usdvol_lint.results import Report, StageResult
 from usdvol_lint.words import printable
@@ -175,7 +175,7 @@ def _extras(number: int, report: Report, options: Options) -> Iterator[str]:
 
 def _told_above(number: int, report: Report, options: Options) -> str:
     """The number of causes that this stage shows, and that are told under another one."""
-    causes = [report.causes[cause] for cause in report.stages[number].causes]
+    causes = [report.causes[cause] for cause in shown(report.stages[number], report)]
     levels = [
         cause.severity
         for cause in causes

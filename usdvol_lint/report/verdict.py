@@ -102,7 +102,8 @@ def advice(report: Report, verbose: bool) -> Iterator[str]:
         if verbose:
             yield from _gone(report.baseline)
     elif _may_adopt(report):
-        yield f"adopt them with: {_command('--write-baseline', _BASELINE, *report.run.command)}"
+        arguments = ("usdvol-lint", "--write-baseline", _BASELINE, *report.run.command[1:])
+        yield f"adopt them with: {_typed(arguments)}"
 
 
 def _moved(pairs: Sequence[tuple[str, str]], verbose: bool) -> Iterator[str]:
@@ -129,10 +130,6 @@ def _may_adopt(report: Report) -> bool:
     summary = report.summary
     asked_for_none = "--no-baseline" in report.run.command
     return summary.errors + summary.warnings > _MANY_CAUSES and not asked_for_none
-
-
-def _command(*arguments: str) -> str:
-    return f"usdvol-lint {_typed(arguments)}"
 
 
 def _typed(arguments: Sequence[str]) -> str:
