@@ -92,6 +92,15 @@ def test_quiet_says_nothing_when_clean() -> None:
     assert "holds:" not in render(FIGURES, "full", Options(quiet=True))
 
 
+def test_json_has_a_line_for_each_stage_and_each_cause() -> None:
+    """Written so by code in C; written with an indent, 100,000 causes take ten times as long."""
+    lines = render(BY_CAUSE, "json", Options()).splitlines()
+    items = [json.loads(line.rstrip(",")) for line in lines if line.startswith("    {")]
+    written = json.loads("\n".join(lines))
+    assert items == written["stages"] + written["causes"]
+    assert len(lines) - len(items) == 2 + 2 + len(written)
+
+
 def test_json_does_not_depend_on_presentation() -> None:
     options = Options(color=True, width=10, quiet=True, verbose=True)
     assert render(EVERYTHING, "json", options) == render(EVERYTHING, "json", Options())
