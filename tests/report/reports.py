@@ -332,7 +332,7 @@ USED = BaselineUse(
     "usdvol-lint-baseline.jsonl",
     entries=9,
     gone=("AST002 assets/old/tank.usda </Tank/fire>",),
-    moved=(("assets/old", "assets/my tank"),),
+    moved=(("assets/old", "assets"),),
 )
 BY_CAUSE = report(ASSET, *SHOTS, **STATES)._replace(baseline=USED)
 """An asset that several shots use, beside a baseline, with each state that a cause may have."""

@@ -75,6 +75,9 @@ def test_a_stage_where_it_is_suppressed_is_no_other_place() -> None:
     text = render(only, "full", Options(show=frozenset({"suppressed"})))
     assert "AST002 error (suppressed): " in text
     assert "\n      reason: as it should be\n" in text
+    everywhere = report(excused, excused._replace(path="shots/z.usda"))
+    text = render(everywhere, "full", Options(show=frozenset({"suppressed"})))
+    assert "\n      also in 1 other stage: shots/z.usda\n" in text
 
 
 def test_a_stage_whose_causes_are_told_above_says_so_with_verbose() -> None:
@@ -84,6 +87,8 @@ def test_a_stage_whose_causes_are_told_above_says_so_with_verbose() -> None:
     assert "\nshots/a.usda\n  told above: 1 error, 5 warnings\n" in render(
         subject, "full", Options(verbose=True)
     )
+    known = report(asset, asset._replace(path="shots/a.usda"), SCH007={"state": State.KNOWN})
+    assert "  told above: 1 error\n" in render(known, "full", Options(verbose=True))
 
 
 def test_what_is_alike_is_one_line_a_stage() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import pytest
@@ -70,6 +71,8 @@ def test_verdict_of_a_short_run() -> None:
     )
 
 
+MARK = '"' if os.name == "nt" else "'"
+"""What a shell has paths with spaces in."""
 SHOT = StageReport("a.usda", Status.CHECKED, {"volumes": 1}, (KNOWN,))
 CHECKED = "1 volume checked in 1.2 s"
 
@@ -108,6 +111,13 @@ def test_the_verdict_counts_causes(
     stages: tuple[StageReport, ...], states: dict[str, Any], expected: str
 ) -> None:
     assert verdict(report(*stages, VOL001=states), Options()) == expected
+
+
+def test_what_is_known_leaves_the_verdict_green() -> None:
+    shown = Options(color=True, width=200, show=frozenset({"known"}))
+    known = report(SHOT, VOL001={"state": State.KNOWN})
+    assert render(known, "full", shown).splitlines()[-1].startswith("\x1b[1;32mno new findings")
+    assert render(report(SHOT), "full", shown).splitlines()[-1].startswith("\x1b[1;31m1 error")
 
 
 def test_a_stage_counts_where_its_own_findings_are_shown() -> None:
@@ -161,7 +171,7 @@ def test_what_may_have_moved_is_said_with_what_to_type() -> None:
     lines = render(beside(moved=tuple(pairs)), "full", Options()).splitlines()[1:]
     assert lines[0] == (
         "as many entries are gone in old/0.usda as are new in new/0 1.usda: "
-        "if it moved there, add --moved 'old/0.usda=new/0 1.usda'"
+        f"if it moved there, add --moved {MARK}old/0.usda=new/0 1.usda{MARK}"
     )
     assert lines[5:] == ["… and 2 pairs more, told with --verbose"]
     everything = render(beside(moved=tuple(pairs)), "full", Options(verbose=True))
@@ -180,8 +190,8 @@ def many(number: int, severity: Severity = Severity.ERROR) -> tuple[Finding, ...
     ("findings", "command", "expected"),
     [
         (many(21), ("usdvol-lint", "shots", "--jobs", "2"), "shots --jobs 2"),
-        (many(21), ("usdvol-lint", "my shots"), "'my shots'"),
-        (many(21), ("usdvol-lint", "bell\x07"), "'bell\\x07'"),
+        (many(21), ("usdvol-lint", "my shots"), f"{MARK}my shots{MARK}"),
+        (many(21), ("usdvol-lint", "my \x07"), f"{MARK}my \\x07{MARK}"),
         (many(20), ("usdvol-lint", "shots"), None),
         (many(21, Severity.INFO), ("usdvol-lint", "shots"), None),
         (many(21), ("usdvol-lint", "--no-baseline", "shots"), None),
