@@ -63,16 +63,23 @@ LOST_APIS = {"PRT006", "PRT009", "PRT010"}
 _MEANT = re.compile(r"did you mean '([^']+)'")
 _EFFECT = re.compile(r", so nothing gives these splats (.*)")
 _RAW = re.compile(r"these look like (?:the )?(logits|logarithms)")
-_OTHERS = re.compile(r", as in \d+ other fields?")
 
 
 def told_twice(findings: Iterable[Finding]) -> list[str]:
-    """Each two findings that have one cause, in one line."""
+    """Each two findings that have one cause and that no report tells in one line."""
     return [
         f"{one.code} at {one.site.prim}: {one.message}; {other.code}: {other.message}"
         for one, other in combinations(findings, 2)
-        if one.site.prim and one.site.variant == other.site.variant and _have_one_cause(one, other)
+        if one.site.prim
+        and one.site.variant == other.site.variant
+        and not _is_one_line(one, other)
+        and _have_one_cause(one, other)
     ]
+
+
+def _is_one_line(one: Finding, other: Finding) -> bool:
+    """Whether reports for people fold the two."""
+    return one.code == other.code and one.fold is not None and one.fold == other.fold
 
 
 def _have_one_cause(one: Finding, other: Finding) -> bool:
@@ -127,7 +134,7 @@ def _taken(finding: Finding) -> set[str | None]:
 def _name_one_file(one: Finding, other: Finding) -> bool:
     """Whether fields of one prim are told the same of a file."""
     parents = {(finding.site.prim or "").rpartition("/")[0] for finding in (one, other)}
-    told = {(finding.code, _OTHERS.sub("", finding.message)) for finding in (one, other)}
+    told = {(finding.code, finding.message) for finding in (one, other)}
     return len(parents) == len(told) == 1 and one.code in OF_ONE_FILE
 
 

@@ -15,8 +15,7 @@ from usdvol_lint.command import cli
 from usdvol_lint.config import Config
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.packs.examples import words_of
-from usdvol_lint.run.lint import lint
-from usdvol_lint.run.testing import portable
+from usdvol_lint.run.testing import findings_in, portable
 
 ROOT = Path(__file__).parent.parent
 DATA = ROOT / "tools" / "words.toml"
@@ -40,6 +39,10 @@ from usdvol_lint.rule import ERROR, rule
 def {name}(prim, facts):
     yield from ()
 """
+_FIRST = (
+    '{"usdvol_lint_baseline":1,"fingerprint_version":1,"root":".","arguments":[],"settings":'
+    '{"rules":{},"load":"all","content":"all","times":"all","variants":"selected"}}'
+)
 _ROUGH = ROOT / "tests" / "packs" / "rough"
 _VOLUME = (
     '#usda 1.0\ndef Volume "{name}"\n{{\n    float3[] extent = [(0, 0, 0), (1, 1, 1)]\n'
@@ -74,6 +77,7 @@ def _of_bad_input(data: Mapping[str, Any]) -> Iterator[str]:
         (here / "pyproject.toml").write_text("", encoding="utf-8")
         yield _paragraph("The command line", map(_said_to, data["commands"]))
         yield _paragraph("A configuration file", map(_said_of_settings, data["configurations"]))
+        yield _paragraph("A baseline", map(_said_of_baseline, data["baselines"]))
         packs = (_said_of_pack(name, modules) for name, modules in data["packs"].items())
         yield _paragraph("A pack of rules", packs)
         yield _paragraph("A stage", _said_of_stages(data["stages"], here))
@@ -98,6 +102,13 @@ def _said_of_settings(text: str) -> str:
     return _said_to("--show-settings --config usdvol-lint.toml", text)
 
 
+def _said_of_baseline(text: str) -> str:
+    holds = text.replace("{first}", _FIRST).replace("{other}", _FIRST.replace('"."', '".."'))
+    Path("known.jsonl").write_text(holds, encoding="utf-8")
+    shown = f"known.jsonl: {' | '.join(text.splitlines()).replace('{first}', '…')}".rstrip()
+    return _said_to("--isolated --baseline known.jsonl smoke.usda", shown)
+
+
 def _said_of_pack(name: str, modules: Mapping[str, str]) -> str:
     folder = Path(name)
     folder.mkdir()
@@ -119,8 +130,8 @@ def _said_of_stages(stages: Mapping[str, Mapping[str, Any]], here: Path) -> Iter
     for name, made in stages.items():
         _write(Path(name), made)
     config = Config(packs=(str(_ROUGH),), select=("RGH",), timeout=_LIMIT)
-    for stage in lint(stages, config).stages:
-        yield words_of(portable(stage.findings, here))
+    for found in findings_in(list(stages), config):
+        yield words_of(portable(found, here))
 
 
 def _write(path: Path, made: Mapping[str, Any]) -> None:

@@ -34,6 +34,7 @@ class Config(NamedTuple):
     `show` is what reports for people have besides errors and warnings.
     `max_places` is how many places of a cause a report has in full; `root` is the folder that
     layers go by in fingerprints, `version_pattern` what stands for any version in their paths.
+    `baseline` is the file that has what is known.
     See `Depth` for `load`, `content`, `times` and `statistics`.
     """
 
@@ -58,6 +59,7 @@ class Config(NamedTuple):
     max_places: int = 20
     root: str | None = None
     version_pattern: str | None = None
+    baseline: str | None = None
 
     @property
     def least_shown(self) -> Severity:
@@ -104,7 +106,7 @@ def find_config_file(start: Path) -> Path | None:
 
 
 def read_config(path: Path) -> Config:
-    """Reads a configuration file; pack folders in it are relative to the file.
+    """Reads a configuration file; paths in it are relative to the file.
 
     Raises UsageError where it can't be read, or says what is not allowed.
     """
@@ -119,7 +121,8 @@ def read_config(path: Path) -> Config:
     config = Config(**values)
     packs = tuple(str(path.parent / pack) for pack in config.packs)
     root = None if config.root is None else str(path.parent / config.root)
-    return config._replace(packs=packs, root=root)
+    baseline = None if config.baseline is None else str(path.parent / config.baseline)
+    return config._replace(packs=packs, root=root, baseline=baseline)
 
 
 def _own_table(project: Path) -> Any | None:
@@ -256,6 +259,7 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "max-places": partial(_whole_number, least=1),
     "root": _text,
     "version-pattern": _pattern,
+    "baseline": _text,
 }
 """For each key of the configuration a function that returns the value for the `Config`.
 

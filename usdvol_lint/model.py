@@ -49,14 +49,14 @@ class Excerpt(NamedTuple):
 class Site(NamedTuple):
     """Where a finding is seen: the layer and line to look at, the composed prim, the time codes.
 
-    `layer` is relative to the working directory, with `/`; None where the machine is to blame.
+    `layer` is relative to the working directory, with `/`.
     `variant` is the variant in which the opinion is authored, `look=thin`; or, for what is so only
     under another selection than the authored one, that selection: `/model{look=thin}`.
     `line` and `column` count from 1 and are None in binary layers.
     `times` are time codes of the stage, ascending; `at_default` adds USD's default time.
     """
 
-    layer: str | None
+    layer: str
     prim: str | None = None
     property: str | None = None
     variant: str | None = None
@@ -200,7 +200,7 @@ def _order(finding: Finding) -> tuple[object, ...]:
     return (
         site.prim or "",
         site.property or "",
-        site.layer or "",
+        site.layer,
         site.line or 0,
         site.column or 0,
         finding.code,

@@ -124,6 +124,7 @@ class BaselineUse(NamedTuple):
 
     `gone` are the entries that nothing matches any more, in words, or None where the run does not
     cover what the baseline does, so that nobody can say; `partial` then says what is lacking.
+    Where the file was `written`, what is gone is no longer in it.
     `moved` are pairs of places in which as many entries are gone as are new elsewhere.
     """
 
@@ -133,6 +134,11 @@ class BaselineUse(NamedTuple):
     partial: str = ""
     moved: tuple[tuple[str, str], ...] = ()
     written: bool = False
+
+    @property
+    def is_unpruned(self) -> bool:
+        """Whether the file has entries that are gone."""
+        return bool(self.gone) and not self.written
 
 
 class RunInfo(NamedTuple):
@@ -149,6 +155,7 @@ class Report(NamedTuple):
     """The result of a run: all that the output formats print.
 
     `root` is the folder that layers go by in fingerprints; None where they go by absolute path.
+    `arguments` are the files and folders that the run was asked to check, named as layers are.
     """
 
     version: str
@@ -159,6 +166,7 @@ class Report(NamedTuple):
     causes: tuple[Cause, ...]
     run: RunInfo
     baseline: BaselineUse | None = None
+    arguments: tuple[str, ...] = ()
 
     def with_causes(self, causes: Sequence[Cause]) -> Report:
         """The same with other states of its causes, whose number and order stay."""

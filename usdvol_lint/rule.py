@@ -84,7 +84,7 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 OURS = tuple(sorted(schema.OURS))
 """What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
-TYPE, APIS, NAME = "typeName", "apiSchemas", "name"
+TYPE, APIS, NAME = schema.TYPE_NAME, "apiSchemas", "name"
 """Whose opinion counts: see `Problem`."""
 
 Prim: TypeAlias = Any
@@ -121,11 +121,11 @@ class _Result:
     To blame is the spec whose opinion counts at `at`, at the first of `times`: for a property that
     with its value, for a prim the weakest that makes it what it is, since what it lacks each
     stronger one merely did not bring.
-    `of` asks for the opinion on something else: on TYPE, on APIS, or on NAME, which the weakest
-    spec of a property has.
-    `against` is what contradicts it, as prims, properties, occurrences, specs, or pairs of a prim
-    and the metadata that counts: then the strongest spec of all is to blame.
+    `of` asks for the opinion on something else: on TYPE, on an API, `(APIS, name)`, on metadata by
+    its name, or on NAME, which the weakest spec of a property has.
     `spec` names another `Sdf` spec.
+    `against` is what contradicts it, as prims, properties, occurrences, or pairs of a prim and such
+    an `of`: then the strongest spec of all is to blame, or the arc that brings them together.
     `machine` says that the machine lacks something, and names it: then no layer is to blame.
     `subject` tells apart what a rule reports of one spec; it holds no number, time or wording.
     `fold` is a key: a report for people tells problems of the rule that have it in one line.
@@ -146,7 +146,7 @@ class _Result:
         suggestion: str | None = None,
         spec: Any = None,
         asset: str | None = None,
-        of: str | None = None,
+        of: str | tuple[str, str] | None = None,
         against: Iterable[Any] = (),
         subject: str = "",
         fold: str | None = None,

@@ -16,4 +16,5 @@ def array_too_short(particles: Prim, facts: Facts) -> Problems:
             advice = "find the particles that the other arrays lack, and leave them out of the positions"
         remedy = facts.particles.misfitting_default(particles, short.arrays[0])
         place = short.at(positions) if short.are_all and positions else short.misfits
-        yield Problem(message, at=place, suggestion=remedy or advice)
+        against = [array.attribute for array in (positions, *short.arrays) if array]
+        yield Problem(message, at=place, against=against, suggestion=remedy or advice)

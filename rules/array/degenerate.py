@@ -12,6 +12,7 @@ def degenerate(particles: Prim, facts: Facts, *, many: float = 0.1) -> Problems:
         yield Problem(
             unseen.words,
             at=unseen.attribute,
+            subject="unseen",
             severity=None if unseen.lopsided_share > many else INFO,
             suggestion="leave these particles out of the export, in all arrays",
         )
@@ -20,6 +21,7 @@ def degenerate(particles: Prim, facts: Facts, *, many: float = 0.1) -> Problems:
         yield Problem(
             copies.words,
             at=copies.attribute,
+            subject="copies",
             severity=None if copies.share > many else INFO,
             suggestion=("author positions in float, if half made them alike; " if copies.are_half else "")
             + "leave out what is padding or was exported twice, in all arrays: "

@@ -17,5 +17,6 @@ def element_size_differs(particles: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"elementSize {size}, and degree {degree.value} takes {each:,} coefficient{'s' * (each != 1)}",
                 at=array.attribute,
+                against=[degree.attribute],
                 suggestion=f"author elementSize = {each}, or leave it out",
             )

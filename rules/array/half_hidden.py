@@ -26,6 +26,7 @@ def half_hidden(particles: Prim, facts: Facts) -> Problems:
         yield Problem(
             message,
             at=(differing or sizes[0])[1].attribute,
+            against=[used.attribute for used, _ in found],
             severity=None if differing else INFO,
             suggestion=f"author only {one}",
         )

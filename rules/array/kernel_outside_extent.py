@@ -17,5 +17,6 @@ def kernel_outside_extent(particles: Prim, facts: Facts, *, share: float = 0.1, 
         f"{found.reach.outside:,} of {found.reach.total:,} kernels reach{'es' * (found.reach.outside == 1)} out of "
         f"the extent, {extent}, by up to {found.overhang:.3g}{found.count}",
         at=particles.GetAttribute("extent"),
+        against=[array.attribute for array in facts.particles.arrays(particles).used("positions", "scales")],
         suggestion=f"author at least {fitting}",
     )

@@ -1,6 +1,6 @@
 """ARR021: flat particles without orientations all face the same way."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.rule import APIS, INFO, Facts, Prim, Problem, Problems, quoted, rule
 from usdvol_lint.schema import API_ATTRIBUTES
 
 _FLAT = frozenset({"ParticleFieldKernelGaussianSurfletAPI", "ParticleFieldKernelConstantSurfletAPI"})
@@ -23,6 +23,7 @@ def orientations_missing(particles: Prim, facts: Facts) -> Problems:
     yield Problem(
         f"no orientations for the flat kernel {quoted(kernels[0])}, so all particles face along z",
         at=particles,
+        against=[(particles, (APIS, kernels[0]))],
         suggestion=("" if apis.has(_API) else f"apply {_API} and ")
         + "author orientations that turn z to the normals of the surface",
     )

@@ -13,6 +13,7 @@ def outside_extent(
         yield Problem(
             f"{outside.elements.amount} outside of the extent, {outside.shown_extent}, {outside.elements.first}",
             at=outside,
+            against=[particles.GetAttribute("extent")],
             suggestion=f"author at least {outside.shown_with(kernels.fitting)}, which holds their kernels too"
             if kernels
             else f"the positions span {outside.shown_positions}: author at least that",

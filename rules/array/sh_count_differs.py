@@ -2,14 +2,18 @@
 
 from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
 
+_FITTING = "author radiance:sphericalHarmonicsDegree"
+_LEAVE_OUT = "leave the same particles out of the coefficients; cut the end off only if it is spare"
+
 
 @rule("ARR004", on="ParticleField", severity=ERROR, since="0.1")
 def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     arrays = facts.particles.arrays(particles)
     degree, each, fitting = arrays.degree, arrays.degree.coefficients, arrays.fitting_degree
     is_lost = facts.particles.is_told_as_misspelt(particles, degree.attribute.GetName()) and not arrays.suit_degree
-    if not each or is_lost:
-        return  # ARR005 or SCH004 says it
+    if not each or is_lost:  # ARR005 or SCH004 says it
+        return
+    against = [degree.attribute, *([arrays.positions.attribute] if arrays.positions else ())]
     for array in arrays.used("coefficients"):
         authored = "" if degree.is_authored else ", what USD falls back to,"
         short, long = arrays.too_short(array, each), arrays.too_long(array, each)
@@ -19,28 +23,24 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"{short.shares}; {takes}",
                 at=short,
+                against=against,
                 suggestion=remedy
                 or (
                     f"author {each:,} coefficient{'s' * (each > 1)} for each position"
                     if fitting is None
                     else f"export all of degree {degree.value} again, or author degree {fitting}"
                     if degree.is_authored
-                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
+                    else f"{_FITTING} = {fitting}, which fits"
                 ),
             )
         if long and not _is_told("ARR003", facts, particles, are_long=True):
-            alone = arrays.others_fit(array)
             shift = ": if particles were left out of the others, every later one has the colours of another"
             yield Problem(
                 f"{long.shares}; {takes}{shift if fitting is None else ''}",
                 at=long,
-                severity=None if alone or fitting is not None else WARNING,
-                suggestion=remedy
-                or (
-                    "leave the same particles out of the coefficients; cut the end off only if it is spare"
-                    if fitting is None
-                    else f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
-                ),
+                against=against,
+                severity=None if arrays.others_fit(array) or fitting is not None else WARNING,
+                suggestion=remedy or (_LEAVE_OUT if fitting is None else f"{_FITTING} = {fitting}, which fits"),
             )
 
 

@@ -1,34 +1,33 @@
 """AST006: a field's file must have the extension that its readers are chosen by."""
 
 from operator import attrgetter
+from typing import Any
 
-from usdvol_lint.rule import ERROR, WARNING, Content, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
-from usdvol_lint.schema import FILE_EXTENSIONS
+from usdvol_lint.rule import ERROR, WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, rule
+from usdvol_lint.schema import FILE_EXTENSIONS, TYPE_NAME
 
 _TYPES = {"OpenVDBAsset": "an OpenVDBAsset", "Field3DAsset": "a Field3DAsset"}
 _other_format = attrgetter("swapped_format")
 
 
-def _no_volume(content: Content) -> bool | None:
-    return content.is_no_volume or None
-
-
 @rule("AST006", on=tuple(_TYPES), when=file_paths(PathMark.FOREIGN), severity=ERROR, since="0.1")
 def extension_unexpected(field: Prim, facts: Facts) -> Problems:
-    alike = facts.files.alike(field, lambda each: each.GetTypeName())
-    if not alike.is_first or facts.layers.hides_ours(field):
-        return
     type_name = next(name for name in _TYPES if facts.prims.is_a(field, name))
+    if facts.layers.hides_ours(field):
+        return
+    alike = facts.files.alike(field)
+    where: dict[str, Any] = {"against": [(field, TYPE_NAME)], "fold": alike and f"{alike} {type_name}"}
     paths, inside, wanted = facts.files.paths(field), facts.grids.contents(field), FILE_EXTENSIONS[type_name]
-    others = inside.grouped(_other_format)
-    for other, content, found in others:
+    for other, content, found in (others := inside.grouped(_other_format)):
         yield Problem(
-            f"{found.shown} is {content.foreign}{alike.others}{found.count}",
+            f"{found.shown} is {content.foreign}{found.count}",
             at=found,
+            subject=other,
             suggestion=_advice(other, found.first.extension),
             severity=WARNING if content.is_read_by_some else None,
+            **where,
         )
-    by_content = inside.grouped(_no_volume) if facts.tells("GRD001") else ()
+    by_content = inside.grouped(lambda content: content.is_no_volume or None) if facts.tells("GRD001") else ()
     accounted = {wanted, *(sample.extension for _, _, found in (*others, *by_content) for sample in found.samples)}
     misnamed = paths.affected(each for each in paths.samples if each.is_there and each.extension not in accounted)
     if misnamed:
@@ -38,9 +37,8 @@ def extension_unexpected(field: Prim, facts: Facts) -> Problems:
         if (misnamed.first.extension, wanted) == (".nvdb", ".vdb") and "openvdb" not in formats:
             what = "is a NanoVDB file, which some renderers read and Storm does not"
             advice = "write it as '.vdb' for renderers that read OpenVDB alone"
-        yield Problem(
-            f"{misnamed.shown} {what}{alike.others}{misnamed.count}", at=misnamed, suggestion=advice, severity=WARNING
-        )
+        said = f"{misnamed.shown} {what}{misnamed.count}"
+        yield Problem(said, at=misnamed, suggestion=advice, severity=WARNING, **where)
 
 
 def _advice(other: str, extension: str) -> str:

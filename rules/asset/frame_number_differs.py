@@ -6,11 +6,11 @@ from usdvol_lint.rule import WARNING, Facts, PathMark, Prim, Problem, Problems, 
 @rule("AST013", on="FieldAsset", when=file_paths(PathMark.SEVERAL), severity=WARNING, since="0.1")
 def frame_number_differs(field: Prim, facts: Facts) -> Problems:
     out_of_order = facts.files.out_of_order(field)
-    if out_of_order and facts.files.alike(field).is_first:
+    if out_of_order:
         affected, likely = out_of_order
-        others = facts.files.alike(field).others
         yield Problem(
-            f"{affected.shown} is out of the order that the other file numbers keep{others}{affected.count}",
+            f"{affected.shown} is out of the order that the other file numbers keep{affected.count}",
             at=affected,
+            fold=facts.files.alike(field),
             suggestion=f"did you mean {quoted(likely)}?" if likely else None,
         )

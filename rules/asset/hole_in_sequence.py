@@ -10,16 +10,16 @@ def hole_in_sequence(field: Prim, facts: Facts) -> Problems:
     holes = facts.files.holes(field)
     if holes and not facts.layers.may_lack_values(field):
         affected = holes.affected
-        alike = facts.files.alike(field, lambda each: facts.volumes.is_hidden(each, affected.times))
-        if facts.volumes.is_hidden(field, affected.times) or not alike.is_first:
+        if facts.volumes.is_hidden(field, affected.times):
             return
         what = "the clip there has no filePath" if holes.clip else "filePath is empty or blocked"
         yield Problem(
-            f"no file at {frame_ranges(affected.times)}, though there are files before and after: {what}{alike.others}",
+            f"no file at {frame_ranges(affected.times)}, though there are files before and after: {what}",
             at=affected.attribute,
             times=affected.times,
             asset=holes.clip,
             spec=holes.spec,
+            fold=facts.files.alike(field),
             suggestion=holes.advice or "write the files that are missing, or leave it, if nothing is to be seen then",
             severity=None if holes.paths else INFO,
         )

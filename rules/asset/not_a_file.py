@@ -13,8 +13,7 @@ _ADVICE = {
 
 @rule("AST005", on="FieldAsset", when=file_paths(AssetState.NOT_A_FILE), severity=ERROR, since="0.1")
 def not_a_file(field: Prim, facts: Facts) -> Problems:
-    alike = facts.files.alike(field)
-    for found in facts.files.paths(field).by_detail(AssetState.NOT_A_FILE) if alike.is_first else ():
+    for found in facts.files.paths(field).by_detail(AssetState.NOT_A_FILE):
         fault = FileFault(found.first.detail)
-        message = f"{found.shown} is {fault}{alike.others}{found.count}"
-        yield Problem(message, at=found, suggestion=_ADVICE.get(fault))
+        message = f"{found.shown} is {fault}{found.count}"
+        yield Problem(message, at=found, suggestion=_ADVICE.get(fault), subject=fault, fold=facts.files.alike(field))

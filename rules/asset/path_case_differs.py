@@ -6,13 +6,13 @@ from usdvol_lint.rule import ERROR, WARNING, Facts, PathMark, Prim, Problem, Pro
 @rule("AST009", on="FieldAsset", when=file_paths(PathMark.CASE_BLIND), severity=ERROR, since="0.1")
 def path_case_differs(field: Prim, facts: Facts) -> Problems:
     recased = facts.files.recased(field)
-    if recased and facts.files.alike(field).is_first:
+    if recased:
         affected, meant = recased.affected, quoted(recased.path)
-        others = facts.files.alike(field).others
         effect = ", so no file is found" if affected.has_missing else ""
         yield Problem(
-            f"{affected.shown} is {meant} on disk, in another case{effect}{others}{affected.count}",
+            f"{affected.shown} is {meant} on disk, in another case{effect}{affected.count}",
             at=affected,
+            fold=facts.files.alike(field),
             suggestion=f"write it as {meant}",
             severity=None if affected.has_missing else WARNING,
         )

@@ -8,17 +8,16 @@ from usdvol_lint.rule import ERROR, WARNING, Facts, PathMark, Prim, Problem, Pro
 @rule("AST008", on="FieldAsset", when=file_paths(PathMark.UNPLAIN), severity=ERROR, since="0.1")
 def path_malformed(field: Prim, facts: Facts) -> Problems:
     for malformed in facts.files.malformed(field):
-        alike = facts.files.alike(field)
-        if alike.is_first:
-            affected = malformed.affected
-            defects = ", and ".join(malformed.defects)
-            effect = ", so no file is found" if malformed.is_cause else ""
-            yield Problem(
-                f"{affected.shown} {defects}{effect}{alike.others}{affected.count}",
-                at=affected,
-                suggestion=_advice(malformed),
-                severity=None if malformed.is_cause else WARNING,
-            )
+        affected = malformed.affected
+        defects = ", and ".join(malformed.defects)
+        effect = ", so no file is found" if malformed.is_cause else ""
+        yield Problem(
+            f"{affected.shown} {defects}{effect}{affected.count}",
+            at=affected,
+            fold=facts.files.alike(field),
+            suggestion=_advice(malformed),
+            severity=None if malformed.is_cause else WARNING,
+        )
 
 
 def _advice(malformed: Any) -> str:

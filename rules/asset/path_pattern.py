@@ -9,12 +9,12 @@ _MOST = 1000
 
 @rule("AST003", on="FieldAsset", when=file_paths(AssetState.PATTERN), severity=ERROR, since="0.1")
 def path_pattern(field: Prim, facts: Facts) -> Problems:
-    alike = facts.files.alike(field)
-    for found in facts.files.paths(field).by_detail(AssetState.PATTERN) if alike.is_first else ():
+    for found in facts.files.paths(field).by_detail(AssetState.PATTERN):
         frames = facts.files.frames(found)
         yield Problem(
-            f"no file at {found.shown}: USD does not replace '{found.first.detail}'{alike.others}{found.count}",
+            f"no file at {found.shown}: USD does not replace '{found.first.detail}'{found.count}",
             at=found,
+            fold=facts.files.alike(field),
             suggestion=_time_samples(frames) if frames else _advice(found.as_expression, found.has_frame),
         )
 

@@ -12,20 +12,20 @@ from usdvol_lint.rule import ERROR, INFO, WARNING, AssetState, Facts, Prim, Prob
 )
 def path_unverifiable(field: Prim, facts: Facts) -> Problems:
     paths, alike = facts.files.paths(field), facts.files.alike(field)
-    if not alike.is_first:
-        return
     for live in paths.by_detail(AssetState.LIVE_SESSION):
         yield Problem(
-            f"{live.shown} exists in a running Houdini session alone{alike.others}{live.count}",
+            f"{live.shown} exists in a running Houdini session alone{live.count}",
             at=live,
+            fold=alike,
             suggestion="save the volume to a .vdb file and name that",
         )
     for found in paths.by_detail(AssetState.UNVERIFIABLE):
         if found.first.detail.lower() == "file":
             yield Problem(
-                f"{found.shown} is not found: USD's own resolver does not know 'file:'{alike.others}{found.count}",
+                f"{found.shown} is not found: USD's own resolver does not know 'file:'{found.count}",
                 at=found,
                 severity=WARNING,
+                fold=alike,
                 suggestion="write the path without 'file://'",
             )
             continue
@@ -34,8 +34,10 @@ def path_unverifiable(field: Prim, facts: Facts) -> Problems:
         if found.first.detail == "?":
             why = f"the file is there, and no resolver here reads '?{query}'"
         yield Problem(
-            f"{found.shown} was not checked: {why}{alike.others}{found.count}",
+            f"{found.shown} was not checked: {why}{found.count}",
             at=found,
             severity=INFO,
+            machine=None if found.first.detail == "?" else f"a resolver for '{found.first.detail}:'",
+            fold=alike,
             suggestion="check the stage where the resolver that it needs is installed",
         )

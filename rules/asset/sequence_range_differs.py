@@ -35,11 +35,13 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     def seen(each: Prim) -> list[str]:
         return [effect for effect, times in effects.items() if not facts.volumes.is_hidden(each, times, between=True)]
 
-    attribute, alike, found = field.GetAttribute("filePath"), facts.files.alike(field, seen), seen(field)
-    if found and alike.is_first and not (facts.tells("STG008") and facts.layers.rate_is_unsaid(attribute)):
+    attribute, alike, found = field.GetAttribute("filePath"), facts.files.alike(field), seen(field)
+    if found and not (facts.tells("STG008") and facts.layers.rate_is_unsaid(attribute)):
         yield Problem(
-            f"{ranges}: {' and '.join(found)}{alike.others}",
+            f"{ranges}: {' and '.join(found)}",
             at=attribute,
+            spec=facts.layers.time_range.arc_to_it(attribute, sequence.times[0]),
+            fold=alike and f"{alike} {found}",
             suggestion=sequence.rate_at_fault((start, end)) or advice,
             severity=severity,
         )

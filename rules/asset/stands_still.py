@@ -24,13 +24,9 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
     if still is None or facts.layers.may_lack_values(field, "filePath"):
         return
     staging = facts.volumes.staging(field, time_range) if time_range and not still.is_sampled else None
-
-    def shown(each: Prim) -> object:
-        return facts.files.still(each, time_range) and (not time_range or facts.volumes.staging(each, time_range))
-
-    alike = facts.files.alike(field, shown)
-    if not alike.is_first or (staging and not staging.is_shown):
+    if staging and not staging.is_shown:
         return
+    by_range = time_range if staging and still.by_range else None
     is_staged = staging and still.by_range and not staging.is_still
     there = f"the files {frame_ranges(still.numbers)} lie beside it" if still.numbers else ""
     if still.is_lost:
@@ -42,8 +38,10 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
         start, end = map(format_time, time_range or ())
         message = f"{still.affected.shown} is held at all times, though {there} and the stage's range is {start}-{end}"
     yield Problem(
-        f"{message}{alike.others}",
+        message,
         at=still.affected,
+        spec=by_range and by_range.arc_to_it(still.affected.attribute, None),
+        fold=facts.files.alike(field),
         suggestion=still.advice,
         severity=None if still.is_certain and not is_staged else INFO,
     )

@@ -6,20 +6,16 @@ from usdvol_lint.schema import FIELD_ASSET
 
 @rule("FLD002", on=STAGE, severity=INFO, since="0.1")
 def field_data_type_missing(stage: Prim, facts: Facts) -> Problems:
-    fields = sorted(_untyped(facts), key=facts.prims.shown_path)
-    if not fields:
-        return
-    first = fields[0]
-    data_type = first.GetAttribute("fieldDataType")
-    said = "fieldDataType is empty" if "" in facts.prims.values(first, "fieldDataType") else "no fieldDataType"
-    if len(fields) > 1:
-        said = f"{len(fields):,} fields have no fieldDataType, the first is <{facts.prims.shown_path(first)}>"
-    yield Problem(
-        said,
-        at=data_type if data_type.IsAuthored() else first,
-        suggestion="author the type of the grid, such as 'float' or 'float3'",
-        absent=[lacks(field, "fieldDataType") for field in fields],
-    )
+    for field in sorted(_untyped(facts), key=facts.prims.shown_path):
+        data_type = field.GetAttribute("fieldDataType")
+        is_empty = "" in facts.prims.values(field, "fieldDataType")
+        yield Problem(
+            "fieldDataType is empty" if is_empty else "no fieldDataType",
+            at=data_type if data_type.IsAuthored() else field,
+            fold="fieldDataType",
+            suggestion="author the type of the grid, such as 'float' or 'float3'",
+            absent=[lacks(field, "fieldDataType")],
+        )
 
 
 def _untyped(facts: Facts) -> list[Prim]:

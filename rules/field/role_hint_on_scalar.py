@@ -19,6 +19,7 @@ def role_hint_on_scalar(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{_ROLE} {role!r} on a field of type {types[0]!r}, which is no vector{held.count}",
             at=held,
+            against=[field.GetAttribute(_DATA_TYPE)],
             suggestion=f"remove it, or correct {_DATA_TYPE}",
         )
 

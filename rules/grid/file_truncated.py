@@ -9,10 +9,10 @@ def _cut(content: Content) -> bool | None:
 
 @rule("GRD002", on="FieldAsset", when=contents(_cut), severity=ERROR, since="0.1")
 def file_truncated(field: Prim, facts: Facts) -> Problems:
-    alike = facts.files.alike(field)
-    for _, content, found in facts.grids.contents(field).grouped(_cut) if alike.is_first else ():
+    for _, content, found in facts.grids.contents(field).grouped(_cut):
         yield Problem(
-            f"{found.shown} is cut off: {content.fault_message}{alike.others}{found.count}",
+            f"{found.shown} is cut off: {content.fault_message}{found.count}",
             at=found,
+            fold=facts.files.alike(field),
             suggestion="write it again, or copy it again; look for a full disk",
         )

@@ -13,9 +13,9 @@ def _missing(content: Content) -> tuple[int, int, str] | None:
 @rule("GRD004", on="FieldAsset", when=contents(_missing), severity=ERROR, since="0.1")
 def grid_index_missing(field: Prim, facts: Facts) -> Problems:
     for (index, count, name), _, found in facts.grids.contents(field).grouped(_missing):
-        many = "1 grid" if count == 1 else f"{count} grids"
         yield Problem(
-            f"fieldIndex is {index}, but {found.shown} holds {many} named {quoted(name)}{found.count}",
+            f"fieldIndex is {index}, but {found.shown} holds {count} grid{'s' * (count > 1)} named {quoted(name)}{found.count}",
             at=found,
+            against=[field.GetAttribute("fieldIndex")],
             suggestion=f"count from 0: the last one is {count - 1}",
         )

@@ -16,18 +16,14 @@ def _missing(content: Content) -> tuple[str, str, bool] | None:
 
 @rule("GRD003", on="FieldAsset", when=contents(_missing), severity=ERROR, since="0.1")
 def grid_missing(field: Prim, facts: Facts) -> Problems:
-    def names_empty(each: Prim) -> bool:
-        return any(not has_grids for (*_, has_grids), *_ in facts.grids.contents(each).grouped(_missing))
-
-    alike = facts.files.alike(field, names_empty)
     for (name, purpose, has_grids), content, found in facts.grids.contents(field).grouped(_missing):
-        if not (has_grids or alike.is_first):
-            continue
-        holds = content.holds if has_grids else f"no grids{alike.others}"
+        holds = content.holds if has_grids else "no grids"
         where = f" of {purpose!r}" if purpose else ""
         yield Problem(
             f"no grid {quoted(name)}{where} in {found.shown}, which holds {holds}{found.count}",
             at=found,
+            against=[field.GetAttribute("fieldName")],
+            fold=None if has_grids else facts.files.alike(field),
             suggestion=_similar(name, content) or _choice(name, has_grids, field, found, facts),
         )
 

@@ -33,5 +33,6 @@ def grid_name_ambiguous(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{found.shown} holds {reason}{found.count}",
             at=found,
+            against=[field.GetAttribute("fieldName")],
             suggestion=suggestion,
         )

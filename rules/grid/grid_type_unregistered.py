@@ -11,11 +11,11 @@ def _unregistered(content: Content) -> tuple[str, str] | None:
 
 @rule("GRD011", on="FieldAsset", when=contents(_unregistered), severity=WARNING, since="0.1")
 def grid_type_unregistered(field: Prim, facts: Facts) -> Problems:
-    alike = facts.files.alike(field)
-    for (label, tree_type), _, found in facts.grids.contents(field).grouped(_unregistered) if alike.is_first else ():
+    for (label, tree_type), _, found in facts.grids.contents(field).grouped(_unregistered):
         yield Problem(
             f"grid {quoted(label)} in {found.shown} is of type {tree_type!r}, "
-            f"for which OpenVDB refuses the whole file{alike.others}{found.count}",
+            f"for which OpenVDB refuses the whole file{found.count}",
             at=found,
+            fold=facts.files.alike(field),
             suggestion="leave the grid out, or write it as float, int32 or vec3s with 5_4_3 nodes",
         )

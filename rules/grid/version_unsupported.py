@@ -38,9 +38,10 @@ def _some_are_unsupported(classes: tuple[ContentClass, ...], newest: int) -> boo
 @rule("GRD010", on="FieldAsset", when=When(Grids.content_classes, _some_are_unsupported), severity=WARNING, since="0.1")
 def version_unsupported(field: Prim, facts: Facts, *, newest: int = 225) -> Problems:
     unsupported, alike = _Unsupported(newest), facts.files.alike(field)
-    for (_, is_newer), content, found in facts.grids.contents(field).grouped(unsupported) if alike.is_first else ():
+    for (_, is_newer), content, found in facts.grids.contents(field).grouped(unsupported):
         yield Problem(
-            f"{found.shown}: {unsupported.reason(content)}{alike.others}{found.count}",
+            f"{found.shown}: {unsupported.reason(content)}{found.count}",
             at=found,
+            fold=alike,
             suggestion=_NEWER if is_newer else _OLDER,
         )

@@ -7,10 +7,11 @@ from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
 def attribute_without_api(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
     for api, attributes in facts.particles.without_api(particles):
-        names = ", ".join(repr(attribute.GetName()) for attribute in attributes)
-        yield Problem(
-            f"{names} {'is' if len(attributes) == 1 else 'are'} not read: {api!r} is not applied{apis.doubt}",
-            at=attributes[0],
-            severity=INFO if apis.third_party else None,
-            suggestion=f"apply {api}",
-        )
+        for attribute in attributes:
+            yield Problem(
+                f"{attribute.GetName()!r} is not read: {api!r} is not applied{apis.doubt}",
+                at=attribute,
+                fold=f"{facts.prims.shown_path(particles)} {api}",
+                severity=INFO if apis.third_party else None,
+                suggestion=f"apply {api}",
+            )

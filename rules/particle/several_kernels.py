@@ -1,6 +1,6 @@
 """PRT005: a particle field has one kernel and one radiance."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import APIS, WARNING, Facts, Prim, Problem, Problems, rule
 from usdvol_lint.schema import KERNEL_BASE, RADIANCE_BASE
 
 
@@ -12,6 +12,8 @@ def several_kernels(particles: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"{len(providers)} applied APIs provide the {what}, one should: " + ", ".join(map(repr, providers)),
                 at=particles,
+                against=[(particles, (APIS, provider)) for provider in providers],
+                subject=what,
                 suggestion="keep one; what a prim type has built in can't be taken away, so use "
                 "the type ParticleField to choose another",
             )

@@ -1,6 +1,6 @@
 """SCH010: the APIs of particle fields belong on particle fields."""
 
-from usdvol_lint.rule import ERROR, UNKNOWN_TYPE, Facts, NotChecked, Prim, Problem, Problems, rule
+from usdvol_lint.rule import APIS, ERROR, TYPE, UNKNOWN_TYPE, Facts, NotChecked, Prim, Problem, Problems, rule
 from usdvol_lint.schema import PARTICLE_FIELD, PARTICLE_FIELD_ONLY_APIS
 from usdvol_lint.spelling import misspelt_type
 
@@ -10,11 +10,14 @@ def api_on_wrong_prim(prim: Prim, facts: Facts) -> Problems:
     if facts.prims.is_a(prim, PARTICLE_FIELD) or facts.layers.hides_ours(prim):
         return
     type_name = prim.GetTypeName()
-    names = ", ".join(repr(api) for api in facts.particles.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS)
+    applied = [api for api in facts.particles.apis(prim).applied if api in PARTICLE_FIELD_ONLY_APIS]
+    names = ", ".join(map(repr, applied))
     if not facts.prims.is_a(prim, UNKNOWN_TYPE):
         yield Problem(
             f"{names} on {repr(type_name) if type_name else 'a prim without a type'}, so no particles are drawn",
             at=prim,
+            of=TYPE,
+            against=[(prim, (APIS, api)) for api in applied],
             suggestion="make the type ParticleField or ParticleField3DGaussianSplat",
         )
     elif not (misspelt_type(type_name) and facts.tells("SCH001")):

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from usdvol_lint.rule import ERROR, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, lacks, rule
+from usdvol_lint.rule import ERROR, NAME, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, lacks, rule
 
 _LOSSES = {
     "filePath": "so no file is found",
@@ -21,11 +21,11 @@ _SLIPS = When(Prims.authored, lambda authored: bool(authored.misspellings))
 def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
     for slip in () if facts.prims.encoding(prim) else facts.prims.misspelt(prim):
         meant, loss = slip.intended, _LOSSES[slip.pair] if _is_lost(slip, prim, facts) else ""
+        kept = f", so {meant!r} keeps the value of a weaker layer" if slip.overridden else ""
         yield Problem(
-            f"{prim.GetTypeName()} has no attribute {slip.shown}"
-            + (f", so {meant!r} keeps the value of a weaker layer" if slip.overridden else "")
-            + (f", {loss}" if loss else ""),
+            f"{prim.GetTypeName()} has no attribute {slip.shown}{kept}" + f", {loss}" * bool(loss),
             at=slip.attribute,
+            of=NAME,
             severity=None if slip.hiding or (loss and slip.pair in _GRAVE) else WARNING,
             suggestion=f"did you mean {meant!r}?",
             absent=[lacks(prim, slip.pair)] if loss else (),

@@ -10,6 +10,7 @@ def nested_gprim(prim: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{prim.GetTypeName()} below {_named(above, facts)}, which is a Gprim too, and Gprims do not nest",
             at=prim,
+            against=[above],
             suggestion="move it beside that prim, below a common Xform",
         )
     for gprim, place in facts.prims.gprims_below(prim):
@@ -18,7 +19,9 @@ def nested_gprim(prim: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{what}{held} below {_named(prim, facts)}, which is a Gprim too, and Gprims do not nest",
             at=place,
-            spec=None if gprim == place else place.GetPrimStack()[0],
+            of=None if gprim == place else "references",
+            against=[prim] if gprim == place else [],
+            subject=gprim.GetName(),
             suggestion=f"move it beside the {prim.GetTypeName()}, below a common Xform",
         )
 

@@ -21,6 +21,7 @@ def token_not_allowed(prim: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"{each.GetTypeName()} allows no {name} {token!r}{effect}{values.count}",
                 at=values,
+                subject=token,
                 severity=None if name == "fieldDataType" else WARNING,
                 suggestion=f"did you mean {meant!r}?" if meant else f"use one of {', '.join(map(repr, allowed))}",
             )

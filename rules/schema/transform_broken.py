@@ -19,6 +19,7 @@ def _of_prim(prim: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"xformOpOrder names {name!r}, {why}, so USD leaves it out",
                 at=order,
+                subject=name,
                 suggestion=f"did you mean {intended!r}?"
                 if intended
                 else "take the name out of xformOpOrder, or use an op that UsdGeom has"

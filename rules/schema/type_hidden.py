@@ -1,7 +1,7 @@
 """SCH012: a type in a stronger layer hides a Volume, field or particle field."""
 
 from usdvol_lint.rule import ERROR, INFO, STAGE, UNKNOWN_TYPE, Facts, NotChecked, Prim, Problem, Problems, quoted, rule
-from usdvol_lint.schema import BUILT_IN_APIS, FIELD_ASSET, PARTICLE_FIELD
+from usdvol_lint.schema import BUILT_IN_APIS, FIELD_ASSET, PARTICLE_FIELD, TYPE_NAME
 from usdvol_lint.spelling import misspelt_type
 
 _IF_NOT_MEANT = "leave it, if it is to be drawn in its place; if not, "
@@ -19,7 +19,7 @@ def type_hidden(stage: Prim, facts: Facts) -> Problems:
         )
         if facts.prims.is_a(prim, UNKNOWN_TYPE):
             if not misspelt_type(type_name) and not facts.prims.encoding(prim):
-                yield NotChecked(f"{what}; this USD does not know {type_name!r}", at=prim)
+                yield NotChecked(f"{what}; this USD does not know {type_name!r}", at=prim, of=TYPE_NAME)
             continue
         lost = "it is no field" if retyped.is_field else "nothing is drawn"
         if retyped.is_field and facts.prims.is_a(prim, FIELD_ASSET):
@@ -29,6 +29,7 @@ def type_hidden(stage: Prim, facts: Facts) -> Problems:
         yield Problem(
             what if retyped.stands_in else f"{what}: {lost}",
             at=prim,
+            of=TYPE_NAME,
             severity=INFO if retyped.stands_in else None,
             suggestion=_IF_NOT_MEANT * retyped.stands_in + _remedy(retyped.stronger),
         )

@@ -9,13 +9,13 @@ def type_missing(stage: Prim, facts: Facts) -> Problems:
     for prim, binding in facts.volumes.lookalikes:
         if facts.tells("SCH010") and not set(facts.particles.apis(prim).applied).isdisjoint(PARTICLE_FIELD_ONLY_APIS):
             continue
-        type_name = prim.GetTypeName()
+        kind = f"of type {prim.GetTypeName()!r}" if prim.GetTypeName() else "without a type"
         wanted = "Volume" if binding else "ParticleField3DGaussianSplat"
         yield Problem(
             (f"{binding.GetName()!r} to a field" if binding else "all the arrays of a splat")
-            + (f" on a prim of type {type_name!r}" if type_name else " on a prim without a type")
-            + ": nothing is drawn",
+            + f" on a prim {kind}: nothing is drawn",
             at=prim,
+            against=[binding or prim.GetAttribute("positions")],
             suggestion=f'make it a {wanted}: def {wanted} "{prim.GetName()}"',
             absent=[lacks(prim, TYPE_NAME)],
         )

@@ -1,6 +1,6 @@
 """SCH001: a prim whose type USD does not know is nothing to USD."""
 
-from usdvol_lint.rule import ERROR, UNKNOWN_TYPE, WARNING, Facts, NotChecked, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, TYPE, UNKNOWN_TYPE, WARNING, Facts, NotChecked, Prim, Problem, Problems, rule
 from usdvol_lint.schema import PARTICLE_FIELD_ONLY_APIS
 from usdvol_lint.spelling import is_slip, misspelt_type, versioned_type
 
@@ -13,11 +13,13 @@ def unknown_type(prim: Prim, facts: Facts) -> Problems:
         yield NotChecked(
             f"type {name!r} was not checked: if it is a version of {version_of!r}, its plugin is not installed here",
             at=prim,
+            of=TYPE,
         )
     elif meant and not version_of and not facts.prims.encoding(prim):
         yield Problem(
             f"USD knows no type {name!r}",
             at=prim,
+            of=TYPE,
             severity=None if is_slip(name, meant) and _is_in_use(prim, meant, facts) else WARNING,
             suggestion=f"did you mean {meant!r}?",
         )

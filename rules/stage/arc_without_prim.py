@@ -17,6 +17,7 @@ def arc_without_prim(root: Prim, facts: Facts) -> Problems:
             at=empty.prim,
             spec=empty.spec,
             asset=empty.place,
+            subject=f"{empty.asset or ''}<{empty.target or ''}>",
             severity=None if facts.layers.may_bring_ours(*names) else WARNING,
             suggestion=_advice(empty),
         )

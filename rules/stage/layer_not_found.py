@@ -12,7 +12,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
     for first, *others in facts.layers.composition.of_unread_formats:
         what = f"the {first.arc} {quoted(first.asset)}{f' and {len(others)} more' if others else ''}"
         said = f"no plugin here reads {first.extension!r} files: what {what} should bring was not checked"
-        yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset)
+        yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset, machine=first.extension)
     for missing in facts.layers.missing:
         if missing.extension:
             continue
@@ -22,7 +22,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
         if missing.is_schema or (missing.is_uri and not scheme):
             who = "resolver here answers for" if missing.is_uri else "search path here leads to"
             said = f"no {who} {layer}; what it holds was not checked{where}"
-            yield NotChecked(said, at=missing.prim, spec=missing.spec, asset=missing.asset)
+            yield NotChecked(said, at=missing.prim, spec=missing.spec, asset=missing.asset, subject=missing.asset)
             continue
         reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"
         if scheme:
@@ -35,6 +35,7 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
             at=missing.prim,
             spec=missing.spec,
             asset=missing.asset,
+            subject=missing.asset,
             severity=None if concerns_ours and not scheme else WARNING,
             suggestion=f"write the path without {quoted(scheme)}" if scheme else advice,
         )

@@ -18,6 +18,7 @@ def override_ignored(stage: Prim, facts: Facts) -> Problems:
             f"{shown[0]} is an instance, so what is said below it is ignored: {str(below)!r}{more}",
             at=at,
             spec=spec,
+            against=[(instance, "instanceable")],
             suggestion=f"say 'instanceable = false' on {' and '.join(shown)}",
         )
 

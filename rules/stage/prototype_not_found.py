@@ -9,6 +9,7 @@ def prototype_not_found(root: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"there is no prim <{target}>, so the instances with index {number} draw nothing",
             at=relationship,
+            subject=target.rpartition("/")[2],
             severity=None if similar else INFO,
             suggestion=f"did you mean <{similar}>?" if similar else "name a prim that is there, or define this one",
         )

@@ -15,7 +15,7 @@ def rate_unsaid(root: Prim, facts: Facts) -> Problems:
             f"times by {format_time(unsaid.scale)} on this stage of {format_time(unsaid.rate)}: "
             f"{len(displaced.times)} of {displaced.total} samples land {where}{more}",
             at=displaced,
-            spec=unsaid.layer.pseudoRoot,
-            suggestion="write the rate that its samples were made for into the layer, such as "
-            f"'timeCodesPerSecond = {format_time(unsaid.rate)}'",
+            spec=unsaid.blamed,
+            subject=unsaid.layer.GetDisplayName(),
+            suggestion=f"write the rate of its samples into it, such as 'timeCodesPerSecond = {format_time(unsaid.rate)}'",
         )

@@ -17,7 +17,8 @@ def units_differ(root: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{said}, and nothing from the prim up to {top} {deed} it{where}",
             at=unlike.prim,
-            spec=unlike.layer.pseudoRoot,
+            spec=unlike.blamed,
+            subject=f"{unlike.key} {unlike.layer.GetDisplayName()}",
             severity=INFO if unlike.is_sublayer else None,
             suggestion=None if unlike.is_sublayer else _advice(told, *unlike.remedies),
         )

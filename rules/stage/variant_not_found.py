@@ -15,6 +15,7 @@ def variant_not_found(root: Prim, facts: Facts) -> Problems:
             f"{there}, so nothing of its variants is on the stage{where}",
             at=prim,
             spec=spec,
+            subject=set_name,
             severity=None if similar else INFO,
             suggestion=f"did you mean {quoted(similar)}?" if similar else f"it has {named}",
         )

@@ -11,5 +11,6 @@ def field_outside_volume(volume: Prim, facts: Facts) -> Problems:
                 f"'field:{binding.name}' binds the field <{target.shown}>, which no other Volume "
                 "uses and which does not lie below this one",
                 at=binding.property,
+                against=[target.prim],
                 suggestion=f"move the field below <{facts.prims.shown_path(volume)}>",
             )

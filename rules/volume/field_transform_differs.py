@@ -12,6 +12,7 @@ def field_transform_differs(volume: Prim, facts: Facts) -> Problems:
                 f"'field:{binding.name}' binds the field <{target.shown}>, which does not move "
                 f"with the Volume: its space is {displacement.words} in relation to the Volume's",
                 at=binding.property,
+                against=[target.prim, *displacement.against],
                 times=displacement.times,
                 suggestion="move the field below the Volume, or give both the same transform",
             )

@@ -15,6 +15,7 @@ def mixed_files(volume: Prim, facts: Facts) -> Problems:
             f"the fields name {len(mixed.fields)} files at one time, {mixed.shown}, of which some "
             "renderers read the first only",
             at=volume,
+            against=mixed.attributes,
             times=mixed.times,
             at_default=mixed.at_default,
             suggestion="write the grids into one file, or give each file a Volume of its own",

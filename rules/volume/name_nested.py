@@ -1,6 +1,6 @@
 """VOL009: what follows `field:` must be one name, since USD uses only the last part."""
 
-from usdvol_lint.rule import ERROR, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
+from usdvol_lint.rule import ERROR, NAME, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
 @rule("VOL009", on="Volume", when=bindings(BindingMark.NESTED), severity=ERROR, since="0.1")
@@ -15,6 +15,7 @@ def name_nested(volume: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"USD knows 'field:{binding.name}' as {binding.key!r}{clash}",
             at=binding.property,
+            of=NAME,
             severity=ERROR if rivals else WARNING,
             suggestion=f"name it 'field:{binding.name.replace(':', '_')}'",
         )

@@ -1,6 +1,6 @@
 """VOL006: a field must be bound by a relationship in the `field:` namespace."""
 
-from usdvol_lint.rule import ERROR, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
+from usdvol_lint.rule import ERROR, NAME, WARNING, BindingMark, Facts, Prim, Problem, Problems, bindings, rule
 
 
 @rule("VOL006", on="Volume", when=bindings(BindingMark.ATTRIBUTE, BindingMark.UNDECLARED), severity=ERROR, since="0.1")
@@ -11,6 +11,7 @@ def not_a_relationship(volume: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"'field:{binding.name}' is an attribute, not a relationship",
                 at=binding.property,
+                of=NAME,
                 suggestion=f"write 'rel field:{binding.name} = <path of the field prim>'",
             )
     for relationship in fields.undeclared:
@@ -19,6 +20,7 @@ def not_a_relationship(volume: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"the relationship {name!r} is outside the 'field:' namespace, so it binds no field",
             at=relationship,
+            of=NAME,
             severity=WARNING,
             suggestion=f"name it 'field:{wanted}'",
         )

@@ -13,6 +13,6 @@ def target_lost_in_composition(volume: Prim, facts: Facts) -> Problems:
                 f"'field:{binding.name}' loses its target in composition: <{target}> lies outside "
                 f"the prim that is referenced in {spec.layer.GetDisplayName()!r}",
                 at=binding.property,
-                spec=spec,
+                spec=binding.losing_arc,
                 suggestion="move the field below the prim that is referenced, or reference a prim that holds both",
             )

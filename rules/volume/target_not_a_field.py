@@ -1,6 +1,6 @@
 """VOL002: a field relationship must target a field."""
 
-from usdvol_lint.rule import ERROR, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, lacks, rule
+from usdvol_lint.rule import ERROR, TYPE, Facts, NotChecked, Prim, Problem, Problems, TargetState, bindings, lacks, rule
 from usdvol_lint.spelling import misspelt_type
 
 
@@ -23,6 +23,7 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
             f"'field:{binding.name}' targets <{target.shown}>, which "
             + (f"is of type {type_name!r}, not a field" if type_name else "has no type"),
             at=binding.property,
+            against=[(target.prim, TYPE)],
             suggestion=f"did you mean <{meant}>?" if meant else advice,
             absent=[] if type_name else [lacks(volume, binding.property.GetName())],
         )

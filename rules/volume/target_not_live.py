@@ -16,6 +16,7 @@ def target_not_live(volume: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"'field:{binding.name}' targets <{target.shown}>{below}, which is {_WHY[target.state][0]}",
             at=binding.property,
+            against=[target.reason],
             suggestion=_WHY[target.state][1].format(target.blamed_path),
             absent=[lacks(volume, binding.property.GetName())] if target.state is TargetState.OVER else (),
         )

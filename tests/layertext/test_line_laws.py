@@ -255,13 +255,15 @@ def test_law_holds_for_what_usd_writes(drawn: dict[str, Any]) -> None:
             continue
         if path == Sdf.Path.absoluteRootPath:
             continue
-        line, column = text_layer.find(str(path)) or Position(0, 0)
+        found = text_layer.find(str(path)) or Position(0, 0)
+        line, column = found.line, found.column
         rest = "\n".join([lines[line - 1][column - 1 :], *lines[line:]])
         documented = re.search("doc = (?:\"\"\"|'''|\"|')(.*?)\\|", rest)
         assert documented
         assert documented[1] == str(path)
         for asset in assets_of(layer, spec):
-            line, column = text_layer.find(str(path), asset=asset) or Position(0, 0)
+            found = text_layer.find(str(path), asset=asset) or Position(0, 0)
+            line, column = found.line, found.column
             literal = (
                 f"@@@{asset.replace('@@@', chr(92) + '@@@')}@@@" if "@" in asset else f"@{asset}@"
             )

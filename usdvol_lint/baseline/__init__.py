@@ -1,1 +1,1 @@
-"""What is known already."""
+"""What a library of stages is known to have: written to a file, read again, and compared."""

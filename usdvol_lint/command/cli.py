@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
     from subprocess import Popen
 
+    from usdvol_lint.baseline.use import Prepared
     from usdvol_lint.command.output import Destination
     from usdvol_lint.config import Config
     from usdvol_lint.packs.catalog import Catalog
@@ -87,6 +88,17 @@ def _complete_from(constant: str) -> Any:
               help="Look at all time samples of particles (default), or at some.")
 @click.option("--statistics", is_flag=True,
               help="Add what particle fields hold: count, bounds, opacity, scale.")
+@click.option("--baseline", type=click.Path(), metavar="FILE",
+              help="Count only what is not in this baseline, or JSON report, or is worse.")
+@click.option("--no-baseline", is_flag=True, help="Use no baseline, whatever is configured.")
+@click.option("--write-baseline", type=click.Path(), metavar="FILE",
+              help="Write what is found as a baseline; with --baseline, bring that up to date.")
+@click.option("--prune-baseline", is_flag=True,
+              help="Take out of the baseline what is gone.")
+@click.option("--fail-on-unpruned", is_flag=True,
+              help="Exit with 1 if something in the baseline is gone.")
+@click.option("--moved", multiple=True, metavar="OLD=NEW",
+              help="A layer or folder in the baseline is called otherwise now; may be repeated.")
 @click.option("--max-places", type=click.IntRange(min=1), metavar="N",
               help="How many places of a cause a report has in full (default: 20).")
 @click.option("--root", type=click.Path(), metavar="FOLDER",
@@ -165,28 +177,45 @@ def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
     from usdvol_lint.run.lint import Naming, lint
     from usdvol_lint.run.roots import root_of
 
-    settled: list[tuple[Config, Path | None, list[Destination]]] = []
+    settled: list[tuple[Config, Path | None, list[Destination], Prepared | None]] = []
 
     def settle() -> Config:
         config, file = read_settings(given)
         destinations = output.pair(given["output_format"], given["output"], config.output_format)
         output.check_writable(destinations)
-        settled.append((config, file, destinations))
+        settled.append((config, file, destinations, _prepared(given, config)))
         return config
 
     def naming(config: Config) -> Naming:
-        _, file, _ = settled[0]
-        return Naming(
-            root_of(paths, config.root, config_folder=str(file.parent) if file else None),
-            versions_in(config.version_pattern),
-        )
+        _, file, _, prepared = settled[0]
+        of_baseline = prepared.root if prepared else None
+        folder = str(file.parent) if file else None
+        root = root_of(paths, given["root"], of_baseline, config.root, folder)
+        if prepared:
+            prepared.check_root(root)
+        return Naming(root, versions_in(config.version_pattern))
 
     with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
         report = lint(paths, settle, progress, click.get_current_context().obj, naming)
-    config, file, destinations = settled[0]
+    config, file, destinations, prepared = settled[0]
     report = report._replace(run=_run_info(report, file))
+    report, failure = prepared.apply(report) if prepared else (report, "")
     output.write(report, destinations, _options(given, config))
-    return _exit_code(report, config.fail_on)
+    if failure:
+        raise UsageError(failure)
+    if given["write_baseline"] is not None:
+        return CLEAN
+    return _exit_code(report, config.fail_on, given["fail_on_unpruned"])
+
+
+def _prepared(given: dict[str, Any], config: Config) -> Prepared | None:
+    """The baseline in use, read; runs without one import nothing for it."""
+    asking = ("write_baseline", "prune_baseline", "fail_on_unpruned", "moved")
+    if config.baseline is None and not any(given[name] for name in asking):
+        return None
+    from usdvol_lint.command.baselines import prepared
+
+    return prepared(given, config)
 
 
 def _run_info(report: Report, file: Path | None) -> RunInfo:
@@ -199,12 +228,14 @@ def _run_info(report: Report, file: Path | None) -> RunInfo:
     )
 
 
-def _exit_code(report: Report, fail_on: str) -> int:
+def _exit_code(report: Report, fail_on: str, fail_on_unpruned: bool = False) -> int:
     from usdvol_lint.model import Severity
     from usdvol_lint.packs.catalog import NOT_IGNORABLE
 
     if any(cause.code in NOT_IGNORABLE for cause in report.causes):
         return FAILED
+    if fail_on_unpruned and report.baseline and report.baseline.is_unpruned:
+        return FINDINGS
     if fail_on == "never":
         return CLEAN
     threshold = Severity[fail_on.upper()]

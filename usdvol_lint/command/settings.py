@@ -12,7 +12,7 @@ from usdvol_lint.model import UsageError
 
 _REPLACING = (
     *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
-    *("max-places", "root"),
+    *("max-places", "root", "baseline"),
 )
 """The options that replace what the file says; the others add to it."""
 
@@ -35,6 +35,10 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
         value = given[name]
         if value is not None and value is not False:
             changes[name] = CHECKS[key](f"--{key}", value)
+    if given["no_baseline"]:
+        if given["baseline"] is not None:
+            raise click.UsageError("--baseline and --no-baseline exclude each other")
+        changes["baseline"] = None
     for name in given["output_format"]:
         CHECKS["output-format"]("--output-format", name)
     select = _codes(given["select"])

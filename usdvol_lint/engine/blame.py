@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 from pxr import Usd
 
-from usdvol_lint.engine.strength import Opinion, decisive, is_composed_of, path_beside
+from usdvol_lint.engine.strength import Opinion, decisive, path_beside
+from usdvol_lint.facts.usd.bringing import node_of
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.rule import APIS, NAME, TYPE, NotChecked, Problem
@@ -36,28 +37,26 @@ class Blame(NamedTuple):
 def blamed(problem: Problem | NotChecked) -> Blame:
     """What is to blame for a problem."""
     at = problem.at
-    name = at.GetName() if isinstance(at, Usd.Property) else None
-    if problem.spec:
-        return Blame(problem.spec, name, problem.subject)
-    own = _own(problem)
-    if own.spec is None:
-        return own
-    others = [each for other in problem.against for each in _opinions(other)]
-    if not others:
-        return own
     prim = at.GetPrim()
+    own = _own(problem)
+    others = [each for other in problem.against for each in _opinions(other)]
+    if own.spec is None or not others:
+        return own
     found = decisive([Opinion(prim, own.spec), *others])
     if found.spec == own.spec:
         return own
-    return Blame(found.spec, name, problem.subject or _path_of(at, prim, found.spec))
+    subject = problem.subject or _path_of(at, prim, found.spec)
+    return Blame(found.spec, _property_of(found.spec) or own.property, subject)
 
 
 def _own(problem: Problem | NotChecked) -> Blame:
     """The spec whose opinion counts where the problem is."""
     at, prim, subject = problem.at, problem.at.GetPrim(), problem.subject
     if not isinstance(at, Usd.Property):
-        return Blame(_of_prim(prim, problem.of, subject), None, subject)
+        return Blame(problem.spec or _of_prim(prim, problem.of), None, subject)
     name = at.GetName()
+    if problem.spec:
+        return Blame(problem.spec, name, subject)
     if problem.of == NAME:
         return Blame(_weakest(at) or maker(prim), name, subject)
     if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
@@ -67,7 +66,17 @@ def _own(problem: Problem | NotChecked) -> Blame:
     spec = next(filter(_has_value, at.GetPropertyStack()), None)
     if spec is None and isinstance(at, Usd.Relationship):
         spec = _weakest(at)
-    return Blame(spec or maker(prim), name, subject)
+    return Blame(spec or _declared(maker(prim), name), name, subject)
+
+
+def _declared(spec: Any | None, name: str) -> Any | None:
+    """The property of a prim's spec, if that declares it, or else the prim's spec."""
+    own = spec and spec.layer.GetPropertyAtPath(spec.path.AppendProperty(name))
+    return own or spec
+
+
+def _property_of(spec: Any) -> str | None:
+    return str(spec.name) if spec.path.IsPropertyPath() else None
 
 
 def _value(attribute: Any, time: float | None, subject: str) -> Blame | None:
@@ -79,7 +88,7 @@ def _value(attribute: Any, time: float | None, subject: str) -> Blame | None:
     prim = attribute.GetPrim()
     if time is None:
         return Blame(spec, attribute.GetName(), subject)
-    if not is_composed_of(prim, spec) and (clips := _clips_with(prim, spec.layer)):
+    if node_of(prim, spec) is None and (clips := _clips_with(prim, spec.layer)):
         below = (
             prim.GetPath()
             .MakeRelativePath(clips.prim.GetPath())
@@ -107,14 +116,19 @@ def _resolved(clip_set: ClipSet) -> frozenset[str]:
     return frozenset(each.resolvedPath for each in clip_set.clips)
 
 
-def _of_prim(prim: Any, of: str | None, subject: str) -> Any | None:
+def _of_prim(prim: Any, of: Any) -> Any | None:
     if prim.IsPseudoRoot():
         return prim.GetStage().GetRootLayer().pseudoRoot
+    return _with_metadata(prim, of) or maker(prim)
+
+
+def _with_metadata(prim: Any, of: Any) -> Any | None:
+    """The strongest spec that says something: TYPE, APIS, `(APIS, name)`, or other metadata."""
     if of == TYPE:
-        return _typed(prim) or maker(prim)
-    if of == APIS:
-        return next(filter(_names(subject), _stack(prim)), None) or maker(prim)
-    return maker(prim)
+        return _typed(prim)
+    if isinstance(of, tuple):
+        return next(filter(_lists(of[1]), _stack(prim)), None)
+    return next((spec for spec in _stack(prim) if of and spec.HasInfo(of)), None)
 
 
 def maker(prim: Any) -> Any | None:
@@ -139,12 +153,11 @@ def _typed(prim: Any) -> Any | None:
     return found
 
 
-def _names(api: str) -> Any:
-    def names(spec: Any) -> bool:
-        listed = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else None
-        return listed is not None and (not api or api in listed.GetAppliedItems())
+def _lists(api: str) -> Callable[[Any], bool]:
+    def lists(spec: Any) -> bool:
+        return spec.HasInfo(APIS) and api in spec.GetInfo(APIS).GetAppliedItems()
 
-    return names
+    return lists
 
 
 def _stack(prim: Any) -> list[Any]:
@@ -164,9 +177,8 @@ def _has_value(spec: Any) -> bool:
 def _opinions(other: Any) -> Iterator[Opinion]:
     """The opinions on what contradicts: a prim, a property, an occurrence, a spec, a metadatum."""
     if isinstance(other, tuple):
-        prim, key = other
-        spec = _typed(prim) if key == TYPE else next(_with_info(_stack(prim), key), None)
-        specs: Iterable[Any] = [spec]
+        prim, of = other
+        specs: Iterable[Any] = [_with_metadata(prim, of)]
     elif isinstance(other, Usd.Prim):
         prim, specs = other, [maker(other)]
     elif isinstance(other, Usd.Property) or hasattr(other, "at_default"):
@@ -181,12 +193,8 @@ def _opinions(other: Any) -> Iterator[Opinion]:
     yield from (Opinion(prim, spec) for spec in specs if spec)
 
 
-def _with_info(specs: Iterable[Any], key: str) -> Iterator[Any]:
-    return (spec for spec in specs if spec.HasInfo(key))
-
-
 def _path_of(at: Any, prim: Any, spec: Any) -> str:
-    """What a problem is about, as the layer to blame sees it; "" if that is the spec itself."""
+    """What a problem is about, as the layer to blame sees it; "" if that is of the same prim."""
     path = path_beside(prim, spec) or str(prim.GetPath())
     if path == str(spec.path.GetPrimPath().StripAllVariantSelections()):
         return ""

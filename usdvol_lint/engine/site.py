@@ -8,7 +8,7 @@ from pxr import Usd
 
 from usdvol_lint.engine.blame import Blame, blamed
 from usdvol_lint.engine.layer_names import LayerNames
-from usdvol_lint.engine.strength import prim_path
+from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.layertext.source import LayerTexts
 from usdvol_lint.model import Cover, Severity, Site, Source
@@ -36,16 +36,12 @@ class Sites:
         prim = problem.at.GetPrim()
         on_stage = shown(prim)
         site = Site(
-            layer=None,
+            layer="",
             prim=None if prim.IsPseudoRoot() else on_stage.path,
             property=problem.at.GetName() if isinstance(problem.at, Usd.Property) else None,
             times=problem.times,
             at_default=problem.at_default,
         )
-        if problem.machine is not None:
-            return Located(
-                site, Source(None, subject=problem.machine), Blame(None), on_stage.instances
-            )
         blame = blamed(problem)
         spec = blame.spec
         layer = spec.layer if spec else prim.GetStage().GetRootLayer()
@@ -53,10 +49,12 @@ class Sites:
         position = self._find(layer, path, blame, problem.asset)
         source = Source(
             self._names.real(layer),
-            str(prim_path(spec)) if spec else None,
+            str(path_of_prim(spec)) if spec else None,
             blame.property,
             blame.subject,
         )
+        if problem.machine is not None:
+            source = Source(None, subject=problem.machine)
         site = site._replace(
             layer=self._names.shown(layer),
             variant=_variants(spec.path) if spec else None,

@@ -52,7 +52,9 @@ class Stamp:
     ) -> Stamped:
         site, source, blame, instances = self.sites.locate(problem)
         shown = f" (shown by {instances:,} instances)" if instances > 1 else ""
-        clip = f" (in the clip {quoted(blame.clip)})" if blame.clip else ""
+        clip = ""
+        if blame.clip and blame.clip.rpartition("/")[2] not in problem.message:
+            clip = f" (in the clip {quoted(blame.clip)})"
         if reported_as is not rule and source.layer is not None:
             source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())
         own = min(reported_as.severity, problem.severity or reported_as.severity)

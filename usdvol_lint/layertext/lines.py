@@ -7,6 +7,7 @@ import re
 from array import array
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
 from operator import le
@@ -95,12 +96,13 @@ _ELEMENT = re.compile(r"\{[^{}]*\}|\..*|[^/{}.]+")
 _BLOCK_SIZE = 1 << 16
 
 
-class Position(NamedTuple):
+@dataclass(frozen=True, slots=True, order=True)
+class Position:
     """A position in a text, 1-based, and what stands there; the column counts characters."""
 
     line: int
     column: int
-    excerpt: Excerpt
+    excerpt: Excerpt | None = field(default=None, compare=False)
 
 
 class _Span(NamedTuple):

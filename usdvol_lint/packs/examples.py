@@ -89,7 +89,7 @@ def _level(rule: Rule | None) -> str:
 def mark(finding: Finding) -> Mark:
     """The mark that an example should have for a finding."""
     site = finding.site
-    return Mark(finding.code, finding.severity.label, site.layer or "", site.line or 0)
+    return Mark(finding.code, finding.severity.label, site.layer, site.line or 0)
 
 
 # --- words ----------------------------------------------------------------------------------------

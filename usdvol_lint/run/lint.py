@@ -14,6 +14,7 @@ from usdvol_lint.config import Config
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import load
+from usdvol_lint.paths import below, canonical
 from usdvol_lint.results import Cause, Report, RunInfo, StageResult
 from usdvol_lint.run.causes import Causes
 from usdvol_lint.run.discovery import discover
@@ -74,8 +75,9 @@ def lint(
         active = activate(settled, load(settled.packs))
         jobs = settled.jobs or os.cpu_count() or 1
         causes = Causes(root, versions, settled.max_places)
+        named = tuple(paths)
         stages, found = _folded(
-            causes, stage_reports(pool, discover(paths), settled, active, jobs, progress)
+            causes, stage_reports(pool, discover(named), settled, active, jobs, progress)
         )
         report = Report(
             version=__version__,
@@ -85,6 +87,7 @@ def lint(
             stages=stages,
             causes=(),
             run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs),
+            arguments=tuple(below(canonical(path), root) for path in named),
         )
         return report.with_causes(found)
     finally:

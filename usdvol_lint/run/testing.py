@@ -126,7 +126,7 @@ def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
         finding._replace(
             message=anywhere(finding.message),
             suggestion=finding.suggestion and anywhere(finding.suggestion),
-            site=finding.site._replace(layer=anywhere(finding.site.layer or "")),
+            site=finding.site._replace(layer=anywhere(finding.site.layer)),
         )
         for finding in findings
         if finding.code != USD_TOO_OLD.code

@@ -8,12 +8,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
-from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
-    from usdvol_lint.facts.files.absences import MissingFolders
-    from usdvol_lint.facts.files.alike import Alike, Namesakes
+    from usdvol_lint.facts.files.alike import Namesakes
     from usdvol_lint.facts.files.animation import EmptyClip
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
     from usdvol_lint.facts.files.classify import AssetReader
@@ -110,16 +108,17 @@ class Files(Wing):
 
         return unexplained(self.paths(field), self._disk, self._has_packages, self.tables.tells)
 
-    def sharing_missing_folder(self, field: Any) -> list[Any]:
-        """The fields whose missing files all lie below the same missing folder, this one too.
+    @fact
+    def missing_folder(self, field: Any) -> str | None:
+        """The missing folder that all missing files of a field lie below, or None."""
+        from usdvol_lint.facts.files.absences import common_missing_folder
 
-        None of them where no folder is missing.
-        """
-        return self._missing_folders.sharing(field)
+        missing = self.missing(field)
+        return common_missing_folder(missing, self._disk) if missing else None
 
-    def alike(self, field: Any, like: Callable[[Any], Any] | None = None) -> Alike:
-        """What is known of other fields of the prim with the same files, alike in `like` too."""
-        return self._namesakes.of(field, like)
+    def alike(self, field: Any) -> str | None:
+        """A key that the fields of a prim share which name the same files; None for one alone."""
+        return self._namesakes.key(field)
 
     def malformed(self, field: Any) -> Iterator[Malformed]:
         """The samples of `filePath` that not every platform reads alike."""
@@ -185,17 +184,6 @@ class Files(Wing):
         from usdvol_lint.facts.files.stillness import Packs
 
         return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
-
-    @cached_property
-    def _missing_folders(self) -> MissingFolders:
-        from usdvol_lint.facts.files.absences import MissingFolders
-
-        missing = (
-            (field, self.missing(field))
-            for field, paths in self.paths.readable(schema.FIELD_ASSET)
-            if AssetState.MISSING in paths.states
-        )
-        return MissingFolders(missing, self._disk)
 
     @cached_property
     def _namesakes(self) -> Namesakes:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from itertools import chain
 from math import isnan
-from typing import Any
 
 from usdvol_lint.facts.files.assets import Affected, AssetSamples
 from usdvol_lint.facts.files.corrections import missing_folder
@@ -17,7 +15,6 @@ from usdvol_lint.facts.files.origins import outside_package
 from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.sequences import SampleSequence
 from usdvol_lint.facts.files.states import AssetState
-from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.words import frame_ranges
 
 _ANY = "write or copy it there, or name a file that is there"
@@ -65,22 +62,3 @@ def what_to_write(sequence: SampleSequence | None) -> str:
     frames, others = ("frame" + "s" * (len(each) > 1) for each in (there, gone))
     is_there = f"{frames} {frame_ranges(there)} {'are' if len(there) > 1 else 'is'} there"
     return f"{is_there}: simulate or copy {others} {frame_ranges(gone)} again"
-
-
-class MissingFolders:
-    """The fields by the one folder that is missing above all of their missing files."""
-
-    def __init__(self, missing: Iterable[tuple[Any, Affected | None]], disk: Disk) -> None:
-        found = (
-            (field, common_missing_folder(affected, disk))
-            for field, affected in missing
-            if affected
-        )
-        self._folders = {field: folder for field, folder in found if folder}
-        self._fields: dict[str, list[Any]] = defaultdict(list)
-        for field in as_shown(self._folders):
-            self._fields[self._folders[field]].append(field)
-
-    def sharing(self, field: Any) -> list[Any]:
-        """The fields with the same missing folder, in the order in which they are shown."""
-        return self._fields[self._folders[field]] if field in self._folders else []

@@ -4,22 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 from usdvol_lint.facts.files.assets import AssetSamples
-from usdvol_lint.facts.usd.instances import as_shown
+from usdvol_lint.facts.usd.instances import as_shown, shown
 
 _Field: TypeAlias = tuple[Any, AssetSamples]
-
-
-class Alike(NamedTuple):
-    """How many other fields of its prim name the same files, at the same times.
-
-    `is_first`: whether none of them is shown before this one; `others`: words on them, or "".
-    """
-
-    is_first: bool
-    others: str
 
 
 class Namesakes:
@@ -33,14 +23,10 @@ class Namesakes:
             for group in _groups(likely, lambda paths: paths.samples):
                 self._add(group)
 
-    def of(self, field: Any, like: Callable[[Any], Any] | None = None) -> Alike:
-        """What is known of a field; others are those for which `like` gives the same."""
-        family = self._known.get(field, [field])
-        if like and len(family) > 1:
-            family = [other for other in family if like(other) == like(field)]
-        count = len(family) - 1
-        words = f", as in {count} other field{'s' * (count > 1)}" if count else ""
-        return Alike(family[0] == field, words)
+    def key(self, field: Any) -> str | None:
+        """What all fields of a prim have in common that name the same files; None for one alone."""
+        family = self._known.get(field)
+        return shown(family[0]).path if family else None
 
     def _add(self, group: Iterable[_Field]) -> None:
         """Adds fields with the same paths: in layers of different folders these lead elsewhere."""

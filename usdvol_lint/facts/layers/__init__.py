@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.layers.misnamed import Misnamed
     from usdvol_lint.facts.layers.overs import Overs
     from usdvol_lint.facts.layers.prototypes import LostPrototype
+    from usdvol_lint.facts.layers.ranges import TimeRange
     from usdvol_lint.facts.layers.rates import UnsaidRate
     from usdvol_lint.facts.layers.selections import WrongSelection
     from usdvol_lint.facts.layers.undefined import Undefined
@@ -156,12 +157,11 @@ class Layers(Wing):
         if self._arcs.prims:
             from usdvol_lint.facts.layers.selections import wrong_selections
 
-            found = wrong_selections(self._arcs.prims, self._drawn, self._kinds)
-            yield from (each for each in found if not self.may_lack(each.prim))
+            yield from wrong_selections(self._arcs.prims, self._drawn, self._kinds, self.may_lack)
 
     @property
     def lost_prototypes(self) -> Iterator[LostPrototype]:
-        """The targets of PointInstancers that are not there, where they have to do with us."""
+        """The targets of PointInstancers that are not there, where they concern us."""
         if self._drawn.live_instancers:
             from usdvol_lint.facts.layers.prototypes import lost_prototypes
 
@@ -173,10 +173,12 @@ class Layers(Wing):
         return self._drawn.out_of_reach
 
     @cached_property
-    def time_range(self) -> tuple[float, float] | None:
+    def time_range(self) -> TimeRange | None:
         """startTimeCode and endTimeCode; None unless both are authored, in ascending order."""
+        from usdvol_lint.facts.layers.ranges import TimeRange
+
         authored = self.authored_time_range
-        return authored if authored and authored[0] <= authored[1] else None
+        return TimeRange(*authored) if authored and authored[0] <= authored[1] else None
 
     @cached_property
     def authored_time_range(self) -> tuple[float, float] | None:

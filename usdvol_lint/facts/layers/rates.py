@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from usdvol_lint.facts.prims.animated import animated
 from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.bringing import Crossing, arc_that
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
@@ -49,6 +50,17 @@ class UnsaidRate(NamedTuple):
     rate: float
     scale: float
     displaced: tuple[Displaced, ...]
+
+    @property
+    def blamed(self) -> Any:
+        """The spec with the arc that brings the layer to one of another rate."""
+        attribute = self.displaced[0].attribute
+
+        def differs(crossing: Crossing) -> bool:
+            return _rate(crossing.source) != _USUAL
+
+        arc = arc_that(attribute.GetPrim(), self.layer, differs)
+        return arc or attribute.GetStage().GetRootLayer().pseudoRoot
 
     def displaces(self, attribute: Any) -> bool:
         """Whether samples of an attribute are at other times because of it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from typing import Any, NamedTuple
 
@@ -45,16 +45,20 @@ class WrongSelection(NamedTuple):
 
 
 def wrong_selections(
-    prims: Iterable[Any], drawn: Drawn, kinds: PrimKinds
+    prims: Iterable[Any], drawn: Drawn, kinds: PrimKinds, may_lack: Callable[[Any], bool]
 ) -> Iterator[WrongSelection]:
-    """What is selected on these prims and is not there, though ours may be in that set."""
+    """What is selected on these prims and is not there, though ours may be in that set.
+
+    `may_lack` says whether opinions on a prim may lie in a layer that does not open.
+    """
     found: dict[Any, list[WrongSelection]] = defaultdict(list)
     for prim in sorted(set(prims), key=get_path):
         if has_metadata(prim, _SELECTION) and in_prototype(prim) in drawn:
             for wrong in _wrong(prim, kinds):
                 found[wrong.spec, wrong.set_name].append(wrong)
     for first, *others in found.values():
-        yield first._replace(copies=1 + len(others))
+        if not may_lack(first.prim):
+            yield first._replace(copies=1 + len(others))
 
 
 def _wrong(prim: Any, kinds: PrimKinds) -> Iterator[WrongSelection]:

@@ -12,6 +12,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.layers.remedies import Remedy, find_remedy
 from usdvol_lint.facts.layers.turns import Corrections, resetting
 from usdvol_lint.facts.prims.tables import Tables
+from usdvol_lint.facts.usd.bringing import Crossing, arc_that, root_layer
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 
@@ -45,6 +46,18 @@ class UnlikeStage(NamedTuple):
     def prim(self) -> Any:
         """The first of the prims."""
         return self.prims[0]
+
+    @property
+    def blamed(self) -> Any:
+        """The spec with the arc that brings it to a layer which says otherwise."""
+        key, said = self.key, self.said
+
+        def differs(crossing: Crossing) -> bool:
+            other = _said(root_layer(crossing.source), key)
+            return other is not None and not _are_equal(key, said, other)
+
+        arc = arc_that(self.prim, self.layer, differs)
+        return arc or self.prim.GetStage().GetRootLayer().pseudoRoot
 
     @property
     def resetting(self) -> Any | None:

@@ -39,6 +39,20 @@ class Binding(NamedTuple):
         return self.name.rpartition(":")[2]
 
     @builtins.property
+    def losing_arc(self) -> Any:
+        """The spec with the arc that loses the first of the targets, or the spec of the target."""
+        from usdvol_lint.facts.usd.bringing import arc_that  # few bindings lose a target
+
+        spec = self.lost[0]
+        first = spec.targetPathList.GetAddedOrExplicitItems()[0]
+        path = first.MakeAbsolutePath(spec.path.GetPrimPath())
+
+        def loses(crossing: Any) -> bool:
+            return bool(crossing.node.mapToParent.MapSourceToTarget(path).isEmpty)
+
+        return arc_that(self.property.GetPrim(), spec.layer, loses) or spec
+
+    @builtins.property
     def target(self) -> Target | None:
         """The target if there is exactly one: USD ignores a relationship with several."""
         return self.targets[0] if len(self.targets) == 1 else None

@@ -19,12 +19,14 @@ _FILES_NAMED = 3
 class MixedFiles(NamedTuple):
     """The times at which the fields of a Volume name several files.
 
-    `fields` maps each file at the first such time to the names of the fields that name it.
+    `fields` maps each file at the first such time to the names of the fields that name it;
+    `attributes` are those that name files.
     """
 
     fields: dict[str, tuple[str, ...]]
     times: tuple[float, ...]
     at_default: bool
+    attributes: tuple[Any, ...] = ()
 
     @property
     def shown(self) -> str:
@@ -71,6 +73,7 @@ def _compare(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles | None:
         fields=named,
         times=tuple(time for time in mixed if time is not None),
         at_default=mixed[0] is None and len(times) > 1,
+        attributes=tuple(paths.attribute for _, paths in fields),
     )
 
 

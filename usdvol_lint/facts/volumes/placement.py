@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import chain
 from typing import Any, NamedTuple
 
 from pxr import Gf, Usd
@@ -19,10 +20,12 @@ class Displacement(NamedTuple):
     """How transforms move a field relative to its Volume, in words, and at which times.
 
     `times` are empty where nothing is animated; the words are for the first of them.
+    `against` are the attributes of the transforms.
     """
 
     words: str
     times: tuple[float, ...]
+    against: tuple[Any, ...] = ()
 
 
 class Placement(NamedTuple):
@@ -56,7 +59,14 @@ class Placement(NamedTuple):
         moved = [(time, words) for time in self.times or (None,) if (words := self._words(time))]
         if not moved:
             return None
-        return Displacement(moved[0][1], tuple(time for time, _ in moved if time is not None))
+        times = tuple(time for time, _ in moved if time is not None)
+        return Displacement(moved[0][1], times, self.attributes)
+
+    @property
+    def attributes(self) -> tuple[Any, ...]:
+        """The attributes of the transforms."""
+        ops = chain.from_iterable(each.GetOrderedXformOps() for each in (*self.up, *self.down))
+        return tuple(op.GetAttr() for op in ops)
 
     def _words(self, time: Time) -> str:
         """In words what the matrix does; empty where it is the identity up to rounding."""

@@ -68,6 +68,11 @@ class PlacedField:
         """The path of the field as the stage shows it."""
         return self._target.shown
 
+    @property
+    def opinions(self) -> tuple[Any, ...]:
+        """The attributes that say which grids there are, and where they are placed."""
+        return (self._paths.attribute, *self._placement.attributes)
+
     def has_known_grids(self, boxes: GridBoxes) -> bool:
         """Whether each file was looked into, and has the grid, whose box and place are known."""
         samples = self._paths.samples
@@ -149,6 +154,7 @@ class Shortfall:
 
     `fields` are those with a grid that sticks out; `checked` counts the times that were compared;
     `times` and `at_default` are those at which the extent is too small.
+    `against` are the attributes that place the grids.
     `remedy` says which extent encloses the whole voxels: an animated one at the times at which it
     is too small, if these are few, else one for all times.
     """
@@ -161,6 +167,7 @@ class Shortfall:
     checked: int
     only_half_voxels: bool
     remedy: str
+    against: tuple[Any, ...]
     asset: ClassVar[None] = None
 
     @property
@@ -218,6 +225,9 @@ def find_shortfall(
         checked=len(checked),
         only_half_voxels=tally is halves,
         remedy=_remedy(limits, fields, boxes, tally),
+        against=tuple(
+            each for placed in fields if placed.shown in tally.fields for each in placed.opinions
+        ),
     )
 
 

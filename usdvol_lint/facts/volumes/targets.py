@@ -52,6 +52,11 @@ class Target(NamedTuple):
         return str(self.prim.GetTypeName()) if self.prim else ""
 
     @property
+    def reason(self) -> Any:
+        """What explains the state: that prim, or the pair of it and the metadata that says so."""
+        return (self.blamed, "active") if self.state is TargetState.INACTIVE else self.blamed
+
+    @property
     def blamed_path(self) -> str:
         """The path of the prim that explains the state."""
         return self.shown if self.blamed is self.prim else shown(self.blamed).path

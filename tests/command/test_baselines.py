@@ -1,0 +1,127 @@
+"""Baselines as users meet them: options, exit codes, configuration, and what is said."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from process import ONLY_STUDIO, STUDIO, Ran, run, volume, write
+
+ROOTED = f"root = '.'\npacks = ['{STUDIO.as_posix()}']\nselect = ['STU']\nbaseline = 'b.jsonl'\n"
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Path:
+    """A folder with two stages, and with a configuration that names a baseline."""
+    write(tmp_path, fog=volume("fog"), smoke=volume("smoke"))
+    (tmp_path / "usdvol-lint.toml").write_text(ROOTED, encoding="utf-8")
+    return tmp_path
+
+
+def test_a_library_is_adopted(library: Path) -> None:
+    """The finding of today is known tomorrow, from any folder; a new stage over it is not."""
+    assert run(".", "--no-baseline", cwd=library).code == 1
+    ran = run("--write-baseline", "b.jsonl", ".", cwd=library)
+    assert (ran.code, ran.err) == (0, "")
+    assert len((library / "b.jsonl").read_text("utf-8").splitlines()) == 1 + len(states(library))
+    assert run(".", cwd=library).code == 0
+    assert run(library, cwd=write(library / "sub")).code == 0
+    assert set(states(library)) == {"known"}
+
+    write(library / "sub", mist=volume("mist"))
+    assert run(".", cwd=library).code == 1
+    assert run("--write-baseline", "b.jsonl", "sub", cwd=library).code == 0
+    assert run(".", cwd=library).code == 0, "what sub does not cover was kept"
+
+
+def states(library: Path) -> list[str]:
+    ran = run(".", "--output-format", "json", cwd=library)
+    return [cause["state"] for cause in ran.json["causes"]]
+
+
+def test_what_is_gone_is_told_and_pruned(library: Path) -> None:
+    run("--write-baseline", "b.jsonl", ".", cwd=library)
+    (library / "smoke.usda").unlink()
+    assert run(".", cwd=library).code == 0
+    assert run(".", "--fail-on-unpruned", cwd=library).code == 1
+    ran = run("fog.usda", "--prune-baseline", cwd=library)
+    assert (ran.code, ran.err) == (
+        2,
+        "usdvol-lint: error: --prune-baseline: this run sees less than b.jsonl has: "
+        "not checked: .\n",
+    )
+    assert run("fog.usda", "--fail-on-unpruned", cwd=library).code == 0
+    assert run(".", "--prune-baseline", cwd=library).code == 0
+    assert run(".", "--fail-on-unpruned", cwd=library).code == 0
+
+
+def test_a_stage_that_cannot_be_read_stays_red(library: Path) -> None:
+    (library / "broken.usda").write_text("nonsense", encoding="utf-8")
+    ran = run("--write-baseline", "b.jsonl", ".", cwd=library)
+    assert ran.code == 2
+    assert ran.err == (
+        "usdvol-lint: error: b.jsonl is written, but it can't hold broken.usda (LNT001): "
+        "mend it, or put it into `exclude`\n"
+    )
+    assert run(".", cwd=library).code == 2
+    assert run("fog.usda", "smoke.usda", cwd=library).code == 0
+
+
+def test_a_report_is_a_baseline(library: Path) -> None:
+    report = ("--no-baseline", "--output-format", "json", "--output", "r.json")
+    assert run(".", *report, cwd=library).code == 1
+    assert json.loads((library / "r.json").read_text("utf-8"))["schema_version"].startswith("2.")
+    assert run(".", "--baseline", "r.json", cwd=library).code == 0
+    (library / "smoke.usda").unlink()
+    assert run(".", "--baseline", "r.json", "--fail-on-unpruned", cwd=library).code == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--baseline", "a", "--no-baseline"], "--baseline and --no-baseline exclude each other"),
+        (["--prune-baseline"], "--prune-baseline needs a baseline: name it with --baseline FILE"),
+        (
+            ["--fail-on-unpruned"],
+            "--fail-on-unpruned needs a baseline: name it with --baseline FILE",
+        ),
+        (["--moved", "a=b"], "--moved needs a baseline: name it with --baseline FILE"),
+        (["--baseline", ""], "--baseline must be a text, not ''"),
+        (
+            ["--baseline", "gone"],
+            "gone: there is no such baseline; --write-baseline gone writes one",
+        ),
+        (
+            ["--baseline", "fog.usda"],
+            "fog.usda:1: no JSON, as a baseline is: Expecting value (column 1)",
+        ),
+        (["--write-baseline", "."], "--write-baseline .: this is no file, name one"),
+        (
+            ["--baseline", "fog.usda", "--moved", "a"],
+            "--moved a: write it as OLD=NEW, such as assets/smoke=lib/smoke",
+        ),
+        (
+            ["--write-baseline", "b.jsonl"],
+            '--write-baseline b.jsonl: there is no root that layers go by: set `root = "."` '
+            "in a usdvol-lint.toml, or --root FOLDER",
+        ),
+    ],
+)
+def test_what_is_asked_for_wrongly(
+    arguments: list[str], said: str, tool: Callable[..., Ran], two: Path
+) -> None:
+    ran = tool(*ONLY_STUDIO, *arguments, "fog.usda")
+    assert ran.code == 2
+    assert ran.out == ""
+    assert ran.err.splitlines()[-1].removeprefix("usdvol-lint: ").lower() == (
+        f"error: {said}".lower()
+    )
+
+
+def test_another_root(library: Path) -> None:
+    run("--write-baseline", "b.jsonl", ".", cwd=library)
+    ran = run("--root", "..", ".", cwd=library)
+    assert ran.code == 2
+    assert ": leave out --root, or write it anew" in ran.err

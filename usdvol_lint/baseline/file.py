@@ -1,0 +1,162 @@
+"""A baseline as a file: a line that says what the run was, and one for each cause."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from usdvol_lint import __version__
+from usdvol_lint.baseline.entry import (
+    Entry,
+    by_fingerprint,
+    checked,
+    entry_as_json,
+    entry_from_json,
+)
+from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
+from usdvol_lint.baseline.scope import Scope, arguments_from_json, scope_as_json, scope_from_json
+from usdvol_lint.baseline.values import line_of, string, table_of, value_of
+from usdvol_lint.model import UsageError
+from usdvol_lint.paths import canonical
+from usdvol_lint.words import quoted
+
+FORMAT_KEY = "usdvol_lint_baseline"
+FORMAT = 1
+_CONFLICT = ("<<<<<<<", "|||||||", "=======", ">>>>>>>")
+
+
+class Baseline(NamedTuple):
+    """What a file holds.
+
+    `root` is the folder that its layers go by; None for a report, which holds on any machine, and
+    where there is none, as `has_root` says.
+    """
+
+    file: str
+    root: str | None
+    scope: Scope
+    entries: Mapping[str, Entry]
+    has_root: bool = True
+    is_report: bool = False
+
+
+def read_lines(file: str, text: str) -> Baseline:
+    """The baseline in a text of JSON Lines; raises UsageError with the number of the line."""
+    first: dict[str, Any] = {}
+    entries = []
+    lines = text.split("\n")
+    for number, line in enumerate(lines, 1):
+        if not line.strip():
+            continue
+        where = f"{file}:{number}"
+        table = _object(where, line, is_cut=number == len(lines))
+        if FORMAT_KEY in table:
+            _check_first(where, table, first)
+            first = first or table
+        elif not first:
+            raise UsageError(f"{where}: no line above says what the run was: {_ANEW}")
+        else:
+            entries.append(checked(where, entry_from_json(where, table, table)))
+    if not first:
+        raise UsageError(f"{file}:1: no baseline, there is nothing in it")
+    return _baseline(file, first, entries)
+
+
+_ANEW = "write the baseline anew"
+
+
+def _object(where: str, line: str, is_cut: bool) -> dict[str, Any]:
+    if line.startswith(_CONFLICT):
+        hint = "keep the entries of both sides, and one first line"
+        raise UsageError(f"{where}: a conflict of a merge, {quoted(line[:40].strip())}: {hint}")
+    try:
+        value = value_of(line)
+    except ValueError as error:
+        cut = "; cut off, as the last line is not whole" if is_cut else ""
+        raise UsageError(f"{where}: no JSON, as a baseline is: {error}{cut}") from None
+    if not isinstance(value, dict):
+        raise UsageError(f"{where}: no entry of a baseline: it must be an object")
+    return value
+
+
+def _check_first(where: str, line: dict[str, Any], other: dict[str, Any]) -> None:
+    check_version(where, line, FORMAT_KEY, FORMAT, "a baseline of format")
+    check_version(
+        where, line, "fingerprint_version", FINGERPRINT_VERSION, "fingerprints of version"
+    )
+    if other and line != other:
+        hint = "keep that of the run that looked at more"
+        raise UsageError(f"{where}: a second first line, which differs from the first: {hint}")
+
+
+def check_version(where: str, table: Mapping[str, Any], key: str, ours: int, what: str) -> None:
+    """Raises UsageError for a number that is not ours."""
+    theirs = table.get(key)
+    if type(theirs) is not int or theirs != ours:
+        shown = quoted(str(theirs)[:40])
+        raise UsageError(f"{where}: {what} {shown}, this version reads {ours}: {_ANEW}")
+
+
+def _baseline(file: str, first: dict[str, Any], entries: list[Entry]) -> Baseline:
+    where = f"{file}:1"
+    root = root_from(file, string(where, first, "root"))
+    if not os.path.isdir(root):
+        raise UsageError(f"{where}: its root is {quoted(root)}, and there is no such folder")
+    settings = table_of(where, first, "settings")
+    scope = scope_from_json(where, settings, arguments_from_json(where, first))
+    return Baseline(file, root, scope, by_fingerprint(entries))
+
+
+def root_from(file: str, relative: str) -> str:
+    """The folder that a path in a file leads to from there."""
+    return canonical(os.path.join(os.path.dirname(os.path.realpath(file)), relative))
+
+
+def root_in(file: str, root: str) -> str:
+    """A folder in relation to that of a file."""
+    folder = os.path.dirname(os.path.realpath(file))
+    try:
+        return os.path.relpath(os.path.realpath(root), folder).replace(os.sep, "/")
+    except ValueError:  # another drive
+        return root
+
+
+def as_text(baseline: Baseline) -> str:
+    """The lines of a baseline, which are the same for the same causes."""
+    first = {
+        FORMAT_KEY: FORMAT,
+        "fingerprint_version": FINGERPRINT_VERSION,
+        "tool": __version__,
+        "root": root_in(baseline.file, baseline.root or "."),
+        **scope_as_json(baseline.scope),
+    }
+    ordered = sorted(baseline.entries.items())
+    lines = (first, *(entry_as_json(entry) for _, entry in ordered))
+    return "".join(f"{line_of(line)}\n" for line in lines)
+
+
+def write_baseline(baseline: Baseline) -> None:
+    """Writes a file, or leaves the one that is there; raises OSError."""
+    target = Path(os.path.realpath(baseline.file))
+    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+    try:
+        with temporary.open("wb") as stream:
+            stream.write(as_text(baseline).encode("utf-8"))
+            stream.flush()
+            os.fsync(stream.fileno())  # some disks are full only here
+        temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def check_writable(option: str, file: Path) -> None:
+    """Raises UsageError, before any work, where a file can't be written."""
+    target = Path(os.path.realpath(file))
+    if target.exists() and not target.is_file():
+        raise UsageError(f"{option}: this is no file, name one")
+    if not target.parent.is_dir():
+        raise UsageError(f"{option}: there is no folder {file.parent}")
+    if not os.access(target.parent, os.W_OK):
+        raise UsageError(f"{option}: no permission to write there")

@@ -1,0 +1,89 @@
+"""The arcs that bring opinions from one layer stack into another, on the way to the stage."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+from pxr import Pcp
+
+from usdvol_lint.facts.usd.nodes import nodes_of
+
+FIELDS_OF_ARCS = {
+    Pcp.ArcTypeInherit: "inheritPaths",
+    Pcp.ArcTypeVariant: "variantSetNames",
+    Pcp.ArcTypeRelocate: "relocates",
+    Pcp.ArcTypeReference: "references",
+    Pcp.ArcTypePayload: "payload",
+    Pcp.ArcTypeSpecialize: "specializes",
+}
+"""The kinds of arcs, the strongest first, and the field of a spec that holds them."""
+
+
+class Crossing(NamedTuple):
+    """An arc into another layer stack: its node there, and the node that it was authored at."""
+
+    node: Any
+    source: Any
+
+    @property
+    def spec(self) -> Any | None:
+        """The strongest spec that holds the arc."""
+        path, key = self.node.GetIntroPath(), FIELDS_OF_ARCS.get(self.node.arcType, "")
+        specs = (layer.GetPrimAtPath(path) for layer in self.source.layerStack.layers)
+        return next((spec for spec in specs if spec and spec.HasInfo(key)), None)
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """What is the same of this arc for all prims that it brings."""
+        return str(self.node.GetIntroPath()), root_layer(self.node).identifier
+
+
+def node_of(prim: Any, spec: Any) -> Any | None:
+    """The node of a prim that a spec, of it or a property, is in; None for one in value clips."""
+    path = path_of_prim(spec)
+    for node in nodes_of(prim.GetPrimIndex()):
+        if node.path == path and spec.layer in node.layerStack.layers:
+            return node
+    return None
+
+
+def node_above(prim: Any, spec: Any) -> Any | None:
+    """The node of a prim that a spec is in, or lies below."""
+    for node in nodes_of(prim.GetPrimIndex()):
+        if spec.path.HasPrefix(node.path) and spec.layer in node.layerStack.layers:
+            return node
+    return None
+
+
+def path_of_prim(spec: Any) -> Any:
+    """The path of the prim of a spec, with the variants that it stands in."""
+    path = spec.path
+    return path.GetPrimOrPrimVariantSelectionPath() if path.pathElementCount else path
+
+
+def from_root(node: Any) -> Iterator[Any]:
+    """The nodes from the root to this one, without the root."""
+    if not node.IsRootNode():
+        yield from from_root(node.parent)
+        yield node
+
+
+def crossings(node: Any) -> Iterator[Crossing]:
+    """The arcs into other layer stacks that lead from the root to a node, in this order."""
+    for each in from_root(node):
+        if root_layer(each) != root_layer(each.parent):
+            yield Crossing(each, each.parent)
+
+
+def root_layer(node: Any) -> Any:
+    """The root layer of the layer stack that a node is in."""
+    return node.layerStack.identifier.rootLayer
+
+
+def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
+    """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
+    for node in nodes_of(prim.GetPrimIndex()):
+        if layer in node.layerStack.layers:
+            return next((each.spec for each in list(crossings(node))[::-1] if is_it(each)), None)
+    return None
