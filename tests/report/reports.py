@@ -217,6 +217,7 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
             "baseline": None,
         },
         root="/studio",
+        arguments=("shots",),
         stages=tuple(gathered.stage(*each, numbers) for each in enumerate(stages)),
         causes=causes,
         run=RunInfo(
@@ -291,8 +292,8 @@ NO_READER = found(
     "usd-too-old",
     Severity.WARNING,
     "OpenUSD 25.5 knows no particle fields",
-    Site(None),
-)
+    Site("assets/tank.usda", line=1, column=1),
+)._replace(source=Source(None, subject="usd-core"))
 
 
 KNOWN = found(

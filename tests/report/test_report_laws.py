@@ -36,7 +36,7 @@ TIMES = st.lists(
 LINES = st.none() | st.integers(1, 10**6)
 SITES = st.builds(
     Site,
-    layer=st.none() | ANYTHING,
+    layer=ANYTHING,
     prim=st.none() | ANYTHING,
     property=st.none() | ANYTHING,
     variant=st.none() | ANYTHING,

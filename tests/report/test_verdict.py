@@ -142,10 +142,28 @@ def beside(**changes: Any) -> Report:
         ({"gone": ("a",)}, "1 entry of the baseline is gone: --prune-baseline removes it; "),
         ({"gone": ("a",) * 5}, "5 entries of the baseline are gone: --prune-baseline removes them"),
         ({"partial": "it lacks shots/b.usda"}, ""),
-        ({"written": True, "gone": ("a",)}, "1 entry written to usdvol-lint-baseline.jsonl; "),
+        (
+            {"written": True, "gone": ("a",)},
+            "1 entry written to usdvol-lint-baseline.jsonl, without 1 that is gone; ",
+        ),
+        (
+            {"written": True, "gone": ("a", "b")},
+            "1 entry written to usdvol-lint-baseline.jsonl, without 2 that are gone; ",
+        ),
+        ({"written": True, "gone": ()}, "1 entry written to usdvol-lint-baseline.jsonl; "),
         ({"written": True, "entries": 12}, "12 entries written to usdvol-lint-baseline.jsonl; "),
     ],
-    ids=["not-known", "none", "one", "five", "partial", "written-one", "written"],
+    ids=[
+        "not-known",
+        "none",
+        "one",
+        "five",
+        "partial",
+        "pruned-one",
+        "pruned-two",
+        "written-one",
+        "written",
+    ],
 )
 def test_entries_that_are_gone_are_one_phrase(use: dict[str, Any], expected: str) -> None:
     said = verdict(beside(**use), Options())

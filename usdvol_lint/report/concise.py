@@ -35,7 +35,8 @@ def _parts(
 ) -> Iterator[str]:
     site, severity = one.finding.site, one.first.severity
     rule = f"{printable(one.finding.code)} {severity.label}"
-    yield f"{location(site) or 'usdvol-lint'}:"
+    is_of_a_layer = one.first.source.layer is not None
+    yield f"{location(site) if is_of_a_layer else 'usdvol-lint'}:"
     yield paint(rule, SEVERITY_STYLES[severity], options.color)
     if site.prim or site.property:
         yield f"<{printable(_object_path(site))}>"
@@ -46,7 +47,7 @@ def _parts(
     yield message(one, options.verbose)
     if more := sum(cause.count - 1 for cause in one.causes):
         yield f"(+{count(more, 'place')})"
-    if site.layer is not None and site.layer != stage and absolute(site.layer) != absolute(stage):
+    if is_of_a_layer and site.layer != stage and absolute(site.layer) != absolute(stage):
         yield f"(in {printable(stage)})"
     yield from _state(one)
 

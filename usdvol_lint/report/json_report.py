@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import PurePath
 from typing import Any, TypeAlias
 
-from usdvol_lint.model import Completion, Cover, Finding, Severity, Site
+from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
 from usdvol_lint.paths import display
 from usdvol_lint.report import Options
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
@@ -69,6 +69,7 @@ def _report(report: Report) -> dict[str, object]:
         },
         "settings": _setting(report.settings),
         "root": report.root,
+        "arguments": report.arguments,
         "partial": False,
         "summary": _summary(report.summary),
         "baseline": report.baseline and _baseline(report.baseline),
@@ -148,7 +149,7 @@ def _completion(completion: Completion) -> dict[str, object]:
 
 def _cause(cause: Cause, covers: Covers) -> dict[str, object]:
     first = cause.places[0].finding
-    site, source = first.site, cause.source
+    site = first.site
     return {
         "fingerprint": cause.fingerprint,
         "code": first.code,
@@ -162,17 +163,22 @@ def _cause(cause: Cause, covers: Covers) -> dict[str, object]:
         "help": first.help,
         "cover": covers(cause.cover),
         "fold": first.fold,
-        "source": {
-            "layer": source.layer,
-            "path": source.path,
-            "property": source.property,
-            "subject": source.subject,
-            "line": site.line,
-            "column": site.column,
-        },
+        "source": _source(cause.source, site),
         "excerpt": _excerpt(site),
         "count": cause.count,
         "places": [_place(place, first) for place in cause.places],
+    }
+
+
+def _source(source: Source, site: Site) -> dict[str, object]:
+    is_of_a_layer = source.layer is not None
+    return {
+        "layer": source.layer,
+        "path": source.path,
+        "property": source.property,
+        "subject": source.subject,
+        "line": site.line if is_of_a_layer else None,
+        "column": site.column if is_of_a_layer else None,
     }
 
 

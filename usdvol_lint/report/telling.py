@@ -100,7 +100,7 @@ def message(one: Told, every: bool) -> str:
 
 def _place(finding: Finding) -> str:
     site = finding.site
-    return f"<{printable(site.prim)}>" if site.prim else printable(site.layer or "this machine")
+    return f"<{printable(site.prim)}>" if site.prim else printable(site.layer)
 
 
 def elsewhere(one: Told, report: Report, every: bool) -> str:

@@ -103,8 +103,8 @@ def _told(one: Told, report: Report, indent: str, options: Options) -> Iterator[
     style = SEVERITY_STYLES[cause.severity]
     yield _labelled(label, message(one, options.verbose), style, indent, options)
     indent += "  "
-    if where := location(finding.site):
-        yield f"{indent}{paint('-->', 'blue', options.color)} {where}"
+    if cause.source.layer is not None:
+        yield f"{indent}{paint('-->', 'blue', options.color)} {location(finding.site)}"
     if where := ", ".join(_where(finding.site)):
         yield _labelled("at", where, "blue", indent, options)
     if others := elsewhere(one, report, options.verbose):
@@ -134,9 +134,7 @@ def _shortened(suggestion: str) -> str:
 
 
 def location(site: Site) -> str:
-    """`layer:line:column`, without those that are None; empty where the machine is to blame."""
-    if site.layer is None:
-        return ""
+    """`layer:line:column`, without those that are None."""
     parts = [printable(site.layer)]
     if site.line is not None:
         parts.append(str(site.line))

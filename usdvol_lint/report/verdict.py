@@ -68,11 +68,15 @@ def _uncounted(summary: Summary) -> str:
 
 def _baseline(use: BaselineUse) -> Iterator[str]:
     if use.written:
-        yield f"{count(use.entries, 'entry')} written to {printable(use.path)}"
+        without = f", without {len(use.gone):,} that {_are_gone(use.gone)}" if use.gone else ""
+        yield f"{count(use.entries, 'entry')} written to {printable(use.path)}{without}"
     elif use.gone:
-        verb, them = ("is", "it") if len(use.gone) == 1 else ("are", "them")
-        entries = count(len(use.gone), "entry")
-        yield f"{entries} of the baseline {verb} gone: --prune-baseline removes {them}"
+        entries, them = count(len(use.gone), "entry"), "it" if len(use.gone) == 1 else "them"
+        yield f"{entries} of the baseline {_are_gone(use.gone)}: --prune-baseline removes {them}"
+
+
+def _are_gone(entries: Sequence[str]) -> str:
+    return "is gone" if len(entries) == 1 else "are gone"
 
 
 def _checked_counts(stats: Mapping[str, int]) -> str:
