@@ -38,6 +38,13 @@ class Ran:
     def json(self) -> Any:
         return json.loads(self.out)
 
+    @property
+    def stages(self) -> list[dict[str, Any]]:
+        """The stages of a JSON report, each with its `findings`."""
+        from stages import by_stage
+
+        return by_stage(self.json)
+
 
 def environment(**changes: str) -> dict[str, str]:
     """What the tool sees of the world: nothing that changes its colours or its imports."""

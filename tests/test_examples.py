@@ -162,8 +162,8 @@ def test_rule_pack_of_the_guide_works(tmp_path: Path) -> None:
     (tmp_path / "usdvol-lint.toml").write_text(settings, encoding="utf-8")
     shot = os.path.relpath(ROOT / "docs" / "examples" / "shot" / "assets", tmp_path)
     done = run("--output-format", "json", shot, folder=tmp_path)
-    (stage,) = json.loads(done.stdout)["stages"]
-    assert {(f["code"], f["message"]) for f in stage["findings"]} == {
+    causes = json.loads(done.stdout)["causes"]
+    assert {(cause["code"], cause["message"]) for cause in causes} == {
         ("PIP001", "'../cache/puff.0008.vdb' lies outside '/mnt/caches/'")
     }
 

@@ -119,9 +119,7 @@ def test_what_a_plugin_declares_is_believed(tmp_path: Path) -> None:
     )
     report = json.loads(run.stdout)
     found = [
-        (finding["code"], finding["prim"], finding["message"])
-        for stage in report["stages"]
-        for finding in stage["findings"]
+        (cause["code"], cause["places"][0]["prim"], cause["message"]) for cause in report["causes"]
     ]
     assert found == [
         (

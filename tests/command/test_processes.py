@@ -44,9 +44,9 @@ def test_the_same_bytes_for_any_number_of_jobs(tmp_path: Path) -> None:
     for jobs in ("1", "1", "2", "4"):
         ran = run(*arguments, "-j", jobs, "--output-format", "json", "stages", cwd=tmp_path)
         assert (ran.code, ran.err) == (2, "")
-        outputs.add(re.sub(r'"seconds": [\d.e-]+', '"seconds": 0', ran.out))
+        outputs.add(re.sub(r'^  "run": .*$', "", ran.out, flags=re.MULTILINE))
     (output,) = outputs
-    summary = json.loads(output)["summary"]
+    summary = json.loads(output.rpartition(",")[0] + "}")["summary"]
     assert summary["by_status"] == {"checked": 10, "crashed": 1, "unreadable": 3}
     assert summary["by_code"] == {
         "LNT001": 4, "LNT002": 1, "RGH001": 9, "STU001": 7, "STU002": 10,

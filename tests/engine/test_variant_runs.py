@@ -143,8 +143,9 @@ def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ran = tool("--variants", "all")
     assert ran.code == 1
     assert "at filePath, variant /model{look=thin}" in ran.out
-    report: Any = tool("--variants", "all", "--output-format", "json").json
-    (finding,) = report["stages"][0]["findings"]
+    ran = tool("--variants", "all", "--output-format", "json")
+    report: Any = ran.json
+    (finding,) = ran.stages[0]["findings"]
     assert finding["variant"] == "/model{look=thin}"
     assert (report["settings"]["variants"], report["settings"]["variant_limit"]) == ("all", 100)
     (tmp_path / "usdvol-lint.toml").write_text(

@@ -94,7 +94,7 @@ def test_an_installed_pack(show: Path, tmp_path: Path) -> None:
 def test_options_reach_the_rule(options: str, found: str | None, show: Path) -> None:
     configure(show, f"packs = ['{STUDIO}']\nselect = ['STU001']\n[options.volume-name]\n{options}")
     ran = run("--output-format", "json", ".", cwd=show)
-    messages = [f["message"] for stage in ran.json["stages"] for f in stage["findings"]]
+    messages = [f["message"] for stage in ran.stages for f in stage["findings"]]
     assert messages == ([found] if found else [])
 
 

@@ -40,7 +40,7 @@ def findings(
     )
     return ran.code, [
         (each["code"], each["prim"], each["message"], tuple(each["times"]))
-        for stage in ran.json["stages"]
+        for stage in ran.stages
         for each in stage["findings"]
     ]
 
@@ -129,7 +129,7 @@ def test_an_interrupt_that_a_rule_raises_is_its_own(rule: str, said: str, tmp_pa
     )
     stages = write(tmp_path / "stages", one=volume("a"))
     ran = run("--isolated", "--pack", tmp_path, "--output-format", "json", stages, cwd=tmp_path)
-    [stage] = ran.json["stages"]
+    [stage] = ran.stages
     assert (ran.code, stage["status"]) == (2, "checked")
     assert f"{said}KeyboardInterrupt: stop" in [each["message"] for each in stage["findings"]]
 
@@ -194,7 +194,7 @@ def test_types_that_only_a_plugin_has(
         *(f"-j{jobs}", stages),
         cwd=tmp_path,
     )
-    [[found], []] = [stage["findings"] for stage in ran.json["stages"]]
+    [[found], []] = [stage["findings"] for stage in ran.stages]
     assert (ran.code, found["code"], found["severity"]) == (0, "LNT005", "info")
     assert found["message"] == (
         f"rule FLT001 (faulty) looked at nothing: no schema that is installed here {message}"

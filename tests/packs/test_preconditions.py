@@ -79,7 +79,7 @@ def test_a_precondition_that_fails_is_one_finding_in_a_run(
     ran = run(*chosen, "--output-format", "json", f"-j{jobs}", ".", cwd=stages)
     found = {
         report["path"]: [(each["code"], each["prim"], each["message"]) for each in found_in(report)]
-        for report in ran.json["stages"]
+        for report in ran.stages
     }
     failed = (
         "the precondition of rule WHN001 (seen) failed, so the rule looked at every prim that it "

@@ -10,26 +10,60 @@ from typing import Any
 from process import ROOT
 
 from usdvol_lint.model import (
+    Cover,
+    Excerpt,
     Finding,
     ParticleFieldStats,
-    Report,
     Severity,
     Site,
+    Source,
     StageReport,
     Status,
 )
 from usdvol_lint.report.json_report import SCHEMA_VERSION
+from usdvol_lint.results import BaselineUse, Report, RunInfo, State
+from usdvol_lint.run.causes import Causes
 
 SCHEMA: dict[str, Any] = json.loads(
     (ROOT / f"usdvol_lint/report/report-{SCHEMA_VERSION}.schema.json").read_text(encoding="utf-8")
 )
+
+
+def strict(schema: Any) -> Any:
+    """The schema with every object closed: what is not described there fails."""
+    if isinstance(schema, list):
+        return list(map(strict, schema))
+    if not isinstance(schema, dict):
+        return schema
+    closed = {"additionalProperties": False} if "required" in schema else {}
+    return {**{key: strict(value) for key, value in schema.items()}, **closed}
+
+
+STRICT: dict[str, Any] = strict(SCHEMA)
 
 HELP = "https://example.org/rules"
 
 LONG_FOLDER = "projects/feature/sequences/sq010/shots/sq010_sh0420/effects/pyro/publish/v0017"
 LONG_PRIM = "/World/Effects/Pyro/Explosion_Main/Debris_Trails/Trail_0042/Simulation/Cache/Volume"
 
-MISSING = Finding(
+
+def found(
+    code: str,
+    name: str,
+    severity: Severity,
+    message: str,
+    site: Site,
+    cover: Cover | None = None,
+    **more: Any,
+) -> Finding:
+    """A finding that is to blame on what stands where it is seen."""
+    source = Source(site.layer, site.prim, site.property)
+    return Finding(
+        code, name, severity, message, site, source, cover or Cover(severity, site.times), **more
+    )
+
+
+MISSING = found(
     code="AST002",
     name="file-missing",
     severity=Severity.ERROR,
@@ -41,10 +75,10 @@ MISSING = Finding(
         line=31,
         column=12,
         times=(102.0, 103.0, 104.0, 117.0),
+        excerpt=Excerpt("asset filePath.timeSamples = {", 7),
     ),
     suggestion="render the missing frames, or end the clip at frame 101",
     help=f"{HELP}/file-missing",
-    fingerprint="0123456789abcdef",
 )
 
 SMOKE = StageReport(
@@ -58,7 +92,7 @@ SMOKE = StageReport(
         "files_checked": 31204,
     },
     findings=(
-        Finding(
+        found(
             code="STG004",
             name="units-unsaid",
             severity=Severity.WARNING,
@@ -79,10 +113,16 @@ SMOKE = StageReport(
                 times=(101.5,),
                 variant="{quality=high}",
             ),
+            source=Source(
+                f"{LONG_FOLDER}/smoke_payload.usda",
+                "/Smoke{quality=high}density",
+                "fieldName",
+            ),
+            cover=Cover(Severity.ERROR, (101.5,)),
             suggestion=None,
             help=None,
         ),
-        Finding(
+        found(
             code="FLD003",
             name="field-unused",
             severity=Severity.INFO,
@@ -91,7 +131,7 @@ SMOKE = StageReport(
             suggestion=f"bind it to a volume or remove it: {LONG_PRIM} holds 24 fields more, and "
             "each of them costs time",
         ),
-        Finding(
+        found(
             code="ARR001",
             name="not-finite",
             severity=Severity.ERROR,
@@ -115,7 +155,7 @@ HOSTILE = StageReport(
     status=Status.CHECKED,
     stats={"prims": 1},
     findings=(
-        Finding(
+        found(
             code="SCH001",
             name="odd-name",
             severity=Severity.ERROR,
@@ -137,7 +177,7 @@ CRASHED = StageReport(
     path="shots/crash.usd",
     status=Status.CRASHED,
     findings=(
-        Finding(
+        found(
             code="LNT001",
             name="rule-failed",
             severity=Severity.ERROR,
@@ -155,7 +195,15 @@ TIMED_OUT = StageReport(path="shots/endless.usdc", status=Status.TIMED_OUT)
 UNREADABLE = StageReport(path="shots/broken.usdz", status=Status.UNREADABLE)
 
 
-def report(*stages: StageReport) -> Report:
+def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Report:
+    """The report on these stages, whose causes carry at most so many places.
+
+    `states` are fields of causes, by their code.
+    """
+    gathered = Causes(most=most)
+    for number, stage in enumerate(stages):
+        gathered.add(number, stage.path, enumerate(stage.findings))
+    causes, numbers = gathered.result()
     return Report(
         version="0.1.0",
         usd_version="0.26.8",
@@ -168,9 +216,18 @@ def report(*stages: StageReport) -> Report:
             "payloads": True,
             "baseline": None,
         },
-        stages=stages,
-        seconds=1.2345,
-    )
+        root="/studio",
+        arguments=("shots",),
+        stages=tuple(gathered.stage(*each, numbers) for each in enumerate(stages)),
+        causes=causes,
+        run=RunInfo(
+            "2026-11-29T01:30:00Z",
+            ("usdvol-lint", "shots", "-j", "2"),
+            "usdvol-lint.toml",
+            1.2345,
+            2,
+        ),
+    ).with_causes([cause._replace(**states.get(cause.code, {})) for cause in causes])
 
 
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
@@ -198,7 +255,89 @@ FIGURES = report(
     ),
     CLEAN._replace(particle_fields=()),
 )
-INFOS = report(SMOKE._replace(findings=SMOKE.findings[3:4]), CLEAN)
+UNUSED = SMOKE._replace(findings=SMOKE.findings[3:4])
+UNUSED_TOO = UNUSED._replace(
+    findings=tuple(each._replace(source=Source("other.usda")) for each in UNUSED.findings)
+)
+INFOS = report(UNUSED, CLEAN)
+
+
+def shown_on(stage: str, finding: Finding, *prims: str | None) -> StageReport:
+    """A stage that shows one and the same mistake at these prims."""
+    findings = (finding._replace(site=finding.site._replace(prim=prim)) for prim in prims)
+    return StageReport(f"shots/{stage}.usda", Status.CHECKED, {"volumes": 1}, tuple(findings))
+
+
+TANK = found(
+    "AST002",
+    "file-missing",
+    Severity.ERROR,
+    "no file at './tank.0003.vdb' (1 of 8 samples)",
+    Site("assets/tank.usda", "/Tank/fire", "filePath", None, 24, 20, (3.0,)),
+)
+"""A mistake in an asset; who uses it shows it."""
+NO_EXTENTS = tuple(
+    found(
+        "SCH007",
+        "extent-missing",
+        Severity.WARNING,
+        "no extent, so USD takes the bounds for empty",
+        Site("assets/tank.usda", f"/Tank/smoke{number}", line=40 + number, column=5),
+        fold="Volume",
+    )
+    for number in range(5)
+)
+NO_READER = found(
+    "LNT004",
+    "usd-too-old",
+    Severity.WARNING,
+    "OpenUSD 25.5 knows no particle fields",
+    Site("assets/tank.usda", line=1, column=1),
+)._replace(source=Source(None, subject="usd-core"))
+
+
+KNOWN = found(
+    "VOL001",
+    "target-missing",
+    Severity.ERROR,
+    "'field:density' targets </World/Old/density>, and there is no such prim",
+    Site("shots/sh010.usda", "/World/Old", "field:density", line=7, column=9),
+)
+EXCUSED = found(
+    "AST018",
+    "frame-gap",
+    Severity.WARNING,
+    "no file for frame 12, between frames that have one",
+    Site("shots/sh020.usda", "/World/Late", "filePath", line=12, column=9, times=(12.0,)),
+)
+STATES: dict[str, dict[str, Any]] = {
+    "AST002": {
+        "state": State.WORSE,
+        "was": TANK.cover,
+        "cover": Cover(Severity.ERROR, (3.0, 7.0, 8.0, 9.0)),
+    },
+    "VOL001": {"state": State.KNOWN},
+    "AST018": {"state": State.SUPPRESSED, "reason": "late frames come from the farm, JIRA-1"},
+}
+
+ASSET = StageReport(
+    "assets/tank.usda", Status.CHECKED, {"volumes": 5}, (NO_READER, TANK, *NO_EXTENTS)
+)
+SHOTS = [
+    shown_on(f"sh{number:03}", TANK, "/World/Left/fire", "/World/Right/fire")
+    for number in range(10, 60, 10)
+]
+SHOTS[0] = SHOTS[0]._replace(findings=(*SHOTS[0].findings, KNOWN))
+SHOTS[1] = SHOTS[1]._replace(findings=(*SHOTS[1].findings, EXCUSED))
+USED = BaselineUse(
+    "usdvol-lint-baseline.jsonl",
+    entries=9,
+    gone=("AST002 assets/old/tank.usda </Tank/fire>",),
+    moved=(("assets/old", "assets"),),
+)
+BY_CAUSE = report(ASSET, *SHOTS, **STATES)._replace(baseline=USED)
+"""An asset that several shots use, beside a baseline, with each state that a cause may have."""
+SHOTS_ALONE = report(*SHOTS)
 
 
 def without_styles(text: str) -> str:

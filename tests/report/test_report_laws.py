@@ -8,20 +8,24 @@ import jsonschema  # type: ignore[import-untyped]
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reports import SCHEMA, without_styles
+from reports import STRICT, report, without_styles
 
 from usdvol_lint.model import (
+    Cover,
+    Excerpt,
     Finding,
     ParticleFieldStats,
-    Report,
     Severity,
     Site,
+    Source,
     StageReport,
     Status,
 )
 from usdvol_lint.report import Options, render
+from usdvol_lint.report.telling import told
+from usdvol_lint.results import BaselineUse, Report, RunInfo, State
 
-VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
+VALIDATOR = jsonschema.Draft202012Validator(STRICT)
 
 ANYTHING = st.text(alphabet=st.characters(categories=None), max_size=20) | st.sampled_from(
     ["", "\x1b[31m", "[red]x[/red]", "a\r\nb", "\u2028", "\x85", "\udcff", "\ud800", "'a b'", "::"]
@@ -40,18 +44,39 @@ SITES = st.builds(
     column=LINES,
     times=TIMES,
     at_default=st.booleans(),
+    excerpt=st.none() | st.builds(Excerpt, ANYTHING, st.integers(1, 200)),
+)
+SOURCES = st.sampled_from([Source(None), Source("a.usda", "/A"), Source("a.usda", "/B")]) | (
+    st.builds(
+        Source,
+        layer=st.none() | ANYTHING,
+        path=st.none() | ANYTHING,
+        property=st.none() | ANYTHING,
+        subject=ANYTHING,
+    )
+)
+COVERS = st.builds(
+    Cover,
+    level=st.sampled_from(Severity),
+    frames=st.none() | TIMES,
+    at_default=st.booleans(),
+    share=st.none() | st.floats(0, 1),
+    elements=st.none() | st.integers(1, 10**9),
 )
 FINDINGS = st.builds(
     Finding,
-    code=ANYTHING,
+    code=st.sampled_from(["AST002", "VOL013"]) | ANYTHING,
     name=ANYTHING,
     severity=st.sampled_from(Severity),
     message=ANYTHING,
     site=SITES,
+    source=SOURCES,
+    cover=COVERS,
     suggestion=st.none() | ANYTHING,
     help=st.none() | ANYTHING,
     detail=st.none() | ANYTHING,
-    fingerprint=ANYTHING,
+    fold=st.sampled_from([None, "one", "other"]),
+    ignored=st.none() | ANYTHING,
 )
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
 CORNERS = st.tuples(NUMBERS, NUMBERS, NUMBERS)
@@ -87,14 +112,48 @@ SETTINGS: st.SearchStrategy[object] = st.recursive(
     ),
     max_leaves=6,
 )
-REPORTS = st.builds(
-    Report,
-    version=ANYTHING,
-    usd_version=st.none() | ANYTHING,
-    settings=st.dictionaries(ANYTHING, SETTINGS, max_size=3),
-    stages=st.lists(STAGES, max_size=3).map(tuple),
-    seconds=st.floats(0, 1e6),
+BASELINES = st.builds(
+    BaselineUse,
+    path=ANYTHING,
+    entries=st.integers(0, 10**6),
+    gone=st.none() | st.lists(ANYTHING, max_size=3).map(tuple),
+    partial=ANYTHING,
+    moved=st.lists(st.tuples(ANYTHING, ANYTHING), max_size=7).map(tuple),
+    written=st.booleans(),
 )
+RUNS = st.builds(
+    RunInfo,
+    date=ANYTHING,
+    command=st.lists(ANYTHING, max_size=3).map(tuple),
+    config_file=st.none() | ANYTHING,
+    seconds=st.floats(0, 1e6),
+    jobs=st.integers(1, 64),
+)
+STATES = st.sampled_from([State.NEW, State.WORSE, State.KNOWN])
+
+
+@st.composite
+def reports(draw: st.DrawFn) -> Report:
+    """Any report, with causes in any state that they may have."""
+    stages = draw(st.lists(STAGES, max_size=4))
+    subject = report(*stages, most=draw(st.integers(1, 3)))
+    causes = [
+        cause._replace(state=draw(STATES), was=draw(st.none() | COVERS))
+        if cause.state is not State.SUPPRESSED
+        else cause
+        for cause in subject.causes
+    ]
+    return subject.with_causes(causes)._replace(
+        version=draw(ANYTHING),
+        usd_version=draw(st.none() | ANYTHING),
+        settings=draw(st.dictionaries(ANYTHING, SETTINGS, max_size=3)),
+        root=draw(st.none() | ANYTHING),
+        run=draw(RUNS),
+        baseline=draw(st.none() | BASELINES),
+    )
+
+
+REPORTS = reports()
 OPTIONS = st.builds(
     Options,
     color=st.booleans(),
@@ -102,9 +161,10 @@ OPTIONS = st.builds(
     quiet=st.booleans(),
     verbose=st.booleans(),
     least=st.sampled_from([Severity.INFO, Severity.WARNING]),
+    show=st.frozensets(st.sampled_from(["info", "known", "suppressed"])),
 )
 
-LAW = settings(deadline=None)
+LAW = settings(deadline=None, max_examples=30)  # a report has many parts, each of them arbitrary
 
 
 @LAW
@@ -114,17 +174,33 @@ def test_json_is_valid_and_says_everything(subject: Report, options: Options) ->
     text.encode("utf-8")
     parsed = json.loads(text, parse_constant=pytest.fail)
     VALIDATOR.validate(parsed)
-    assert [
-        (stage["path"], [(found["message"], found["times"]) for found in stage["findings"]])
-        for stage in parsed["stages"]
-    ] == [
-        (joined(stage.path), [(joined(f.message), list(f.site.times)) for f in stage.findings])
-        for stage in subject.stages
+    assert [stage["path"] for stage in parsed["stages"]] == [
+        joined(stage.path) for stage in subject.stages
     ]
     for said, stage in zip(parsed["stages"], subject.stages, strict=True):
+        assert said["causes"] == list(stage.causes)
         assert ("particle_fields" in said) == (stage.particle_fields is not None)
         numbers = [(each["count"], each["transparent"]) for each in said.get("particle_fields", ())]
         assert numbers == [(each.count, each.transparent) for each in stage.particle_fields or ()]
+    for told_once, cause in zip(parsed["causes"], subject.causes, strict=True):
+        assert told_once["fingerprint"] == cause.fingerprint
+        assert [
+            (
+                place["stage"],
+                place["times"],
+                place.get("message", told_once["message"]),
+                place.get("suggestion", told_once["suggestion"]),
+            )
+            for place in told_once["places"]
+        ] == [
+            (place.stage, list(each.site.times), joined(each.message), maybe(each.suggestion))
+            for place in cause.places
+            for each in [place.finding]
+        ]
+
+
+def maybe(text: str | None) -> str | None:
+    return None if text is None else joined(text)
 
 
 def joined(text: str) -> str:
@@ -134,15 +210,60 @@ def joined(text: str) -> str:
 
 @LAW
 @given(REPORTS, OPTIONS)
-def test_concise_has_one_line_a_finding_that_is_shown(subject: Report, options: Options) -> None:
-    text = render(subject, "concise", options)
-    shown = [
-        finding
-        for stage in subject.stages
-        for finding in stage.findings
-        if options.verbose or finding.severity >= options.least
+def test_json_counts_what_it_lists(subject: Report, options: Options) -> None:
+    """Whoever reads only the lists comes to the same numbers."""
+    parsed = json.loads(render(subject, "json", options))
+    counted = [each for each in parsed["causes"] if each["state"] in ("new", "worse")]
+    for level in ("error", "warning", "info"):
+        number = sum(cause["severity"] == level for cause in counted)
+        assert parsed["summary"][f"{level}s"] == number
+    assert sum(parsed["summary"]["by_code"].values()) == len(counted)
+    assert sum(parsed["summary"]["by_state"].values()) == len(parsed["causes"])
+    showing = [stage for stage in parsed["stages"] if stage["levels"]]
+    assert parsed["summary"]["stages_with_findings"] == len(showing)
+    for number, cause in enumerate(parsed["causes"]):
+        assert 1 <= len(cause["places"]) <= cause["count"]
+        for place in cause["places"]:
+            assert number in parsed["stages"][place["stage"]]["causes"]
+
+
+@LAW
+@given(REPORTS)
+def test_equal_runs_differ_below_run_alone(subject: Report) -> None:
+    other = RunInfo("tomorrow", ("other",), "other.toml", 7.0, 9)
+    stages = tuple(stage._replace(seconds={"open": 5.0}) for stage in subject.stages)
+    again = subject._replace(run=other, stages=stages)
+    one, two = (json.loads(render(each, "json", Options())) for each in (subject, again))
+    assert one.pop("run") != two.pop("run")
+    assert one == two
+
+
+@LAW
+@given(REPORTS, OPTIONS)
+def test_a_cause_is_told_once_and_under_the_first_stage_that_shows_it(
+    subject: Report, options: Options
+) -> None:
+    telling = told(subject, options)
+    where = [
+        (cause.fingerprint, stage)
+        for stage, lines in telling.items()
+        for one in lines
+        for cause in one.causes
     ]
-    assert len(text.splitlines()) == len(shown)
+    expected = [
+        (cause.fingerprint, cause.places[0].stage)
+        for cause in subject.causes
+        if cause.severity >= options.threshold
+        and (cause.state in options.show or cause.state in ("new", "worse"))
+    ]
+    assert sorted(where) == sorted(expected)
+
+
+@LAW
+@given(REPORTS, OPTIONS)
+def test_concise_has_one_line_for_what_is_told_at_once(subject: Report, options: Options) -> None:
+    text = render(subject, "concise", options)
+    assert len(text.splitlines()) == sum(map(len, told(subject, options).values()))
     assert options.color or text.replace("\n", "").isprintable()
     text.encode("utf-8")
 

@@ -95,8 +95,8 @@ def test_a_severity_that_is_set_holds_for_milder_cases_too(tmp_path: Path) -> No
     assert (ran.code, _levels(ran.json)) == (1, ["error"])
 
 
-def _levels(report: dict[str, list[dict[str, list[dict[str, str]]]]]) -> list[str]:
-    return [found["severity"] for stage in report["stages"] for found in stage["findings"]]
+def _levels(report: dict[str, list[dict[str, str]]]) -> list[str]:
+    return [cause["severity"] for cause in report["causes"]]
 
 
 # --- suggestions ---

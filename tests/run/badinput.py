@@ -43,7 +43,7 @@ def troubles(ran: Ran) -> dict[str, tuple[Any, ...]]:
             finding["column"],
             finding["suggestion"],
         )
-        for stage in ran.json["stages"]
+        for stage in ran.stages
         for finding in stage["findings"]
     }
 

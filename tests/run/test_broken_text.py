@@ -89,7 +89,7 @@ def test_broken_text_is_one_finding(tmp_path: Path) -> None:
     options = ("--isolated", "--variants", "all", "--statistics", "--output-format", "json")
     ran = run(*options, ".", cwd=tmp_path)
     assert (ran.code, ran.err) == (2, "")
-    stages = {stage["path"].partition(".")[0]: stage for stage in ran.json["stages"]}
+    stages = {stage["path"].partition(".")[0]: stage for stage in ran.stages}
     assert {stage["status"] for stage in stages.values()} == {"checked", "unreadable"}
     codes = {
         name: Counter(finding["code"] for finding in stage["findings"])

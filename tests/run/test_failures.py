@@ -70,7 +70,7 @@ def test_what_was_found_before_the_end_is_kept(end: str, tmp_path: Path) -> None
     assert set(statuses(ran).values()) == {"timed_out" if end == "hang" else "crashed"}
     found = [
         [(finding["code"], finding["prim"]) for finding in stage["findings"]]
-        for stage in ran.json["stages"]
+        for stage in ran.stages
     ]
     assert found == [[("LNT001", None), ("RGH001", "/v1"), ("RGH001", "/v2")]] * 2
 
@@ -81,7 +81,7 @@ def test_of_many_findings_few_are_lost(tmp_path: Path) -> None:
     (tmp_path / "many.usda").write_text(volume("v") + many + volume("exit")[10:], encoding="utf-8")
     ran = run(*ROUGH_ONLY, "many.usda", cwd=tmp_path)
     assert statuses(ran) == {"many.usda": "crashed"}
-    assert 900 <= len(ran.json["stages"][0]["findings"]) <= 1002
+    assert 900 <= len(ran.stages[0]["findings"]) <= 1002
 
 
 def test_verbose_shows_what_the_process_said(tmp_path: Path) -> None:
@@ -123,7 +123,7 @@ def test_a_rule_that_raises(tmp_path: Path) -> None:
     assert (ran.code, ran.err) == (2, "")
     found = [
         (finding["code"], finding["prim"], finding["line"], finding["message"])
-        for stage in ran.json["stages"]
+        for stage in ran.stages
         for finding in stage["findings"]
     ]
     said = (
@@ -170,7 +170,7 @@ def test_usd_fails_while_rules_read_a_stage(tmp_path: Path) -> None:
     assert (ran.code, ran.err) == (2, "")
     assert [
         (finding["code"], finding["message"], finding["suggestion"])
-        for stage in ran.json["stages"]
+        for stage in ran.stages
         for finding in stage["findings"]
     ] == [
         (

@@ -115,7 +115,7 @@ def test_names_with_brackets(tmp_path: Path) -> None:
     write(tmp_path / "[1]", **{"[2]": volume("fog"), "a[3]b": volume("fog")})
     ran = run(*STUDIO_ONLY, tmp_path, cwd=tmp_path)
     assert set(troubles(ran)) == {"[1]/[2].usda", "[1]/a[3]b.usda"}
-    layers = {f["layer"] for stage in ran.json["stages"] for f in stage["findings"]}
+    layers = {f["layer"] for stage in ran.stages for f in stage["findings"]}
     assert layers == {"[1]/[2].usda", "[1]/a[3]b.usda"}
 
 

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from .batches import Case
 from .judging import Found, misses
+from .shown import by_stage
 
 _OPTIONS = ("--isolated", "--output-format", "json", "--select", "ALL", "--fail-on", "never")
 _SHOWN = 24
@@ -79,7 +80,7 @@ def _interpreter(checkout: Path) -> Path:
 
 def judged(cases: Sequence[Case], report: Any) -> Iterator[str]:
     """Each stage of which something else was found than is expected."""
-    for case, stage in zip(cases, report["stages"], strict=True):
+    for case, stage in zip(cases, by_stage(report), strict=True):
         if case.expected is not None:
             keys = ("code", "severity", "prim", "message")
             found = [Found(*(each[key] for key in keys)) for each in stage["findings"]]
@@ -90,20 +91,18 @@ def judged(cases: Sequence[Case], report: Any) -> Iterator[str]:
 
 def differences(cases: Sequence[Case], ours: Any, theirs: Any) -> Iterator[str]:
     """Each stage, and what is above the stages, in which two reports differ."""
-    ours, theirs = _timeless(ours), _timeless(theirs)
-    pairs = zip(cases, ours.pop("stages"), theirs.pop("stages"), strict=True)
+    pairs = zip(cases, by_stage(ours), by_stage(theirs), strict=True)
     for case, our, their in pairs:
         if our != their:
             yield f"{case.path}  ({case.story})\n{_diff(our, their)}"
+    ours, theirs = _above_stages(ours), _above_stages(theirs)
     if ours != theirs:
         yield f"what the report says above its stages\n{_diff(ours, theirs)}"
 
 
-def _timeless(value: Any) -> Any:
-    """A report without the seconds that it took."""
-    if isinstance(value, dict):
-        return {key: _timeless(each) for key, each in value.items() if key != "seconds"}
-    return [_timeless(each) for each in value] if isinstance(value, list) else value
+def _above_stages(report: Any) -> Any:
+    """What a report says of the run as a whole, without what may differ between equal runs."""
+    return {key: report[key] for key in report.keys() - {"stages", "causes", "run"}}
 
 
 def _diff(ours: Any, theirs: Any) -> str:

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from usdvol_lint.model import Finding, Severity
+from usdvol_lint.model import Severity
 
 if TYPE_CHECKING:
-    from usdvol_lint.model import Report
+    from usdvol_lint.results import Cause, Report
 
 FORMATS: Final[Mapping[str, str]] = {
     "full": "usdvol_lint.report.text",
@@ -23,7 +23,8 @@ class Options(NamedTuple):
     """How to write a report; a format may ignore some of it.
 
     `width` is that of the terminal in cells: with `color`, the text report is wrapped to it.
-    Reports for people have findings from the severity `least` on; `verbose` shows all of them.
+    Reports for people have causes from the severity `least` on; `verbose` shows all of them.
+    What is `known` or `suppressed` is there only where `show` names it.
     """
 
     color: bool = False
@@ -31,10 +32,18 @@ class Options(NamedTuple):
     quiet: bool = False
     verbose: bool = False
     least: Severity = Severity.WARNING
+    show: frozenset[str] = frozenset()
 
-    def shows(self, finding: Finding) -> bool:
-        """Whether a report for people has this finding."""
-        return self.verbose or finding.severity >= self.least
+    @property
+    def threshold(self) -> Severity:
+        """The severity from which on reports for people have a cause."""
+        return Severity.INFO if self.verbose else self.least
+
+    def shows(self, cause: Cause) -> bool:
+        """Whether a report for people has this cause."""
+        if not cause.state.counts and cause.state not in self.show:
+            return False
+        return cause.severity >= self.threshold
 
 
 def render(report: Report, format: str, options: Options) -> str:

@@ -1,20 +1,23 @@
-"""The report for programs: one JSON object that follows `report-1.0.schema.json`."""
+"""The report for programs: one JSON object that follows `report-2.0.schema.json`."""
 
 from __future__ import annotations
 
 import json
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from enum import Enum
+from functools import cache
 from pathlib import PurePath
+from typing import Any, TypeAlias
 
-from usdvol_lint.model import Completion, Finding, Report, Severity, StageReport
+from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
 from usdvol_lint.paths import display
 from usdvol_lint.report import Options
+from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
 
-SCHEMA_VERSION = "1.0"
+SCHEMA_VERSION = "2.0"
 
 # Lone surrogates are not valid UTF-8; a terminal would obey the others instead of showing them.
 _TO_ESCAPE = re.compile(r"[\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff]")
@@ -22,44 +25,111 @@ _TO_ESCAPE = re.compile(r"[\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206
 # Larger whole numbers are inexact in readers that take all JSON numbers for doubles.
 _LARGEST_INTEGER = 2**53
 
+# Indented JSON is written by Python code, which takes ten times as long as what C writes at once:
+# so each stage and each cause is a line.
+_ENCODE = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
+
+_LABELS = {severity: severity.label for severity in Severity}
+
+Covers: TypeAlias = Callable[[Cover], Mapping[str, object]]
+
 
 def render(report: Report, options: Options) -> str:
-    text = json.dumps(_report(report), ensure_ascii=False, allow_nan=False, indent=2)
-    return _TO_ESCAPE.sub(lambda match: f"\\u{ord(match.group()):04x}", text) + "\n"
+    lines = ",\n".join(f"  {_line(key)}: {_value(value)}" for key, value in _report(report).items())
+    return f"{{\n{lines}\n}}\n"
+
+
+def _value(value: object) -> str:
+    """A value on one line, or a list with a line for each item."""
+    if not isinstance(value, list):
+        return _line(value)
+    items = ",\n".join(f"    {_line(item)}" for item in value)
+    return f"[\n{items}\n  ]" if items else "[]"
+
+
+def _line(value: object) -> str:
+    text = _ENCODE(value)
+    if text.isascii() and "\x7f" not in text:
+        return text
+    return _TO_ESCAPE.sub(lambda match: f"\\u{ord(match.group()):04x}", text)
 
 
 def _report(report: Report) -> dict[str, object]:
-    summary = report.summary
+    from usdvol_lint.baseline.cover import cover_as_json
+    from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
+
+    covers: Covers = cache(cover_as_json)
     return {
         "schema_version": SCHEMA_VERSION,
+        "fingerprint_version": FINGERPRINT_VERSION,
         "tool": {
             "name": "usdvol-lint",
             "version": report.version,
             "usd_version": report.usd_version,
         },
         "settings": _setting(report.settings),
-        "summary": {
-            "stages": summary.stages,
-            "errors": summary.errors,
-            "warnings": summary.warnings,
-            "infos": summary.infos,
-            "by_code": summary.by_code,
-            "by_status": summary.by_status,
-        },
-        "stages": [_stage(stage) for stage in report.stages],
+        "root": report.root,
+        "arguments": report.arguments,
+        "partial": False,
+        "summary": _summary(report.summary),
+        "baseline": report.baseline and _baseline(report.baseline),
+        "stages": list(map(_stage, report.stages)),
+        "causes": [_cause(cause, covers) for cause in report.causes],
+        "run": _run(report.run, report.stages),
     }
 
 
-def _stage(stage: StageReport) -> dict[str, object]:
+def _summary(summary: Summary) -> dict[str, object]:
+    return {
+        "stages": summary.stages,
+        "stages_with_findings": summary.stages_with_findings,
+        "errors": summary.errors,
+        "warnings": summary.warnings,
+        "infos": summary.infos,
+        "by_code": summary.by_code,
+        "by_state": summary.by_state,
+        "by_status": summary.by_status,
+    }
+
+
+def _baseline(use: BaselineUse) -> dict[str, object]:
+    return {
+        "path": use.path,
+        "entries": use.entries,
+        "gone": use.gone,
+        "partial": use.partial or None,
+        "moved": [{"old": old, "new": new} for old, new in use.moved],
+        "written": use.written,
+    }
+
+
+def _run(run: RunInfo, stages: Iterable[StageResult]) -> dict[str, object]:
+    """What may differ between equal runs, and stands nowhere else."""
+    return {
+        "date": run.date,
+        "command": run.command,
+        "config_file": run.config_file,
+        "seconds": round(run.seconds, 6),
+        "jobs": run.jobs,
+        "shard": None,
+        "cached": None,
+        "stage_seconds": [round(sum(stage.seconds.values(), 0.0), 6) for stage in stages],
+    }
+
+
+def _stage(stage: StageResult) -> dict[str, object]:
     figures = stage.particle_fields
     return {
         "path": stage.path,
-        "status": stage.status.value,
+        "status": stage.status,
+        "partial": False,
         "stats": stage.stats,
         **({} if figures is None else {"particle_fields": [one._asdict() for one in figures]}),
         "completes": stage.completes and _completion(stage.completes),
-        "seconds": round(sum(stage.seconds.values(), 0.0), 6),
-        "findings": [_finding(finding) for finding in stage.findings],
+        "causes": stage.causes,
+        "levels": {
+            _LABELS[level]: number for level, number in sorted(stage.levels.items(), reverse=True)
+        },
     }
 
 
@@ -77,33 +147,77 @@ def _completion(completion: Completion) -> dict[str, object]:
     }
 
 
-def _finding(finding: Finding) -> dict[str, object]:
-    site = finding.site
+def _cause(cause: Cause, covers: Covers) -> dict[str, object]:
+    first = cause.places[0].finding
+    site = first.site
     return {
-        "code": finding.code,
-        "name": finding.name,
-        "severity": finding.severity.label,
-        "message": finding.message,
-        "suggestion": finding.suggestion,
-        "prim": site.prim,
-        "property": site.property,
-        "layer": site.layer,
-        "variant": site.variant,
-        "frames": site.frames,
-        "times": [_number(time) for time in site.times if math.isfinite(time)],
-        "line": site.line,
-        "column": site.column,
-        "fingerprint": finding.fingerprint,
-        "help": finding.help,
+        "fingerprint": cause.fingerprint,
+        "code": first.code,
+        "name": first.name,
+        "severity": _LABELS[cause.severity],
+        "state": cause.state,
+        "was": cause.was and covers(cause.was),
+        "reason": cause.reason,
+        "message": first.message,
+        "suggestion": first.suggestion,
+        "help": first.help,
+        "cover": covers(cause.cover),
+        "fold": first.fold,
+        "source": _source(cause.source, site),
+        "excerpt": _excerpt(site),
+        "count": cause.count,
+        "places": [_place(place, first) for place in cause.places],
     }
 
 
-def _number(time: float) -> int | float:
-    whole = abs(time) <= _LARGEST_INTEGER and time == int(time)
-    return int(time) if whole else time
+def _source(source: Source, site: Site) -> dict[str, object]:
+    is_of_a_layer = source.layer is not None
+    return {
+        "layer": source.layer,
+        "path": source.path,
+        "property": source.property,
+        "subject": source.subject,
+        "line": site.line if is_of_a_layer else None,
+        "column": site.column if is_of_a_layer else None,
+    }
 
 
-def _setting(value: object) -> object:
+def _excerpt(site: Site) -> dict[str, object] | None:
+    if site.excerpt is None:
+        return None
+    text, column = site.excerpt
+    return {"text": text, "column": column}
+
+
+def _place(place: Place, first: Finding) -> dict[str, object]:
+    """A place; it has the words of the cause unless it says others."""
+    stage, finding = place
+    site = finding.site
+    said: dict[str, object] = {
+        "stage": stage,
+        "prim": site.prim,
+        "property": site.property,
+        "variant": site.variant,
+        "frames": site.frames,
+        "times": list(_numbers(site.times)),
+        "at_default": site.at_default,
+        "severity": _LABELS[finding.severity],
+    }
+    if finding.message != first.message:
+        said["message"] = finding.message
+    if finding.suggestion != first.suggestion:
+        said["suggestion"] = finding.suggestion
+    return said
+
+
+def _numbers(times: Iterable[float]) -> Iterator[int | float]:
+    """Time codes as JSON has them: those that are finite, whole numbers without a point."""
+    for time in times:
+        if math.isfinite(time):
+            yield int(time) if abs(time) <= _LARGEST_INTEGER and time == int(time) else time
+
+
+def _setting(value: object) -> Any:
     """A setting in the types of JSON, with sets sorted, so that equal runs write equal reports."""
     match value:
         case Severity():

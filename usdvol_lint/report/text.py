@@ -1,24 +1,19 @@
-"""The report for people: by stage and prim, with a verdict in the last line."""
+"""The report for people: by stage and prim, with a verdict at its end."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
-from usdvol_lint.model import (
-    Finding,
-    ParticleFieldStats,
-    Report,
-    Severity,
-    Site,
-    StageReport,
-    Status,
-    Summary,
-)
+from usdvol_lint.model import Finding, ParticleFieldStats, Severity, Site, Status
 from usdvol_lint.report import Options
 from usdvol_lint.report.figures import figures
+from usdvol_lint.report.numbers import counts
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
+from usdvol_lint.report.telling import Told, elsewhere, message, remarks, shown, told
+from usdvol_lint.report.verdict import advice, verdict
+from usdvol_lint.results import Report, StageResult
 from usdvol_lint.words import printable
 
 _LONGEST_SUGGESTION = 400
@@ -29,96 +24,50 @@ _WORD = re.compile(r"""(?<!\S)\(?(['"@]).*?\1\S*|\S+""")
 
 
 def render(report: Report, options: Options) -> str:
-    told = _told(report, options)
-    blocks = [_stage(stage, options) for stage in told.stages if _is_shown(stage, options)]
+    by_stage = told(report, options)
+    blocks = [
+        _stage(number, by_stage.get(number, ()), report, options)
+        for number, stage in enumerate(report.stages)
+        if number in by_stage or _is_shown(stage, options)
+    ]
     if not options.quiet:
-        blocks.append(paint(verdict(report, options), _verdict_style(told), options.color) + "\n")
+        style = _verdict_style(report, by_stage.values())
+        last = paint(verdict(report, options), style, options.color)
+        lines = (last, *advice(report, options.verbose))
+        blocks.append("".join(f"{line}\n" for line in lines))
     return "\n".join(blocks)
 
 
-def _told(report: Report, options: Options) -> Report:
-    """The report without the findings that are only counted."""
-    stages = (
-        stage._replace(findings=tuple(filter(options.shows, stage.findings)))
-        for stage in report.stages
-    )
-    return report._replace(stages=tuple(stages))
-
-
-def verdict(report: Report, options: Options) -> str:
-    """The result of the run in one line."""
-    summary = _told(report, options).summary
-    if not summary.stages:
-        return "no stages checked"
-    hidden = report.summary.infos - summary.infos
-    parts = [_finding_counts(summary, "errors or warnings" if hidden else "findings")]
-    if hidden:
-        parts.append(f"{_count(hidden, 'info')}, shown with --show info")
-    parts.append(f"{_checked_counts(summary.stats)} in {_duration(report.seconds)}")
-    unchecked = summary.stages - summary.by_status.get(Status.CHECKED, 0)
-    if unchecked:
-        parts.append(f"{_count(unchecked, 'stage')} could not be checked")
-    return "; ".join(parts)
-
-
-def _finding_counts(summary: Summary, sought: str) -> str:
-    if not summary.findings:
-        return f"no {sought} in {_count(summary.stages, 'stage')}"
-    counts = _counts(
-        (summary.errors, "error"), (summary.warnings, "warning"), (summary.infos, "info")
-    )
-    of = f"{summary.stages_with_findings:,} of " if summary.stages > 1 else ""
-    return f"{counts} in {of}{_count(summary.stages, 'stage')}"
-
-
-def _checked_counts(stats: Mapping[str, int]) -> str:
-    counts = _counts(
-        (stats.get("volumes", 0), "volume"),
-        (stats.get("particle_fields", 0), "particle field"),
-        (stats.get("files_checked", 0), "file"),
-    )
-    if counts:
-        return f"{counts} checked"
-    others = stats.get("variant_selections", 0)
-    if others:
-        return (
-            "no volumes or particle fields as variants are selected, "
-            f"{_count(others, 'other selection')} checked"
-        )
-    return "no volumes or particle fields found"
-
-
-def _verdict_style(report: Report) -> str:
+def _verdict_style(report: Report, telling: Iterable[Sequence[Told]]) -> str:
     if any(stage.status != Status.CHECKED for stage in report.stages):
         return SEVERITY_STYLES[Severity.ERROR]
-    severities = [finding.severity for stage in report.stages for finding in stage.findings]
+    counted = [one.first for lines in telling for one in lines if one.first.state.counts]
+    severities = [cause.severity for cause in counted]
     return SEVERITY_STYLES[max(severities)] if severities else "bold green"
 
 
-def _is_shown(stage: StageReport, options: Options) -> bool:
-    """Whether a stage has a section in the report."""
-    if stage.findings or stage.status != Status.CHECKED:
+def _is_shown(stage: StageResult, options: Options) -> bool:
+    """Whether a stage has a section in the report though no cause is told under it."""
+    if stage.status != Status.CHECKED:
         return True
     return (options.verbose or bool(stage.particle_fields)) and not options.quiet
 
 
-def _stage(stage: StageReport, options: Options) -> str:
-    found = {
-        prim: list(findings)
-        for prim, findings in groupby(sorted(stage.findings, key=_prim_of), key=_prim_of)
-    }
+def _stage(number: int, telling: Sequence[Told], report: Report, options: Options) -> str:
+    stage = report.stages[number]
+    found = {prim: list(lines) for prim, lines in groupby(telling, key=_prim_of)}
     held = {} if options.quiet else {one.prim: one for one in stage.particle_fields or ()}
     groups = [
-        _prim(prim, held.get(prim), found.get(prim, ()), options)
+        _prim(prim, held.get(prim), found.get(prim, ()), report, options)
         for prim in sorted({*found, *held})
     ]
     if options.verbose:
-        groups.append(_extras(stage, options))
+        groups.append(_extras(number, report, options))
     blocks = ("".join(f"{line}\n" for line in group) for group in groups)
     return _heading(stage, options) + "\n" + "\n".join(filter(None, blocks))
 
 
-def _heading(stage: StageReport, options: Options) -> str:
+def _heading(stage: StageResult, options: Options) -> str:
     path = paint(printable(stage.path), "bold underline", options.color)
     if stage.status == Status.CHECKED:
         return path
@@ -126,38 +75,54 @@ def _heading(stage: StageReport, options: Options) -> str:
     return f"{path} {paint(f'({status})', SEVERITY_STYLES[Severity.ERROR], options.color)}"
 
 
-def _prim_of(finding: Finding) -> str:
-    return finding.site.prim or ""
+def _prim_of(one: Told) -> str:
+    return one.finding.site.prim or ""
 
 
 def _prim(
-    prim: str, holds: ParticleFieldStats | None, findings: Iterable[Finding], options: Options
+    prim: str,
+    holds: ParticleFieldStats | None,
+    telling: Iterable[Told],
+    report: Report,
+    options: Options,
 ) -> Iterator[str]:
-    """What one prim holds and the findings on it; those on the stage itself have no heading."""
+    """What one prim holds and what is told at it; what is told of the stage has no heading."""
     if prim:
         yield "  " + paint(printable(prim), "bold", options.color)
     if holds:
         for label, figure in figures(holds):
             yield _labelled(label, figure, "dim", "    ", options)
-    for finding in findings:
-        yield from _finding(finding, "    " if prim else "  ", options)
+    for one in telling:
+        yield from _told(one, report, "    " if prim else "  ", options)
 
 
-def _finding(finding: Finding, indent: str, options: Options) -> Iterator[str]:
-    label = f"{printable(finding.code)} {finding.severity.label}:"
-    style = SEVERITY_STYLES[finding.severity]
-    yield _labelled(label, printable(finding.message), style, indent, options)
+def _told(one: Told, report: Report, indent: str, options: Options) -> Iterator[str]:
+    finding, cause = one.finding, one.first
+    state = "" if cause.state.counts else f" ({cause.state})"
+    label = f"{printable(finding.code)} {cause.severity.label}{state}:"
+    style = SEVERITY_STYLES[cause.severity]
+    yield _labelled(label, message(one, options.verbose), style, indent, options)
     indent += "  "
-    yield f"{indent}{paint('-->', 'blue', options.color)} {location(finding.site)}"
+    if cause.source.layer is not None:
+        yield f"{indent}{paint('-->', 'blue', options.color)} {location(finding.site)}"
     if where := ", ".join(_where(finding.site)):
         yield _labelled("at", where, "blue", indent, options)
+    if others := elsewhere(one, report, options.verbose):
+        yield _labelled("also", others, "blue", indent, options)
+    for name, said in remarks(one):
+        yield _labelled(name, said, style, indent, options)
     if finding.suggestion:
-        advice = finding.suggestion if options.verbose else _shortened(finding.suggestion)
-        yield _labelled("help:", printable(advice), "green", indent, options)
+        suggestion = finding.suggestion if options.verbose else _shortened(finding.suggestion)
+        yield _labelled("help:", printable(suggestion), "green", indent, options)
     if options.verbose:
-        yield _labelled("rule:", _rule(finding), "dim", indent, options)
-        for line in (finding.detail or "").expandtabs().splitlines():
-            yield f"{indent}| {printable(line)}".rstrip()
+        yield from _details(finding, indent, options)
+
+
+def _details(finding: Finding, indent: str, options: Options) -> Iterator[str]:
+    """What `--verbose` adds to a finding."""
+    yield _labelled("rule:", _rule(finding), "dim", indent, options)
+    for line in (finding.detail or "").expandtabs().splitlines():
+        yield f"{indent}| {printable(line)}".rstrip()
 
 
 def _shortened(suggestion: str) -> str:
@@ -193,14 +158,28 @@ def _rule(finding: Finding) -> str:
     return ", ".join(printable(part) for part in (finding.name, finding.help) if part)
 
 
-def _extras(stage: StageReport, options: Options) -> Iterator[str]:
+def _extras(number: int, report: Report, options: Options) -> Iterator[str]:
     """What `--verbose` adds to a stage."""
+    stage = report.stages[number]
     stats = ", ".join(f"{printable(name)} {count:,}" for name, count in stage.stats.items())
     seconds = ", ".join(f"{printable(name)} {time:.3f}" for name, time in stage.seconds.items())
+    if above := _told_above(number, report, options):
+        yield _labelled("told above:", above, "dim", "  ", options)
     if stats:
         yield _labelled("stats:", stats, "dim", "  ", options)
     if seconds:
         yield _labelled("seconds:", seconds, "dim", "  ", options)
+
+
+def _told_above(number: int, report: Report, options: Options) -> str:
+    """The number of causes that this stage shows, and that are told under another one."""
+    causes = [report.causes[cause] for cause in shown(report.stages[number], report)]
+    levels = [
+        cause.severity
+        for cause in causes
+        if cause.places[0].stage != number and options.shows(cause)
+    ]
+    return counts(*((levels.count(level), level.label) for level in reversed(Severity)))
 
 
 def _labelled(label: str, text: str, style: str, indent: str, options: Options) -> str:
@@ -227,15 +206,3 @@ def _wrap(text: str, width: int) -> Iterator[str]:
         else:
             line = longer
     yield line
-
-
-def _counts(*numbers: tuple[int, str]) -> str:
-    return ", ".join(_count(number, noun) for number, noun in numbers if number)
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number:,} {noun}{'' if number == 1 else 's'}"
-
-
-def _duration(seconds: float) -> str:
-    return f"{seconds:,.1f} s" if seconds >= 0.1 else f"{seconds:.2f} s"

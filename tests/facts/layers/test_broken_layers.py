@@ -45,7 +45,7 @@ OTHER = """def OpenVDBAsset "other"
 
 def messages(folder: Path, name: str, *arguments: str) -> list[tuple[str, str]]:
     ran = run(*ONLY, *arguments, name, cwd=folder)
-    (stage,) = ran.json["stages"]
+    (stage,) = ran.stages
     return [(finding["code"], finding["message"]) for finding in stage["findings"]]
 
 

@@ -52,16 +52,16 @@ def test_statistics_and_times_of_a_run(tmp_path: Path) -> None:
     particles = Field(tuple(splats(count) for count in (3, 4, 5)), 0)
     write(particles.changed("opacities", with_value(0, 9), 1), tmp_path / "stage.usdc")
     options = ("--isolated", "--ignore", "LNT004", "--output-format", "json", "stage.usdc")
-    (plain,) = run(*options, cwd=tmp_path).json["stages"]
+    (plain,) = run(*options, cwd=tmp_path).stages
     assert "particle_fields" not in plain
     assert [finding["code"] for finding in plain["findings"]] == ["ARR008"]
     ran = run("--times", "ends", "--statistics", *options, cwd=tmp_path)
     assert ran.json["settings"]["times"] == "ends"
-    (stage,) = ran.json["stages"]
+    (stage,) = ran.stages
     assert stage["findings"] == []
     assert [each["count"] for each in stage["particle_fields"]] == [5]
     (tmp_path / "usdvol-lint.toml").write_text("times = 2\nstatistics = true\n")
-    assert run(*options[1:], cwd=tmp_path).json["stages"][0].keys() == stage.keys()
+    assert run(*options[1:], cwd=tmp_path).stages[0].keys() == stage.keys()
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,153 @@
+"""What reports for people tell, and where: each cause once, under the first stage that shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from usdvol_lint.model import Finding
+from usdvol_lint.report import Options
+from usdvol_lint.report.numbers import count, few
+from usdvol_lint.results import Cause, Report, StageResult, State
+from usdvol_lint.words import printable
+
+
+class Told(NamedTuple):
+    """What is told at once: one cause, or several that are folded into the line of the first.
+
+    `stage` is the number of the stage under which it is told, `others` are those of all others
+    that show it.
+    """
+
+    causes: tuple[Cause, ...]
+    stage: int
+    others: tuple[int, ...]
+
+    @property
+    def first(self) -> Cause:
+        return self.causes[0]
+
+    @property
+    def finding(self) -> Finding:
+        return self.causes[0].places[0].finding
+
+
+def told(report: Report, options: Options) -> Mapping[int, list[Told]]:
+    """What is told under each stage that has something to tell, by prim."""
+    folded: dict[tuple[object, ...], list[int]] = {}
+    for number in _in_order(report, options):
+        folded.setdefault(_key(number, report.causes[number]), []).append(number)
+    shown_in = _stages_by_cause(report)
+    result: dict[int, list[Told]] = {}
+    for (stage, *_), numbers in folded.items():
+        assert isinstance(stage, int)
+        others = {other for number in numbers for other in shown_in.get(number, ())} - {stage}
+        causes = tuple(report.causes[number] for number in numbers)
+        result.setdefault(stage, []).append(Told(causes, stage, tuple(sorted(others))))
+    return result
+
+
+def _in_order(report: Report, options: Options) -> list[int]:
+    """The numbers of the causes that are told, by stage and prim."""
+    numbers = [number for number, cause in enumerate(report.causes) if options.shows(cause)]
+
+    def place(number: int) -> tuple[int, str]:
+        first = report.causes[number].places[0]
+        return first.stage, first.finding.site.prim or ""
+
+    return sorted(numbers, key=place)
+
+
+def _key(number: int, cause: Cause) -> tuple[object, ...]:
+    """What causes that are told in one line have in common; the stage comes first."""
+    stage, finding = cause.places[0]
+    if finding.fold is None:
+        return stage, number
+    return stage, finding.code, finding.fold, cause.severity, cause.state
+
+
+def _stages_by_cause(report: Report) -> Mapping[int, list[int]]:
+    """The numbers of the stages that show a cause, for those that have several places."""
+    shown_in: dict[int, list[int]] = {
+        number: [] for number, cause in enumerate(report.causes) if cause.count > 1
+    }
+    for number, stage in enumerate(report.stages):
+        for cause in shown(stage, report):
+            if cause in shown_in:
+                shown_in[cause].append(number)
+    return shown_in
+
+
+def shown(stage: StageResult, report: Report) -> Iterator[int]:
+    """The numbers of the causes that a stage shows, without what is suppressed on it alone."""
+    for number, worst in zip(stage.causes, stage.worst, strict=True):
+        if worst is not None or report.causes[number].state is State.SUPPRESSED:
+            yield number
+
+
+# --- in words -------------------------------------------------------------------------------------
+
+
+def message(one: Told, every: bool) -> str:
+    """The message, with what is folded into it; with `every`, all of that by name."""
+    text = printable(one.finding.message)
+    more = one.causes[1:]
+    if not more:
+        return text
+    where = list(dict.fromkeys(_place(cause.places[0].finding) for cause in more))
+    return f"{text} … and {len(more):,} more: {few(where, every)}"
+
+
+def _place(finding: Finding) -> str:
+    site = finding.site
+    return f"<{printable(site.prim)}>" if site.prim else printable(site.layer)
+
+
+def elsewhere(one: Told, report: Report, every: bool) -> str:
+    """Where else it shows, after `also`; empty if nowhere."""
+    stages = [printable(report.stages[number].path) for number in one.others]
+    if _is_cut_off(one):
+        places = count(sum(cause.count - 1 for cause in one.causes), "other place")
+        if not stages:
+            return f"at {places} of this stage"
+        others = count(len(stages), "other")
+        return f"at {places}, in this stage and {others}: {few(stages, every)}"
+    here = _other_prims(one, every=every, named=not stages)
+    if not stages:
+        return here
+    there = f"in {count(len(stages), 'other stage')}: {few(stages, every)}"
+    return f"{here}, and {there}" if here else there
+
+
+def _is_cut_off(one: Told) -> bool:
+    """Whether more places may be on the stage where it is told than the causes carry."""
+    return any(
+        cause.count > len(cause.places) and cause.places[-1].stage == one.stage
+        for cause in one.causes
+    )
+
+
+def _other_prims(one: Told, every: bool, named: bool) -> str:
+    sites = [
+        place.finding.site
+        for cause in one.causes
+        for place in cause.places[1:]
+        if place.stage == one.stage
+    ]
+    told_already = {cause.places[0].finding.site.prim for cause in one.causes}
+    prims = {site.prim: None for site in sites if site.prim and site.prim not in told_already}
+    if not prims:
+        return f"at {count(len(sites), 'other place')} of this prim" if sites else ""
+    names = f": {few([f'<{printable(prim)}>' for prim in prims], every)}" if named else ""
+    return f"at {count(len(prims), 'other prim')} of this stage{names}"
+
+
+def remarks(one: Told) -> Iterator[tuple[str, str]]:
+    """What is to be said of its state, with labels: how it got worse, or why it is suppressed."""
+    cause = one.first
+    if cause.state == State.WORSE and cause.was is not None:
+        from usdvol_lint.baseline.cover import exceeds  # few runs have anything that is worse
+
+        yield "worse:", exceeds(cause.was, cause.cover) or ""
+    if cause.state == State.SUPPRESSED and cause.reason:
+        yield "reason:", printable(cause.reason)

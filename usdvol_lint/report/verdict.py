@@ -1,0 +1,147 @@
+"""What a run came to, in one line, and what to type next."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+
+from usdvol_lint.model import Severity, Status
+from usdvol_lint.report import Options
+from usdvol_lint.report.numbers import count, counts, duration
+from usdvol_lint.results import BaselineUse, Report, State, Summary
+from usdvol_lint.words import printable
+
+_MANY_CAUSES = 20
+_MANY_PAIRS = 5
+_BASELINE = "usdvol-lint-baseline.jsonl"
+
+
+def verdict(report: Report, options: Options) -> str:
+    """The result of the run in one line."""
+    summary = report.summary
+    if not summary.stages:
+        return "no stages checked"
+    return "; ".join(_parts(report, summary, options))
+
+
+def _parts(report: Report, summary: Summary, options: Options) -> Iterator[str]:
+    hidden = summary.infos if options.threshold > Severity.INFO else 0
+    yield _finding_counts(report, summary, options.threshold)
+    if hidden:
+        yield f"{count(hidden, 'info')}, shown with --show info"
+    if uncounted := _uncounted(summary):
+        yield uncounted
+    if report.baseline:
+        yield from _baseline(report.baseline)
+    yield f"{_checked_counts(summary.stats)} in {duration(report.run.seconds)}"
+    unchecked = summary.stages - summary.by_status.get(Status.CHECKED, 0)
+    if unchecked:
+        yield f"{count(unchecked, 'stage')} could not be checked"
+
+
+def _finding_counts(report: Report, summary: Summary, threshold: Severity) -> str:
+    numbers = [(summary.errors, "error"), (summary.warnings, "warning"), (summary.infos, "info")]
+    found = counts(*(numbers[:2] if threshold > Severity.INFO else numbers))
+    stages = count(summary.stages, "stage")
+    if not found:
+        sought = "errors or warnings" if threshold > Severity.INFO and summary.infos else "findings"
+        return f"no {'new ' if State.KNOWN in summary.by_state else ''}{sought} in {stages}"
+    if summary.stages == 1:
+        return f"{found} in {stages}"
+    return f"{found} in {_stages_with(report, threshold):,} of {stages}"
+
+
+def _stages_with(report: Report, threshold: Severity) -> int:
+    return sum(
+        any(number for level, number in stage.levels.items() if level >= threshold)
+        for stage in report.stages
+    )
+
+
+def _uncounted(summary: Summary) -> str:
+    """What is known or suppressed: `12 known, 2 suppressed`."""
+    states = (State.KNOWN, State.SUPPRESSED)
+    return ", ".join(
+        f"{summary.by_state[state]:,} {state}" for state in states if state in summary.by_state
+    )
+
+
+def _baseline(use: BaselineUse) -> Iterator[str]:
+    if use.written:
+        without = f", without {len(use.gone):,} that {_are_gone(use.gone)}" if use.gone else ""
+        yield f"{count(use.entries, 'entry')} written to {printable(use.path)}{without}"
+    elif use.gone:
+        entries, them = count(len(use.gone), "entry"), "it" if len(use.gone) == 1 else "them"
+        yield f"{entries} of the baseline {_are_gone(use.gone)}: --prune-baseline removes {them}"
+
+
+def _are_gone(entries: Sequence[str]) -> str:
+    return "is gone" if len(entries) == 1 else "are gone"
+
+
+def _checked_counts(stats: Mapping[str, int]) -> str:
+    found = counts(
+        (stats.get("volumes", 0), "volume"),
+        (stats.get("particle_fields", 0), "particle field"),
+        (stats.get("files_checked", 0), "file"),
+    )
+    if found:
+        return f"{found} checked"
+    others = stats.get("variant_selections", 0)
+    if others:
+        return (
+            "no volumes or particle fields as variants are selected, "
+            f"{count(others, 'other selection')} checked"
+        )
+    return "no volumes or particle fields found"
+
+
+# --- what to type next ----------------------------------------------------------------------------
+
+
+def advice(report: Report, verbose: bool) -> Iterator[str]:
+    """The lines below the verdict."""
+    if report.baseline:
+        yield from _moved(report.baseline.moved, verbose)
+        if verbose:
+            yield from _gone(report.baseline)
+    elif _may_adopt(report):
+        arguments = ("usdvol-lint", "--write-baseline", _BASELINE, *report.run.command[1:])
+        yield f"adopt them with: {_typed(arguments)}"
+
+
+def _moved(pairs: Sequence[tuple[str, str]], verbose: bool) -> Iterator[str]:
+    told = pairs if verbose else pairs[:_MANY_PAIRS]
+    for old, new in told:
+        option = f"--moved {_typed([f'{old}={new}'])}"
+        yield (
+            f"as many entries are gone in {printable(old)} as are new in {printable(new)}: "
+            f"if it moved there, add {option}"
+        )
+    if len(told) < len(pairs):
+        yield f"… and {count(len(pairs) - len(told), 'pair')} more, told with --verbose"
+
+
+def _gone(use: BaselineUse) -> Iterator[str]:
+    if use.gone is None:
+        yield f"what is gone from the baseline is not known: {printable(use.partial)}"
+    for entry in use.gone or ():
+        yield f"gone from the baseline: {printable(entry)}"
+
+
+def _may_adopt(report: Report) -> bool:
+    """Whether somebody who wants to begin has more before them than can be mended today."""
+    summary = report.summary
+    asked_for_none = "--no-baseline" in report.run.command
+    return summary.errors + summary.warnings > _MANY_CAUSES and not asked_for_none
+
+
+def _typed(arguments: Sequence[str]) -> str:
+    """Arguments as a shell takes them."""
+    if os.name == "nt":
+        from subprocess import list2cmdline  # costs start-up time, and few runs say this
+
+        return printable(list2cmdline(arguments))
+    from shlex import join
+
+    return printable(join(arguments))
