@@ -16,4 +16,6 @@ def not_a_file(field: Prim, facts: Facts) -> Problems:
     for found in facts.files.paths(field).by_detail(AssetState.NOT_A_FILE):
         fault = FileFault(found.first.detail)
         message = f"{found.shown} is {fault}{found.count}"
-        yield Problem(message, at=found, suggestion=_ADVICE.get(fault), subject=fault.name, fold=facts.files.alike(field))
+        yield Problem(
+            message, at=found, suggestion=_ADVICE.get(fault), subject=fault.name, fold=facts.files.alike(field)
+        )

@@ -8,21 +8,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from usdvol_lint import __version__
+from usdvol_lint.command.codes import CLEAN, FAILED, FINDINGS
 from usdvol_lint.model import UsageError
 
 if TYPE_CHECKING:
-    from pathlib import Path
     from subprocess import Popen
 
-    from usdvol_lint.baseline.use import Prepared
-    from usdvol_lint.command.output import Destination
-    from usdvol_lint.config import Config
     from usdvol_lint.packs.catalog import Catalog
-    from usdvol_lint.report import Options
-    from usdvol_lint.results import Report, RunInfo
-    from usdvol_lint.run.lint import Naming
-
-CLEAN, FINDINGS, FAILED = 0, 1, 2
 
 
 def _complete_code(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
@@ -62,9 +54,9 @@ def _complete_from(constant: str) -> Any:
               help="full (default), concise or json; may be repeated, each with its --output.")
 @click.option("--output", multiple=True, type=click.Path(), metavar="FILE",
               help="Write the report to a file instead of standard output.")
-@click.option("--show", multiple=True, metavar="info",
+@click.option("--show", multiple=True, metavar="WHAT",
               shell_complete=_complete_from("SHOWABLE"),
-              help="Show infos too, which are counted only unless --fail-on is info.")
+              help="Show what else is only counted: info, known, suppressed; may be repeated.")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto",
               help="Colour the report; auto asks the terminal, NO_COLOR and FORCE_COLOR.")
 @click.option("--quiet", "-q", is_flag=True, help="Print findings only; nothing when healthy.")
@@ -114,7 +106,8 @@ def _complete_from(constant: str) -> Any:
 @click.option("--test", type=click.Path(), metavar="FOLDER",
               help="Run the examples on the pages of a rule pack and exit.")
 @click.version_option(__version__, message="%(prog)s %(version)s")
-def command(paths: tuple[str, ...], **given: Any) -> int:
+@click.pass_context
+def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> int:
     """Find what is broken in the volumes and particle fields of USD stages.
 
     PATHS are .usd, .usda, .usdc and .usdz files, or folders that are searched for them.
@@ -129,7 +122,9 @@ def command(paths: tuple[str, ...], **given: Any) -> int:
         return _show_settings(given)
     if not paths:
         raise click.UsageError("nothing to check: name a stage or a folder")
-    return _lint(paths, given)
+    from usdvol_lint.command.linting import lint_stages
+
+    return lint_stages(paths, given, context.obj)
 
 
 # fmt: on
@@ -169,91 +164,10 @@ def help_text() -> str:
     return command.get_help(context) + "\n"
 
 
-def _lint(paths: tuple[str, ...], given: dict[str, Any]) -> int:
-    from usdvol_lint.command import output
-    from usdvol_lint.command.progress import ProgressBar
-    from usdvol_lint.command.settings import read_settings
-    from usdvol_lint.run.causes import versions_in
-    from usdvol_lint.run.lint import Naming, lint
-    from usdvol_lint.run.roots import root_of
-
-    settled: list[tuple[Config, Path | None, list[Destination], Prepared | None]] = []
-
-    def settle() -> Config:
-        config, file = read_settings(given)
-        destinations = output.pair(given["output_format"], given["output"], config.output_format)
-        output.check_writable(destinations)
-        settled.append((config, file, destinations, _prepared(given, config)))
-        return config
-
-    def naming(config: Config) -> Naming:
-        _, file, _, prepared = settled[0]
-        of_baseline = prepared.root if prepared else None
-        folder = str(file.parent) if file else None
-        root = root_of(paths, given["root"], of_baseline, config.root, folder)
-        if prepared:
-            prepared.check_root(root)
-        return Naming(root, versions_in(config.version_pattern))
-
-    with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
-        report = lint(paths, settle, progress, click.get_current_context().obj, naming)
-    config, file, destinations, prepared = settled[0]
-    report = report._replace(run=_run_info(report, file))
-    report, failure = prepared.apply(report) if prepared else (report, "")
-    output.write(report, destinations, _options(given, config))
-    if failure:
-        raise UsageError(failure)
-    if given["write_baseline"] is not None:
-        return CLEAN
-    return _exit_code(report, config.fail_on, given["fail_on_unpruned"])
-
-
-def _prepared(given: dict[str, Any], config: Config) -> Prepared | None:
-    """The baseline in use, read; runs without one import nothing for it."""
-    asking = ("write_baseline", "prune_baseline", "fail_on_unpruned", "moved")
-    if config.baseline is None and not any(given[name] for name in asking):
-        return None
-    from usdvol_lint.command.baselines import prepared
-
-    return prepared(given, config)
-
-
-def _run_info(report: Report, file: Path | None) -> RunInfo:
-    from datetime import UTC, datetime
-
-    return report.run._replace(
-        date=datetime.now(UTC).isoformat(timespec="seconds"),
-        command=("usdvol-lint", *sys.argv[1:]),
-        config_file=str(file) if file else None,
-    )
-
-
-def _exit_code(report: Report, fail_on: str, fail_on_unpruned: bool = False) -> int:
-    from usdvol_lint.model import Severity
-    from usdvol_lint.packs.catalog import NOT_IGNORABLE
-
-    if any(cause.code in NOT_IGNORABLE for cause in report.causes):
-        return FAILED
-    if fail_on_unpruned and report.baseline and report.baseline.is_unpruned:
-        return FINDINGS
-    if fail_on == "never":
-        return CLEAN
-    threshold = Severity[fail_on.upper()]
-    counted = (cause.severity for cause in report.causes if cause.state.counts)
-    return FINDINGS if any(severity >= threshold for severity in counted) else CLEAN
-
-
-def _options(given: dict[str, Any], config: Config | None = None) -> Options:
-    from usdvol_lint.command import output
-
-    options = output.options_for(given["color"], given["quiet"], given["verbose"])
-    return options._replace(least=config.least_shown) if config else options
-
-
 def _explain(given: dict[str, Any]) -> int:
     from usdvol_lint.command import about, output
 
-    options = _options(given)
+    options = output.options_of(given)
     page = about.explain(_catalog(given), given["explain"])
     output.print_text(about.render_page(page, options.color, options.width))
     return CLEAN
@@ -266,7 +180,7 @@ def _list_rules(given: dict[str, Any]) -> int:
     if "json" in given["output_format"]:
         output.print_text(about.list_rules_as_json(catalog))
     else:
-        output.print_text(about.list_rules(catalog, _options(given).color))
+        output.print_text(about.list_rules(catalog, output.options_of(given).color))
     return CLEAN
 
 

@@ -7,8 +7,9 @@ import shutil
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
 from usdvol_lint.report import FORMATS, Options, render
 from usdvol_lint.results import Report
@@ -78,7 +79,7 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
             print_text(render(report, destination.format, options))
             continue
         text = render(
-            report, destination.format, Options(verbose=options.verbose, least=options.least)
+            report, destination.format, options._replace(color=False, width=80, quiet=False)
         )
         try:
             _replace(Path(destination.file), text)
@@ -87,6 +88,14 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
             print_text(text)
     if failures:
         raise UsageError("; ".join(failures))
+
+
+def options_of(given: dict[str, Any], config: Config | None = None) -> Options:
+    """The options for reports that the command line and the configuration ask for."""
+    options = options_for(given["color"], given["quiet"], given["verbose"])
+    if config is None:
+        return options
+    return options._replace(least=config.least_shown, show=frozenset(config.show))
 
 
 def options_for(color: str, quiet: bool, verbose: bool) -> Options:

@@ -1,0 +1,25 @@
+"""What a run exits with, by what it came to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from usdvol_lint.results import Report
+
+CLEAN, FINDINGS, FAILED = 0, 1, 2
+
+
+def exit_code(report: Report, fail_on: str, fail_on_unpruned: bool = False) -> int:
+    from usdvol_lint.model import Severity
+    from usdvol_lint.packs.catalog import NOT_IGNORABLE
+
+    if any(cause.code in NOT_IGNORABLE for cause in report.causes):
+        return FAILED
+    if fail_on_unpruned and report.baseline and report.baseline.is_unpruned:
+        return FINDINGS
+    if fail_on == "never":
+        return CLEAN
+    threshold = Severity[fail_on.upper()]
+    counted = (cause.severity for cause in report.causes if cause.state.counts)
+    return FINDINGS if any(severity >= threshold for severity in counted) else CLEAN
