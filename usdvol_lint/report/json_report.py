@@ -10,7 +10,7 @@ from collections.abc import Set as AbstractSet
 from enum import Enum
 from functools import cache
 from pathlib import PurePath
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
 from usdvol_lint.paths import display
@@ -31,7 +31,15 @@ _ENCODE = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
 
 _LABELS = {severity: severity.label for severity in Severity}
 
-Covers: TypeAlias = Callable[[Cover], Mapping[str, object]]
+Times: TypeAlias = tuple[str | None, list[int | float]]
+"""Time codes as people read them, and as programs do."""
+
+
+class _Shared(NamedTuple):
+    """What many causes have in common, each computed once in a report."""
+
+    cover: Callable[[Cover], Mapping[str, object]]
+    times: Callable[[tuple[float, ...], bool], Times]
 
 
 def render(report: Report, options: Options) -> str:
@@ -58,7 +66,7 @@ def _report(report: Report) -> dict[str, object]:
     from usdvol_lint.baseline.cover import cover_as_json
     from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 
-    covers: Covers = cache(cover_as_json)
+    shared = _Shared(cache(cover_as_json), cache(_times))
     return {
         "schema_version": SCHEMA_VERSION,
         "fingerprint_version": FINGERPRINT_VERSION,
@@ -74,7 +82,7 @@ def _report(report: Report) -> dict[str, object]:
         "summary": _summary(report.summary),
         "baseline": report.baseline and _baseline(report.baseline),
         "stages": list(map(_stage, report.stages)),
-        "causes": [_cause(cause, covers) for cause in report.causes],
+        "causes": [_cause(cause, shared) for cause in report.causes],
         "run": _run(report.run, report.stages),
     }
 
@@ -147,7 +155,7 @@ def _completion(completion: Completion) -> dict[str, object]:
     }
 
 
-def _cause(cause: Cause, covers: Covers) -> dict[str, object]:
+def _cause(cause: Cause, shared: _Shared) -> dict[str, object]:
     first = cause.places[0].finding
     site = first.site
     return {
@@ -156,17 +164,17 @@ def _cause(cause: Cause, covers: Covers) -> dict[str, object]:
         "name": first.name,
         "severity": _LABELS[cause.severity],
         "state": cause.state,
-        "was": cause.was and covers(cause.was),
+        "was": cause.was and shared.cover(cause.was),
         "reason": cause.reason,
         "message": first.message,
         "suggestion": first.suggestion,
         "help": first.help,
-        "cover": covers(cause.cover),
+        "cover": shared.cover(cause.cover),
         "fold": first.fold,
         "source": _source(cause.source, site),
         "excerpt": _excerpt(site),
         "count": cause.count,
-        "places": [_place(place, first) for place in cause.places],
+        "places": [_place(place, first, shared) for place in cause.places],
     }
 
 
@@ -189,17 +197,18 @@ def _excerpt(site: Site) -> dict[str, object] | None:
     return {"text": text, "column": column}
 
 
-def _place(place: Place, first: Finding) -> dict[str, object]:
+def _place(place: Place, first: Finding, shared: _Shared) -> dict[str, object]:
     """A place; it has the words of the cause unless it says others."""
     stage, finding = place
     site = finding.site
+    frames, times = shared.times(site.times, site.at_default)
     said: dict[str, object] = {
         "stage": stage,
         "prim": site.prim,
         "property": site.property,
         "variant": site.variant,
-        "frames": site.frames,
-        "times": list(_numbers(site.times)),
+        "frames": frames,
+        "times": times,
         "at_default": site.at_default,
         "severity": _LABELS[finding.severity],
     }
@@ -208,6 +217,10 @@ def _place(place: Place, first: Finding) -> dict[str, object]:
     if finding.suggestion != first.suggestion:
         said["suggestion"] = finding.suggestion
     return said
+
+
+def _times(times: tuple[float, ...], at_default: bool) -> Times:
+    return Site("", times=times, at_default=at_default).frames, list(_numbers(times))
 
 
 def _numbers(times: Iterable[float]) -> Iterator[int | float]:
