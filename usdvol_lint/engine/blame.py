@@ -82,9 +82,9 @@ def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
 def _sublayer_with(at: Any, layer: Any) -> str | None:
     """The path by which a layer names the sublayer with the strongest value of a property."""
     stack = at.GetPropertyStack() if isinstance(at, Usd.Property) else ()
-    own = next(filter(_has_value, stack), None)
-    for path in layer.subLayerPaths if own else ():
-        if Sdf.Layer.FindRelativeToLayer(layer, path) == own.layer:
+    holders = [spec.layer for spec in stack if _has_value(spec)][:1]
+    for path in layer.subLayerPaths:
+        if Sdf.Layer.FindRelativeToLayer(layer, path) in holders:
             return str(path)
     return None
 
