@@ -154,6 +154,8 @@ def _with_metadata(prim: Any, of: Any) -> Any | None:
 def maker(prim: Any) -> Any | None:
     """The weakest spec that makes a prim what it is: with its type, or else one that defines it."""
     stack = _stack(prim)
+    if len(stack) == 1:
+        return stack[0]
     wanted = prim.GetTypeName()
     if wanted:
         typed = [spec for spec in stack if spec.typeName == wanted]
@@ -181,8 +183,9 @@ def _lists(api: str) -> Callable[[Any], bool]:
 
 
 def _stack(prim: Any) -> list[Any]:
-    session = prim.GetStage().GetSessionLayer()
-    return [spec for spec in prim.GetPrimStack() if spec.layer != session]
+    stack: list[Any] = prim.GetPrimStack()
+    session = prim.GetStage().GetSessionLayer() if len(stack) > 1 else None
+    return [spec for spec in stack if spec.layer != session] if session else stack
 
 
 def _weakest(prop: Any) -> Any | None:
