@@ -66,7 +66,8 @@ class Sites:
 
     def _find(self, layer: Any, path: str, blame: Blame, asset: str | None) -> Any | None:
         text = self._texts.of(layer)
-        return text.find(path, time=blame.time, asset=blame.clip or asset) if text else None
+        named = blame.clip or blame.asset or asset
+        return text.find(path, time=blame.time, asset=named) if text else None
 
 
 def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Cover:
