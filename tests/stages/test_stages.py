@@ -102,6 +102,16 @@ UNUSED = Found("VOL012", "info", "/a/cloud/density", "no Volume targets it")
             [EXTENT],
             ["no AST002, to which it leads"],
         ),
+        (
+            Expected("AST002", "/a/cloud/density", others=("/a/cloud/heat",)),
+            [FILE_MISSING, FILE_MISSING._replace(prim="/a/cloud/heat")],
+            [],
+        ),
+        (
+            Expected("AST002", "/a/cloud/density", others=("/a/cloud/heat",)),
+            [FILE_MISSING, FILE_MISSING._replace(prim="/a/cloud/fuel")],
+            ["no AST002 at /a/cloud/heat", "error AST002 at /a/cloud/fuel: no file"],
+        ),
         (Expected("VOL012", "/a/cloud/density", is_info=True), [UNUSED], []),
         (
             Expected("VOL013", "/a/cloud", is_info=True),
