@@ -128,8 +128,14 @@ def test_infos_are_shown_to_those_who_ask(
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ("--show infos .", "--show must be one of info, known, suppressed, not 'infos'; did you mean 'info'?"),
-        ("--show info --show xyzzy .", "--show must be one of info, known, suppressed, not 'xyzzy'"),
+        (
+            "--show infos .",
+            "--show must be one of info, known, suppressed, not 'infos'; did you mean 'info'?",
+        ),
+        (
+            "--show info --show xyzzy .",
+            "--show must be one of info, known, suppressed, not 'xyzzy'",
+        ),
         ("--select STU01x .", "no rule code starts with 'STU01x'; did you mean 'STU001'?"),
         (
             "--ignore volume-name .",
