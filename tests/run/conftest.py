@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from identities import Find, finder
 from partlayers import Files, Judge, told, write
 
 from usdvol_lint.config import Config
@@ -27,3 +28,10 @@ def judge(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         return told(stages, completed_by(stages))
 
     return call
+
+
+@pytest.fixture
+def find(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Find:
+    """The causes of a run over stages below a temporary folder, which is the root too."""
+    monkeypatch.chdir(tmp_path)
+    return finder(catalog, tmp_path)
