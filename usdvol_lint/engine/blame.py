@@ -46,8 +46,9 @@ def blamed(problem: Problem | NotChecked) -> Blame:
     found = decisive([Opinion(prim, own.spec), *others])
     if found.spec == own.spec:
         return own
-    subject = problem.subject or _path_of(at, prim, found.spec)
-    return Blame(found.spec, _property_of(found.spec) or own.property, subject)
+    path = "" if problem.subject else _path_of(at, prim, found.spec)
+    name = _property_of(found.spec) or (None if path else own.property)
+    return Blame(found.spec, name, problem.subject or path)
 
 
 def _own(problem: Problem | NotChecked) -> Blame:
