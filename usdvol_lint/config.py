@@ -7,14 +7,17 @@ from functools import partial
 from os.path import isfile
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from usdvol_lint import __version__
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.releases import is_wanted, numbers_of
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 FILE_NAME = "usdvol-lint.toml"
 TABLE = "usdvol-lint"
+REQUIRED_VERSION = "required-version"
 FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = ("full", "concise", "json")
 SHOWABLE = ("info", "known", "suppressed")
@@ -35,6 +38,8 @@ class Config(NamedTuple):
     `max_places` is how many places of a cause a report has in full; `root` is the folder that
     layers go by in fingerprints, `version_pattern` what stands for any version in their paths.
     `baseline` is the file that has what is known.
+    `required_version` says which versions of the tool the rest is written for; built-in rules that
+    came after the release `rules_as_of` report infos.
     See `Depth` for `load`, `content`, `times` and `statistics`.
     """
 
@@ -60,6 +65,8 @@ class Config(NamedTuple):
     root: str | None = None
     version_pattern: str | None = None
     baseline: str | None = None
+    required_version: str | None = None
+    rules_as_of: str | None = None
 
     @property
     def least_shown(self) -> Severity:
@@ -114,7 +121,10 @@ def read_config(path: Path) -> Config:
     if table is None:
         raise UsageError(f"{path} has no table [tool.{TABLE}]")
     values = {}
-    for key, value in _table(f"{path}: tool.{TABLE}", table).items():
+    given = _table(f"{path}: tool.{TABLE}", table)
+    # A file that is written for another version may have keys that this one doesn't know.
+    for key in sorted(given, key=lambda key: key != REQUIRED_VERSION):
+        value = given[key]
         if key not in CHECKS:
             raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
         values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
@@ -213,6 +223,28 @@ def _pattern(where: str, value: Any) -> str:
     return str(value)
 
 
+def _required_version(where: str, value: Any) -> str:
+    """The value, if this version is among those that it wants."""
+    try:
+        is_this = is_wanted(__version__, _text(where, value))
+    except ValueError:
+        wanted = "such as '>=0.1,<0.2', or '0.1' for that and its patches"
+        raise UsageError(f"{where} must name versions, {wanted}, not {value!r}") from None
+    if not is_this:
+        hint = f"install one that is wanted, or change {REQUIRED_VERSION}"
+        raise UsageError(f"{where} is {value!r}, and this is usdvol-lint {__version__}: {hint}")
+    return str(value)
+
+
+def _release(where: str, value: Any) -> str:
+    """The value, if it is the number of a release."""
+    try:
+        numbers_of(_text(where, value))
+    except ValueError:
+        raise UsageError(f"{where} must be the number of a release, not {value!r}") from None
+    return str(value)
+
+
 def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
@@ -260,6 +292,8 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "root": _text,
     "version-pattern": _pattern,
     "baseline": _text,
+    REQUIRED_VERSION: _required_version,
+    "rules-as-of": _release,
 }
 """For each key of the configuration a function that returns the value for the `Config`.
 
