@@ -227,9 +227,9 @@ def _required_version(where: str, value: Any) -> str:
     """The value, if this version is among those that it wants."""
     try:
         is_this = is_wanted(__version__, _text(where, value))
-    except ValueError:
-        wanted = "such as '>=0.1,<0.2', or '0.1' for that and its patches"
-        raise UsageError(f"{where} must name versions, {wanted}, not {value!r}") from None
+    except (UsageError, ValueError):
+        wanted = "a text such as '>=0.1,<0.2', or '0.1' for that and its patches"
+        raise UsageError(f"{where} must be {wanted}, not {value!r}") from None
     if not is_this:
         hint = f"install one that is wanted, or change {REQUIRED_VERSION}"
         raise UsageError(f"{where} is {value!r}, and this is usdvol-lint {__version__}: {hint}")
@@ -240,8 +240,9 @@ def _release(where: str, value: Any) -> str:
     """The value, if it is the number of a release."""
     try:
         numbers_of(_text(where, value))
-    except ValueError:
-        raise UsageError(f"{where} must be the number of a release, not {value!r}") from None
+    except (UsageError, ValueError):
+        wanted = "the number of a release as a text, such as '0.1'"
+        raise UsageError(f"{where} must be {wanted}, not {value!r}") from None
     return str(value)
 
 

@@ -13,7 +13,6 @@ from pathlib import PurePath
 from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
-from usdvol_lint.paths import below, canonical
 from usdvol_lint.report import Options
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
 
@@ -40,7 +39,6 @@ class _Shared(NamedTuple):
 
     cover: Callable[[Cover], Mapping[str, object]]
     times: Callable[[tuple[float, ...], bool], Times]
-    layer: Callable[[str], str]
 
 
 def render(report: Report, options: Options) -> str:
@@ -67,10 +65,7 @@ def _report(report: Report) -> dict[str, object]:
     from usdvol_lint.baseline.cover import cover_as_json
     from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 
-    def layer(path: str) -> str:
-        return below(canonical(path), report.root)
-
-    shared = _Shared(cache(cover_as_json), cache(_times), cache(layer))
+    shared = _Shared(cache(cover_as_json), cache(_times))
     return {
         "schema_version": SCHEMA_VERSION,
         "fingerprint_version": FINGERPRINT_VERSION,
@@ -85,7 +80,7 @@ def _report(report: Report) -> dict[str, object]:
         "partial": False,
         "summary": _summary(report.summary),
         "baseline": report.baseline and _baseline(report.baseline),
-        "stages": [_stage(stage, shared) for stage in report.stages],
+        "stages": list(map(_stage, report.stages)),
         "causes": [_cause(cause, shared) for cause in report.causes],
         "run": _run(report.run, report.stages),
     }
@@ -129,7 +124,7 @@ def _run(run: RunInfo, stages: Iterable[StageResult]) -> dict[str, object]:
     }
 
 
-def _stage(stage: StageResult, shared: _Shared) -> dict[str, object]:
+def _stage(stage: StageResult) -> dict[str, object]:
     figures = stage.particle_fields
     return {
         "path": stage.path,
@@ -137,7 +132,7 @@ def _stage(stage: StageResult, shared: _Shared) -> dict[str, object]:
         "partial": False,
         "stats": stage.stats,
         **({} if figures is None else {"particle_fields": [one._asdict() for one in figures]}),
-        "completes": stage.completes and _completion(stage.completes, shared),
+        "completes": stage.completes and _completion(stage.completes),
         "causes": stage.causes,
         "levels": {
             _LABELS[level]: number for level, number in sorted(stage.levels.items(), reverse=True)
@@ -145,15 +140,16 @@ def _stage(stage: StageResult, shared: _Shared) -> dict[str, object]:
     }
 
 
-def _completion(completion: Completion, shared: _Shared) -> dict[str, object]:
-    """In the order of the names that layers have here."""
-    specs = sorted(
-        (list(map(shared.layer, spec.layers)), spec.path, spec.lacking) for spec in completion.specs
-    )
+def _completion(completion: Completion) -> dict[str, object]:
     return {
-        "layers": sorted(set(map(shared.layer, completion.layers))),
+        "layers": completion.layers,
         "specs": [
-            {"layers": layers, "path": path, "lacking": lacking} for layers, path, lacking in specs
+            {
+                "layers": spec.layers,
+                "path": spec.path,
+                "lacking": spec.lacking,
+            }
+            for spec in completion.specs
         ],
     }
 
