@@ -8,5 +8,4 @@ def composition_error(root: Prim, facts: Facts) -> Problems:
     for error in facts.layers.errors:
         where = f" (on {len(error.prims)} prims)" if len(error.prims) > 1 else ""
         advice = "correct what it names: USD goes on without it"
-        spec = error.spec or error.prim.GetPrimStack()[0]
-        yield Problem(error.message + where, at=error.prim, spec=spec, suggestion=advice)
+        yield Problem(error.message + where, at=error.prim, spec=error.spec, suggestion=advice)

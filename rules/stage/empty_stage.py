@@ -12,6 +12,7 @@ def empty_stage(root: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"no prims at all in this layer{sublayers}",
             at=root,
+            spec=layers[-1].pseudoRoot,
             suggestion="export it again: this is what an export that died leaves behind",
             absent=[lacks(root, PRIMS)],
         )

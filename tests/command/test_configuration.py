@@ -106,7 +106,10 @@ strict = true
         ("variant-limit = 0", "variant-limit must be a whole number from 1, not 0"),
         ("select = 'AST'", "select must be a list of strings, not 'AST'"),
         ("show = 'info'", "show must be a list of strings, not 'info'"),
-        ("show = ['infos']", "show must be one of info, not 'infos'; did you mean 'info'?"),
+        (
+            "show = ['infos']",
+            "show must be one of info, known, suppressed, not 'infos'; did you mean 'info'?",
+        ),
         ("ignore = ['AST', 3]", "ignore must be a list of strings, not ['AST', 3]"),
         ("packs = true", "packs must be a list of strings, not True"),
         ("severity = 'error'", "severity must be a table, not 'error'"),

@@ -1,9 +1,13 @@
-"""Random stages: what is right is clean, and a defect is found at its prim, and nothing else."""
+"""Random stages: what is right is clean, a defect is found at its prim, and nothing else is.
+
+What is blamed on another layer is found in that one alone.
+"""
 
 from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
@@ -16,6 +20,7 @@ from stages.model import Expected
 from stages.usda import layer_text
 from stages.writing import write_scene, write_shared
 from usdvol_lint.engine.engine import Engine
+from usdvol_lint.model import Finding, Severity, Source
 
 SEED = 26
 COUNT = 2 * len(DEFECTS)
@@ -47,11 +52,26 @@ def test_nothing_is_found_but_the_defect(
             for each in report.findings
         ]
         missed = [*misses(made.expected, found), *told_twice(report.findings)]
+        missed += blamed_elsewhere(report.findings, path, engine)
         if missed:
             failures.append(failure(number, path, made, missed))
         else:
             shutil.rmtree(folder)
     assert not failures, "\n".join(["", *failures])
+
+
+def blamed_elsewhere(findings: Iterable[Finding], root: Path, engine: Engine) -> Iterator[str]:
+    """Each finding that the layer to blame does not have when it is opened alone."""
+    blamed: dict[str, set[tuple[str, Source]]] = {}
+    for each in findings:
+        layer = each.source.layer
+        if each.severity is Severity.INFO or layer is None or not os.path.isfile(layer):
+            continue
+        if not os.path.samefile(layer, root):
+            blamed.setdefault(layer, set()).add((each.code, each.source))
+    for layer, told in blamed.items():
+        alone = {(each.code, each.source) for each in engine.lint(layer).findings}
+        yield from (f"not found in that layer alone: {each}" for each in told - alone)
 
 
 def failure(number: int, path: Path, made: Generated, missed: list[str]) -> str:
@@ -101,6 +121,16 @@ UNUSED = Found("VOL012", "info", "/a/cloud/density", "no Volume targets it")
             Expected("VOL013", "/a/cloud", also=("AST002",)),
             [EXTENT],
             ["no AST002, to which it leads"],
+        ),
+        (
+            Expected("AST002", "/a/cloud/density", others=("/a/cloud/heat",)),
+            [FILE_MISSING, FILE_MISSING._replace(prim="/a/cloud/heat")],
+            [],
+        ),
+        (
+            Expected("AST002", "/a/cloud/density", others=("/a/cloud/heat",)),
+            [FILE_MISSING, FILE_MISSING._replace(prim="/a/cloud/fuel")],
+            ["no AST002 at /a/cloud/heat", "error AST002 at /a/cloud/fuel: no file"],
         ),
         (Expected("VOL012", "/a/cloud/density", is_info=True), [UNUSED], []),
         (

@@ -23,7 +23,7 @@ class Blame(NamedTuple):
     `time` is the first time of the problem in the time of the spec's layer, and `offset` leads from
     there to the stage's; both are None where the problem is at no time, or the spec holds no value.
     `property` and `subject` tell what it is about at the spec; `clip` is the clip that holds the
-    value where the spec is the one with the clips.
+    value where the spec is the one with the clips, `asset` a path to look for in the spec.
     """
 
     spec: Any | None
@@ -32,6 +32,7 @@ class Blame(NamedTuple):
     time: float | None = None
     offset: Any | None = None
     clip: str | None = None
+    asset: str | None = None
 
 
 def blamed(problem: Problem | NotChecked) -> Blame:
@@ -45,8 +46,9 @@ def blamed(problem: Problem | NotChecked) -> Blame:
     found = decisive([Opinion(prim, own.spec), *others])
     if found.spec == own.spec:
         return own
-    subject = problem.subject or _path_of(at, prim, found.spec)
-    return Blame(found.spec, _property_of(found.spec) or own.property, subject)
+    path = "" if problem.subject else _path_of(at, prim, found.spec)
+    name = _property_of(found.spec) or (None if path else own.property)
+    return Blame(found.spec, name, problem.subject or path)
 
 
 def _own(problem: Problem | NotChecked) -> Blame:
@@ -56,10 +58,7 @@ def _own(problem: Problem | NotChecked) -> Blame:
         return Blame(problem.spec or _of_prim(prim, problem.of), None, subject)
     name = at.GetName()
     if problem.spec:
-        is_top = problem.spec.path == Sdf.Path.absoluteRootPath
-        return Blame(
-            problem.spec, name, subject or (_path_of(at, prim, problem.spec) if is_top else "")
-        )
+        return _given(problem, name)
     if problem.of == NAME:
         return Blame(_weakest(at) or maker(prim), name, subject)
     if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
@@ -70,6 +69,25 @@ def _own(problem: Problem | NotChecked) -> Blame:
     if spec is None and isinstance(at, Usd.Relationship):
         spec = _weakest(at)
     return Blame(spec or _declared(maker(prim), name), name, subject)
+
+
+def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
+    """The spec that the rule names; for the top of a layer also which sublayer it is about."""
+    spec, at, subject = problem.spec, problem.at, problem.subject
+    if spec.path != Sdf.Path.absoluteRootPath:
+        return Blame(spec, name, subject)
+    subject = subject or _path_of(at, at.GetPrim(), spec)
+    return Blame(spec, name, subject, asset=_sublayer_with(at, spec.layer))
+
+
+def _sublayer_with(at: Any, layer: Any) -> str | None:
+    """The path by which a layer names the sublayer with the strongest value of a property."""
+    stack = at.GetPropertyStack() if isinstance(at, Usd.Property) else ()
+    holders = [spec.layer for spec in stack if _has_value(spec)][:1]
+    for path in layer.subLayerPaths:
+        if Sdf.Layer.FindRelativeToLayer(layer, path) in holders:
+            return str(path)
+    return None
 
 
 def _declared(spec: Any | None, name: str) -> Any | None:
@@ -137,6 +155,8 @@ def _with_metadata(prim: Any, of: Any) -> Any | None:
 def maker(prim: Any) -> Any | None:
     """The weakest spec that makes a prim what it is: with its type, or else one that defines it."""
     stack = _stack(prim)
+    if len(stack) == 1:
+        return stack[0]
     wanted = prim.GetTypeName()
     if wanted:
         typed = [spec for spec in stack if spec.typeName == wanted]
@@ -164,8 +184,9 @@ def _lists(api: str) -> Callable[[Any], bool]:
 
 
 def _stack(prim: Any) -> list[Any]:
-    session = prim.GetStage().GetSessionLayer()
-    return [spec for spec in prim.GetPrimStack() if spec.layer != session]
+    stack: list[Any] = prim.GetPrimStack()
+    session = prim.GetStage().GetSessionLayer() if len(stack) > 1 else None
+    return [spec for spec in stack if spec.layer != session] if session else stack
 
 
 def _weakest(prop: Any) -> Any | None:

@@ -39,6 +39,7 @@ class Engine:
     `depth` says how much of each stage is checked.
     `advance` is called with the number of samples of a long sequence that were read since the last
     call, `send` with new findings, so that they are not lost if the process dies.
+    `is_alone` says that there is but one stage, which no other may complete.
     USD's own warnings go to standard error, which in a worker process is a pipe to its parent.
     """
 
@@ -49,12 +50,14 @@ class Engine:
         depth: Depth | None = None,
         advance: Callable[[int], None] = _ignore,
         send: Callable[[list[Finding]], None] = _ignore,
+        is_alone: bool = False,
     ) -> None:
         self._rules = [rules[code] for code in active.severities]
         self._active = active
         self._depth = depth or Depth()
         self._advance = advance
         self._send = send
+        self._is_alone = is_alone
         self._volume_files = VolumeFiles()
         self._folders = Folders()
 
@@ -90,7 +93,7 @@ class Engine:
     ) -> StageReport:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
-        stamp = Stamp(self._active, several_selections=depth.selections > 0)
+        stamp = Stamp(self._active, depth.selections > 0, self._is_alone)
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
         clock.lap("walk")

@@ -30,13 +30,16 @@ class Stamp:
     """Makes findings of the problems of one stage.
 
     `several_selections` says whether findings need an identity, because more than one variant
-    selection is checked.
+    selection is checked; `is_alone` whether no other stage may complete this one.
     """
 
-    def __init__(self, active: ActiveRules, several_selections: bool) -> None:
+    def __init__(
+        self, active: ActiveRules, several_selections: bool, is_alone: bool = False
+    ) -> None:
         self.sites = Sites()
         self._active = active
         self._several_selections = several_selections
+        self._is_alone = is_alone
 
     def stamp(self, rule: Rule, problem: Problem | NotChecked) -> Iterator[Stamped]:
         """The finding; none if LNT005, which reports what was not checked, is switched off."""
@@ -44,8 +47,11 @@ class Stamp:
         severity = self._active.severities.get(reported_as.code)
         if severity is None:
             return
-        for part in parts_of(problem):
-            yield self._stamped(rule, reported_as, part, severity)
+        if problem.at_default and problem.times:
+            for part in parts_of(problem):
+                yield self._stamped(rule, reported_as, part, severity)
+        else:
+            yield self._stamped(rule, reported_as, problem, severity)
 
     def _stamped(
         self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
@@ -69,7 +75,7 @@ class Stamp:
             suggestion=problem.suggestion,
             help=help_for(reported_as),
             fold=problem.fold,
-            absent=_absent(problem),
+            absent=() if self._is_alone else _absent(problem),
             since=problem.since,
         )
         same = identity(rule, problem, blame.spec) if self._several_selections else ()

@@ -8,9 +8,9 @@ import pickle
 import signal
 from typing import Any, BinaryIO
 
-from usdvol_lint.model import StageReport, UsageError
+from usdvol_lint.model import Finding, StageReport, UsageError
 from usdvol_lint.packs.catalog import load
-from usdvol_lint.run.protocol import Advance, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
 
 
 def main() -> None:
@@ -38,19 +38,34 @@ def main() -> None:
         check_types(rules.values())
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
+    sent: list[Finding] = []
+
+    def send(findings: list[Finding]) -> None:
+        sent.extend(findings)
+        _send(replies, NewFindings(findings))
+
     engine = Engine(
         rules,
         setup.active,
         setup.depth,
         lambda samples: _send(replies, Advance(samples)),
-        lambda findings: _send(replies, NewFindings(findings)),
+        send,
+        setup.is_alone,
     )
     _send(replies, Ready(usd_version()))
     while path := _next(requests):
-        _send(replies, engine.lint(path))
+        sent.clear()
+        _send(replies, _done(engine.lint(path), sent))
         gc.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
+
+
+def _done(report: StageReport, sent: list[Finding]) -> Done:
+    """The report without what was sent before, which is most of it."""
+    numbers = {id(finding): number for number, finding in enumerate(sent)}
+    order = tuple(numbers.get(id(finding), finding) for finding in report.findings)
+    return Done(report._replace(findings=()), order)
 
 
 def _next(requests: BinaryIO) -> Any:
@@ -71,8 +86,6 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
     return requests, replies
 
 
-def _send(
-    replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | StageReport
-) -> None:
+def _send(replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | Done) -> None:
     pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
     replies.flush()

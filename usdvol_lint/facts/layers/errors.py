@@ -25,6 +25,7 @@ from usdvol_lint.facts.layers.error_texts import (
 )
 from usdvol_lint.facts.layers.unopened import missing_clips, unopened_reason, unread_extension
 from usdvol_lint.facts.layers.unresolved import EmptyArc, Fault, Targets
+from usdvol_lint.facts.usd.calls import ARCS, get_prim_stack
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.instances import as_shown
 
@@ -74,7 +75,13 @@ class _Found:
         elif empty:
             self.empty[empty].append(prim)
         else:
-            self.errors[as_sentence(text), blamed_spec(text)].append(prim)
+            self.errors[as_sentence(text), blamed_spec(text) or _with_arcs(prim)].append(prim)
+
+
+def _with_arcs(prim: Any) -> Any | None:
+    """The strongest spec of a prim that has arcs, or the strongest."""
+    stack = get_prim_stack(prim)
+    return next((spec for spec in stack if any(map(spec.HasInfo, ARCS))), next(iter(stack), None))
 
 
 def _faults(stage: Any, errors: Iterable[Any], targets: Targets) -> dict[Fault, list[Any]]:

@@ -25,8 +25,8 @@ class TimeRange(NamedTuple):
         """
         from usdvol_lint.facts.usd.bringing import arc_that  # costs start-up time; few need it
 
-        strongest = strongest_opinion(attribute, time)
-        if strongest is None:
+        prim, own = _source(attribute, time)
+        if own is None:
             return None
         said_by: list[Any] = []
 
@@ -35,11 +35,11 @@ class TimeRange(NamedTuple):
             said_by.extend([arc.source.layerStack.identifier.rootLayer] if is_said else [])
             return is_said
 
-        spec = arc_that(attribute.GetPrim(), strongest.spec.layer, is_it) or strongest.spec
+        spec = arc_that(prim, own.layer, is_it) or own
         top = said_by[0] if said_by else attribute.GetStage().GetRootLayer()
         if spec.layer != top:
             return top.pseudoRoot
-        return None if spec == strongest.spec else spec
+        return None if spec == own else spec
 
     def _is_said_by(self, node: Any) -> bool:
         """Whether the layers of a node say this range; what only the stage says, its root does."""
@@ -48,3 +48,16 @@ class TimeRange(NamedTuple):
             return bool(node.IsRootNode())
         said = [node.mapToRoot.timeOffset * info.GetInfo(key) for key in _KEYS]
         return all(abs(one - other) < _ROUNDING for one, other in zip(said, self, strict=True))
+
+
+def _source(attribute: Any, time: float | None) -> tuple[Any, Any | None]:
+    """The prim and its spec that values come from: of those in value clips that with the clips."""
+    from usdvol_lint.facts.usd.bringing import node_of
+
+    prim = attribute.GetPrim()
+    strongest = strongest_opinion(attribute, time)
+    if strongest is None or node_of(prim, strongest.spec):
+        return prim, strongest and strongest.spec
+    while not (prim.IsPseudoRoot() or prim.HasAuthoredMetadata("clips")):
+        prim = prim.GetParent()
+    return prim, next((spec for spec in prim.GetPrimStack() if spec.HasInfo("clips")), None)
