@@ -22,9 +22,9 @@ ENGINE = ROOT / "usdvol_lint"
 RULES = ROOT / "rules"
 
 PACKAGES = (
-    {"words", "nearest", "releases"},
+    {"words", "nearest"},
     {"model"},
-    {"results"},
+    {"results", "releases"},
     {"schema", "paths", "config"},
     {"spelling"},
     {"volumefile"},

@@ -7,17 +7,15 @@ from functools import partial
 from os.path import isfile
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from usdvol_lint import __version__
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
-from usdvol_lint.releases import is_wanted, numbers_of
+from usdvol_lint.releases import release, required_version
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 FILE_NAME = "usdvol-lint.toml"
 TABLE = "usdvol-lint"
-REQUIRED_VERSION = "required-version"
 FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = ("full", "concise", "json")
 SHOWABLE = ("info", "known", "suppressed")
@@ -123,7 +121,7 @@ def read_config(path: Path) -> Config:
     values = {}
     given = _table(f"{path}: tool.{TABLE}", table)
     # A file that is written for another version may have keys that this one doesn't know.
-    for key in sorted(given, key=lambda key: key != REQUIRED_VERSION):
+    for key in sorted(given, key=lambda key: key != "required-version"):
         value = given[key]
         if key not in CHECKS:
             raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
@@ -223,29 +221,6 @@ def _pattern(where: str, value: Any) -> str:
     return str(value)
 
 
-def _required_version(where: str, value: Any) -> str:
-    """The value, if this version is among those that it wants."""
-    try:
-        is_this = is_wanted(__version__, _text(where, value))
-    except (UsageError, ValueError):
-        wanted = "a text such as '>=0.1,<0.2', or '0.1' for that and its patches"
-        raise UsageError(f"{where} must be {wanted}, not {value!r}") from None
-    if not is_this:
-        hint = f"install one that is wanted, or change {REQUIRED_VERSION}"
-        raise UsageError(f"{where} is {value!r}, and this is usdvol-lint {__version__}: {hint}")
-    return str(value)
-
-
-def _release(where: str, value: Any) -> str:
-    """The value, if it is the number of a release."""
-    try:
-        numbers_of(_text(where, value))
-    except (UsageError, ValueError):
-        wanted = "the number of a release as a text, such as '0.1'"
-        raise UsageError(f"{where} must be {wanted}, not {value!r}") from None
-    return str(value)
-
-
 def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
@@ -293,8 +268,8 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "root": _text,
     "version-pattern": _pattern,
     "baseline": _text,
-    REQUIRED_VERSION: _required_version,
-    "rules-as-of": _release,
+    "required-version": required_version,
+    "rules-as-of": release,
 }
 """For each key of the configuration a function that returns the value for the `Config`.
 

@@ -135,7 +135,7 @@ strict = true
         (
             "xyzzy = 1\nrequired-version = '>=99,<100'",
             f"required-version is '>=99,<100', and this is usdvol-lint {__version__}: "
-            "install one that is wanted, or change required-version",
+            "install one that is wanted, or change the key",
         ),
         (
             "required-version = '~=0.1'",
