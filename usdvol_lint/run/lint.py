@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 _SHAPING = (
-    *("options", "packs", "fail_on", "show"),
+    *("options", "packs", "fail_on", "show", "rules_as_of"),
     *("load", "content", "variants", "variant_limit", "times", "timeout"),
 )
 
