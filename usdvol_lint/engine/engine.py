@@ -23,6 +23,7 @@ from usdvol_lint.model import Completion, Finding, StageReport, Status, in_order
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
+from usdvol_lint.suppressions import InStages
 from usdvol_lint.volumefile.cache import VolumeFiles
 
 _SENT_AT_ONCE = 100
@@ -36,7 +37,7 @@ def _ignore(message: object) -> None:
 class Engine:
     """Lints stages, one after the other, with the same rules.
 
-    `depth` says how much of each stage is checked.
+    `depth` says how much of each stage is checked, `suppressions` how those in it are taken.
     `advance` is called with the number of samples of a long sequence that were read since the last
     call, `send` with new findings, so that they are not lost if the process dies.
     USD's own warnings go to standard error, which in a worker process is a pipe to its parent.
@@ -49,7 +50,10 @@ class Engine:
         depth: Depth | None = None,
         advance: Callable[[int], None] = _ignore,
         send: Callable[[list[Finding]], None] = _ignore,
+        suppressions: InStages | None = None,
     ) -> None:
+        self._known = rules
+        self._suppressions = suppressions or InStages()
         self._rules = [rules[code] for code in active.severities]
         self._active = active
         self._depth = depth or Depth()
@@ -90,7 +94,8 @@ class Engine:
     ) -> StageReport:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
-        stamp = Stamp(self._active, several_selections=depth.selections > 0)
+        several = depth.selections > 0
+        stamp = Stamp(self._active, several, self._known, self._suppressions)
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
         clock.lap("walk")

@@ -10,14 +10,16 @@ from typing import NamedTuple
 from usdvol_lint.config import Depth
 from usdvol_lint.model import Finding
 from usdvol_lint.packs.activation import ActiveRules
+from usdvol_lint.suppressions import InStages
 
 
 class Setup(NamedTuple):
-    """The parent's first message: the rules to run, and how much of a stage to check."""
+    """The parent's first message: the rules to run, and how stages are to be checked."""
 
     active: ActiveRules
     packs: tuple[str, ...]
     depth: Depth
+    suppressions: InStages
 
 
 class Ready(NamedTuple):

@@ -44,6 +44,7 @@ def main() -> None:
         setup.depth,
         lambda samples: _send(replies, Advance(samples)),
         lambda findings: _send(replies, NewFindings(findings)),
+        setup.suppressions,
     )
     _send(replies, Ready(usd_version()))
     while path := _next(requests):
