@@ -17,6 +17,7 @@ TAKEN_BACK = ""
 """The reason that takes back what a weaker layer or a prim above ignores."""
 
 _DATED = re.compile(r"(?is)until\s+(?P<day>\d+[-./]\d[\d./-]*)\s*:?\s*(?P<reason>.*)")
+_SHAPE = "write dictionary usdvolLint = { dictionary ignore = { string CODE = \"why\" } }"
 _KINDS = ((bool, "a bool"), (int | float, "a number"), (dict, "a dictionary"), (str, "a text"))
 
 Keys: TypeAlias = tuple[str, ...]
@@ -72,7 +73,8 @@ def matched_nothing(code: str, reason: str) -> Fault:
 
 def _misshapen(data: Any) -> Iterator[Fault]:
     if not isinstance(data, dict):
-        yield Fault((KEY,), f"{KEY!r} is {_kind(data)}, not a dictionary: it ignores nothing")
+        message = f"{KEY!r} is {_kind(data)}, not a dictionary: it ignores nothing"
+        yield Fault((KEY,), message, _SHAPE)
         return
     for key in data:
         if key != IGNORE:
@@ -84,7 +86,7 @@ def _misshapen(data: Any) -> Iterator[Fault]:
         yield Fault(
             (KEY, IGNORE),
             f"{IGNORE!r} in {KEY!r} is {found}, not a dictionary: it ignores nothing",
-            "write a dictionary with a key for each code, and the reason as its value",
+            _SHAPE,
         )
 
 
@@ -131,4 +133,4 @@ def _no_reason(code: str, value: Any, today: str | None) -> _Wrong | None:
 
 def _kind(value: Any) -> str:
     names = (name for kind, name in _KINDS if isinstance(value, kind))
-    return next(names, f"of type {type(value).__name__!r}")
+    return next(names, "a list" if hasattr(value, "__len__") else "of another type")

@@ -57,7 +57,6 @@ class _Gathered:
     def __init__(self) -> None:
         self.left = _Places()
         self.suppressed = _Places()
-        self.reason: str | None = None
 
     @property
     def counting(self) -> _Places:
@@ -101,17 +100,15 @@ class Causes:
             gathered = self._found.get(key)
             if gathered is None:
                 gathered = self._found[key] = _Gathered()
-            reason = finding.ignored
-            if reason is None and self._reason_for:
-                reason = self._reason_for(path, finding, source)
+            if finding.ignored is None and self._reason_for:
+                finding = finding._replace(ignored=self._reason_for(path, finding, source))
             met = _Met(stage, number, finding)
             worst = shown.setdefault(key, None)
-            if reason is None:
+            if finding.ignored is None:
                 gathered.left.add(met, self._most)
                 shown[key] = max(worst or finding.severity, finding.severity)
             else:
                 gathered.suppressed.add(met, self._most)
-                gathered.reason = gathered.reason or reason
 
     def result(self) -> tuple[tuple[Cause, ...], Mapping[tuple[str, Source], int]]:
         """The causes in the order of their first places, and the number of each."""
@@ -141,7 +138,7 @@ def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
     code, source = key
     places = gathered.counting
     assert places.cover
-    is_left = gathered.left.count > 0
+    reason = places.first[0].finding.ignored
     return Cause(
         fingerprint=fingerprint(code, source),
         severity=places.severity,
@@ -149,8 +146,8 @@ def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
         cover=places.cover,
         places=tuple(Place(met.stage, met.finding) for met in places.first),
         count=places.count,
-        state=State.NEW if is_left else State.SUPPRESSED,
-        reason=None if is_left else gathered.reason,
+        state=State.NEW if reason is None else State.SUPPRESSED,
+        reason=reason,
     )
 
 

@@ -76,8 +76,7 @@ def lint(
         catalog = load(settled.packs)
         active = activate(settled, catalog)
         jobs = settled.jobs or os.cpu_count() or 1
-        suppressing = reasons(settled, catalog, root)
-        causes = Causes(root, versions, settled.max_places, suppressing)
+        causes = Causes(root, versions, settled.max_places, reasons(settled, catalog, root))
         named = tuple(paths)
         stages, found = _folded(
             causes, stage_reports(pool, discover(named), settled, active, jobs, progress)

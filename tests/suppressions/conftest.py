@@ -1,0 +1,34 @@
+"""What tests of suppressions share: a lint of layers that are given as text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import pytest
+
+from usdvol_lint.config import Config, Depth
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.model import Finding
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.suppressions import InStages
+
+Lint: TypeAlias = Callable[..., tuple[Finding, ...]]
+
+
+@pytest.fixture
+def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lint:
+    """The findings on the first of some layers, of the rules AST002, FLD002 and LNT."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(layers: Mapping[str, str], selections: int = 0, **asked: Any) -> tuple[Finding, ...]:
+        for name, text in layers.items():
+            Path(name).write_text(f"#usda 1.0\n{text}", encoding="utf-8")
+        active = activate(Config(select=("AST002", "FLD002", "LNT")), catalog)
+        depth = Depth(selections=selections)
+        engine = Engine(catalog.rules, active, depth, suppressions=InStages(**asked))
+        return engine.lint(next(iter(layers))).findings
+
+    return call
