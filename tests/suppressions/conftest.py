@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import pytest
+from process import Ran
 
+from usdvol_lint.command import cli
 from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.model import Finding
@@ -32,3 +34,12 @@ def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> L
         return engine.lint(next(iter(layers))).findings
 
     return call
+
+
+@pytest.fixture
+def tool(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> Callable[..., Ran]:
+    """The command in this process, for all that starts no other."""
+    monkeypatch.chdir(tmp_path)
+    return lambda *arguments: Ran(cli.main(list(arguments)), *capfd.readouterr())

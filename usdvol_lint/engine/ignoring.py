@@ -78,9 +78,8 @@ def _misshapen(data: Any) -> Iterator[Fault]:
         return
     for key in data:
         if key != IGNORE:
-            hint = did_you_mean(key, [IGNORE]).removeprefix("; ")
-            hint = hint or f"all it can have is {IGNORE!r}"
-            yield Fault((KEY, key), f"{KEY!r} has a key {quoted(key)}, which means nothing", hint)
+            message = f"{KEY!r} has a key {quoted(key)}, which means nothing"
+            yield Fault((KEY, key), message, f"all it can have is {IGNORE!r}")
     if not isinstance(data.get(IGNORE, {}), dict):
         found = _kind(data[IGNORE])
         yield Fault(
