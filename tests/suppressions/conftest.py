@@ -17,18 +17,19 @@ from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.suppressions import InStages
 
+RULES = ("AST002", "AST010", "FLD002", "LNT")
 Lint: TypeAlias = Callable[..., tuple[Finding, ...]]
 
 
 @pytest.fixture
 def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lint:
-    """The findings on the first of some layers, of the rules AST002, FLD002 and LNT."""
+    """The findings on the first of some layers, of RULES."""
     monkeypatch.chdir(tmp_path)
 
     def call(layers: Mapping[str, str], selections: int = 0, **asked: Any) -> tuple[Finding, ...]:
         for name, text in layers.items():
             Path(name).write_text(f"#usda 1.0\n{text}", encoding="utf-8")
-        active = activate(Config(select=("AST002", "FLD002", "LNT")), catalog)
+        active = activate(Config(select=RULES), catalog)
         depth = Depth(selections=selections)
         engine = Engine(catalog.rules, active, depth, suppressions=InStages(**asked))
         return engine.lint(next(iter(layers))).findings

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import Any
 from zipfile import ZipFile
 
+import pytest
 from process import environment
 from pxr import Sdf
 from stagetexts import (
@@ -24,7 +26,12 @@ from stagetexts import (
     told,
 )
 
-from usdvol_lint.model import Finding
+from usdvol_lint.engine import shares
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.model import Finding, Severity
+from usdvol_lint.packs.activation import ActiveRules
+from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.rule import Problem, Rule
 
 Lint = Callable[..., tuple[Finding, ...]]
 
@@ -45,6 +52,15 @@ def test_a_prim_ignores_what_is_found_at_it_and_below_it(lint: Lint) -> None:
 def test_the_nearest_reason_counts(lint: Lint) -> None:
     text = prim("A", on_prim(AST002="above"), inside=field(on_prim(AST002="near")))
     assert found(lint({"stage.usda": text})) == [("AST002", "/A/density", "near")]
+
+
+def test_reasons_for_several_codes_come_from_several_prims(lint: Lint) -> None:
+    bare = field(on_prim(FLD002="near")).replace('token fieldDataType = "float"', "")
+    text = prim("A", on_prim(AST002="above"), inside=bare)
+    assert found(lint({"stage.usda": text})) == [
+        ("FLD002", "/A/density", "near"),
+        ("AST002", "/A/density", "above"),
+    ]
 
 
 def test_a_prim_takes_back_what_one_above_it_ignores(lint: Lint) -> None:
@@ -209,6 +225,34 @@ def test_an_instance_takes_back_what_the_asset_ignores(lint: Lint) -> None:
     ]
 
 
+def test_a_prim_in_a_prototype_takes_back_what_instances_ignore(lint: Lint) -> None:
+    asset = f"({DEFAULT})\n{smoke(inside=field(on_prim(AST002='')))}"
+    shot = prim("A", INSTANCE, on_prim(AST002="a")) + prim("B", INSTANCE)
+    assert messages(lint({"shot.usda": shot, "asset.usda": asset})) == [
+        ("/A/density", None, f"{GONE} (shown by 2 instances)"),
+    ]
+
+
+def test_a_prim_in_a_prototype_is_nearer_than_an_instance(lint: Lint) -> None:
+    asset = f"({DEFAULT})\n{smoke(inside=field(on_prim(AST002='asset')))}"
+    shot = prim("A", INSTANCE, on_prim(AST002="a")) + prim("B", INSTANCE)
+    layers = {"shot.usda": shot, "asset.usda": asset}
+    together = [("/A/density", "asset", f"{GONE} (shown by 2 instances)")]
+    apart = [("/A/density", "asset", GONE), ("/B/density", "asset", GONE)]
+    assert messages(lint(layers)) == together
+    assert messages(lint(layers, prims=(("/A",),))) == apart
+
+
+def test_very_many_instances_are_not_told_apart_by_patterns(
+    lint: Lint, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    layers = {"shot.usda": prim("A", INSTANCE) + prim("B", INSTANCE), "asset.usda": ASSET}
+    monkeypatch.setattr(shares, "_MOST_PATHS", 2)
+    assert len(lint(layers, prims=(("/A",),))) == 2
+    monkeypatch.setattr(shares, "_MOST_PATHS", 1)
+    assert len(lint(layers, prims=(("/A",),))) == 1
+
+
 def test_instances_are_told_apart_by_patterns_of_a_configuration(lint: Lint) -> None:
     shot = "".join(prim(name, INSTANCE) for name in "ABC")
     layers = {"shot.usda": shot, "asset.usda": ASSET}
@@ -234,6 +278,17 @@ def test_a_variant_may_ignore_what_another_does_not(lint: Lint) -> None:
     assert [(each.site.variant, each.ignored) for each in findings] == [
         ("look=thick", "thick"),
         ("/Smoke{look=thin}", None),
+    ]
+
+
+def test_another_selection_may_bring_instances_that_differ(lint: Lint) -> None:
+    both = prim("A", INSTANCE, on_prim(AST002="a")) + prim("B", INSTANCE)
+    variants = f'variantSet "look" = {{\n"none" {{\n}}\n"both" {{\n{both}}}\n}}\n'
+    chosen = 'variants = { string look = "none" }\nprepend variantSets = ["look"]'
+    layers = {"stage.usda": prim("Rig", chosen, inside=variants), "asset.usda": ASSET}
+    assert found(lint(layers, selections=9)) == [
+        ("AST002", "/Rig/A/density", "a"),
+        ("AST002", "/Rig/B/density", None),
     ]
 
 
@@ -317,6 +372,28 @@ def test_what_matched_nothing_is_told_where_it_is_asked_for(lint: Lint) -> None:
     assert told(lint({"stage.usda": text})) == []
 
 
+def test_what_a_nearer_one_stands_before_is_not_used(lint: Lint) -> None:
+    text = on_layer(AST002="layer", VOL001="did not run") + field(on_prim(AST002="near"))
+    assert told(lint({"stage.usda": text}, unused=True)) == [unused("AST002", "layer")]
+
+
+def test_what_is_taken_back_is_not_unused(lint: Lint) -> None:
+    asset = f"({DEFAULT})\n{smoke(on_prim(AST002='asset'), inside=prim('Calm'))}"
+    shot = prim("Shot", REFERENCE, on_prim(AST002=""))
+    assert told(lint({"shot.usda": shot, "asset.usda": asset}, unused=True)) == []
+
+
+def test_prototypes_are_looked_at(lint: Lint) -> None:
+    inside = prim("Calm", on_prim(AST002="idle"))
+    text = prim("Rig", inside=inside, kind="class") + "".join(
+        prim(name, "inherits = </Rig>\ninstanceable = true", kind="def") for name in "AB"
+    )
+    findings = lint({"stage.usda": text}, unused=True)
+    assert messages(findings) == [
+        ("/A/Calm", None, f"{unused('AST002', 'idle')} (shown by 2 instances)")
+    ]
+
+
 def test_an_asset_may_need_elsewhere_what_matches_nothing_here(lint: Lint) -> None:
     asset = on_layer(DEFAULT, FLD002="layer") + smoke(on_prim(FLD002="asset"))
     own = prim("Shot", REFERENCE, on_prim(LNT005="shot"))
@@ -338,6 +415,60 @@ def test_instances_use_it(lint: Lint) -> None:
     shot = prim("A", INSTANCE, on_prim(AST002="a")) + prim("B", INSTANCE, on_prim(FLD002="b"))
     layers = {"shot.usda": shot, "asset.usda": ASSET}
     assert told(lint(layers, unused=True)) == [unused("FLD002", "b")]
+
+
+# --- rules that fail ------------------------------------------------------------------------------
+
+
+def _fails(prim: Any, facts: Any) -> Iterator[Problem]:
+    yield Problem("it is here", at=prim, holds=lambda: 1 // (prim.GetName() != "Unsure"))
+    if prim.GetName() == "Rough":
+        raise ValueError("rough")
+
+
+def test_that_a_rule_failed_is_never_ignored(catalog: Catalog, tmp_path: Path) -> None:
+    """Who says so is told, also where nothing else was found."""
+    rule = Rule("ZZZ001", "rough", ("Xform",), Severity.ERROR, "0.1", _fails, {})
+    levels = dict.fromkeys(("LNT002", "LNT003", "ZZZ001"), Severity.ERROR)
+    engine = Engine({**catalog.rules, "ZZZ001": rule}, ActiveRules(levels, {}))
+    why = on_prim(ZZZ001="why", LNT002="why")
+    stage = tmp_path / "stage.usda"
+    stage.write_text(f"#usda 1.0\n{prim('Rough', why)}{prim('Unsure', why)}", encoding="utf-8")
+    assert sorted(found(engine.lint(str(stage)).findings)) == sorted(
+        (code, path, "why" if code == "ZZZ001" else None)
+        for code in ("LNT002", "LNT003", "ZZZ001")
+        for path in ("/Rough", "/Unsure")
+    )
+
+
+def _only_fails(prim: Any, facts: Any) -> Iterator[Problem]:
+    raise ValueError("rough")
+    yield
+
+
+def test_where_only_a_rule_failed_prims_are_asked_too(catalog: Catalog, tmp_path: Path) -> None:
+    rule = Rule("ZZZ001", "rough", ("Xform",), Severity.ERROR, "0.1", _only_fails, {})
+    levels = dict.fromkeys(("LNT002", "LNT003", "ZZZ001"), Severity.ERROR)
+    engine = Engine({**catalog.rules, "ZZZ001": rule}, ActiveRules(levels, {}))
+    stage = tmp_path / "stage.usda"
+    stage.write_text(f"#usda 1.0\n{prim('Rough', on_prim(LNT002='why'))}", encoding="utf-8")
+    assert found(engine.lint(str(stage)).findings) == [
+        ("LNT002", "/Rough", None),
+        ("LNT003", "/Rough", None),
+    ]
+
+
+# --- what the machine lacks -----------------------------------------------------------------------
+
+
+def test_what_the_machine_lacks_no_layer_can_ignore(lint: Lint) -> None:
+    """But a prim can: it is there that it shows."""
+    text = field(file="gone").replace("@./gone.vdb@", "@studio://gone.vdb@")
+    assert found(lint({"stage.usda": on_layer(AST010="layer") + text})) == [
+        ("AST010", "/density", None)
+    ]
+    text = text.replace("(\n\n)", f"(\n{on_prim(AST010='prim')})")
+    assert found(lint({"stage.usda": text})) == [("AST010", "/density", "prim")]
 
 
 # --- what it costs --------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ TAKEN_BACK = ""
 """The reason that takes back what a weaker layer or a prim above ignores."""
 
 _DATED = re.compile(r"(?is)until\s+(?P<day>\d+[-./]\d[\d./-]*)\s*:?\s*(?P<reason>.*)")
-_SHAPE = "write dictionary usdvolLint = { dictionary ignore = { string CODE = \"why\" } }"
+_SHAPE = 'write dictionary usdvolLint = { dictionary ignore = { string CODE = "why" } }'
 _KINDS = ((bool, "a bool"), (int | float, "a number"), (dict, "a dictionary"), (str, "a text"))
 
 Keys: TypeAlias = tuple[str, ...]
@@ -102,7 +102,7 @@ def _no_code(code: str, rules: Mapping[str, Rule]) -> _Wrong | None:
     meant = by_name.get(code.lower().replace("_", "-")) or code.upper()
     if meant in rules:
         return f"{quoted(code)} is not the code of a rule: it ignores nothing", f"write {meant!r}"
-    is_prefix = meant == "ALL" or any(rule.startswith(meant) for rule in rules)
+    is_prefix = any(rule.startswith(meant) for rule in rules)
     hint = "" if is_prefix else did_you_mean(meant, rules).removeprefix("; ")
     each = "write a key for each code, such as AST002"
     return f"there is no rule {quoted(code)} to ignore", hint or each

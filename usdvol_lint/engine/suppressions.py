@@ -61,10 +61,10 @@ class Suppressions:
         return found
 
     def ask(self, prim: Any) -> Mapping[str, _Reason]:
-        """What a prim and those above it ignore, of a prototype none above that."""
+        """What a prim and those above it ignore; the root of a prototype has no data."""
         waiting = []
         while (known := self._above.get(prim)) is None:
-            if prim.IsPseudoRoot() or prim.IsPrototype():
+            if prim.IsPseudoRoot():
                 known = self._above[prim] = {}
                 break
             waiting.append(prim)

@@ -33,12 +33,12 @@ class _Table(NamedTuple):
 
     def takes(self, stage: str, finding: Finding, source: Source) -> bool:
         """Whether a finding on a stage, named as layers are, is meant."""
-        prim = finding.site.prim
+        # No pattern matches the empty text, which stands for no layer and no prim.
         return (
             (self.codes is None or finding.code in self.codes)
-            and (self.layer is None or (source.layer is not None and self.layer(source.layer)))
+            and (self.layer is None or self.layer(source.layer or ""))
             and (self.stage is None or self.stage(stage))
-            and (self.prim is None or (prim is not None and self.prim(prim)))
+            and (self.prim is None or self.prim(finding.site.prim or ""))
         )
 
 
