@@ -25,6 +25,7 @@ PACKAGES = (
     {"words", "nearest"},
     {"model"},
     {"results", "releases"},
+    {"suppressions"},
     {"schema", "paths", "config"},
     {"spelling"},
     {"volumefile"},

@@ -14,11 +14,14 @@ from usdvol_lint.releases import release, required_version
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from usdvol_lint.suppressions import Suppression
+
 FILE_NAME = "usdvol-lint.toml"
 TABLE = "usdvol-lint"
 FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = ("full", "concise", "json")
-SHOWABLE = ("info", "known", "suppressed")
+SHOWABLE = ("info", "known", "suppressed", "unused")
+SUPPRESSIONS = ("all", "configuration", "none")
 LOADS = ("all", "none")
 CONTENTS = ("all", "first", "off")
 VARIANTS = ("selected", "all")
@@ -38,6 +41,8 @@ class Config(NamedTuple):
     `baseline` is the file that has what is known.
     `required_version` says which versions of the tool the rest is written for; built-in rules that
     came after the release `rules_as_of` report infos.
+    `suppressions` are those that are heeded: those in stages are not the `configuration`'s own,
+    `suppress`; `today` is a date in place of the real one, for those that expire.
     See `Depth` for `load`, `content`, `times` and `statistics`.
     """
 
@@ -65,6 +70,9 @@ class Config(NamedTuple):
     baseline: str | None = None
     required_version: str | None = None
     rules_as_of: str | None = None
+    suppressions: str = "all"
+    suppress: tuple[Suppression, ...] = ()
+    today: str | None = None
 
     @property
     def least_shown(self) -> Severity:
@@ -221,6 +229,12 @@ def _pattern(where: str, value: Any) -> str:
     return str(value)
 
 
+def _suppress(where: str, value: Any) -> tuple[Suppression, ...]:
+    from usdvol_lint.suppressions import read_tables  # few configurations have one
+
+    return read_tables(where, value)
+
+
 def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
@@ -270,6 +284,8 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "baseline": _text,
     "required-version": required_version,
     "rules-as-of": release,
+    "suppressions": partial(one_of, allowed=SUPPRESSIONS),
+    "suppress": _suppress,
 }
 """For each key of the configuration a function that returns the value for the `Config`.
 

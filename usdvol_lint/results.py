@@ -48,7 +48,8 @@ class Cause(NamedTuple):
     `source` is what is to blame, with the layer as fingerprints have it: in relation to the root.
     `severity` is the worst of all places, `cover` joins theirs; `places` are the first ones, and
     `count` is the number of all.
-    `was` is what the baseline has, where that is less; `reason` is why it is suppressed.
+    `was` is what the baseline has, where that is less; `reason` is why the first of its places is
+    suppressed, if all are: each has its own.
     """
 
     fingerprint: str

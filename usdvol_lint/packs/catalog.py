@@ -24,9 +24,10 @@ def _engine_rule(code: str, name: str, severity: Severity) -> Rule:
 
 STAGE_UNREADABLE = _engine_rule("LNT001", "stage-unreadable", Severity.ERROR)
 RULE_FAILED = _engine_rule("LNT002", "rule-failed", Severity.ERROR)
+UNUSED_SUPPRESSION = _engine_rule("LNT003", "unused-suppression", Severity.WARNING)
 USD_TOO_OLD = _engine_rule("LNT004", "usd-too-old", Severity.WARNING)
 NOT_CHECKED = _engine_rule("LNT005", "not-checked", Severity.INFO)
-ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, USD_TOO_OLD, NOT_CHECKED)
+ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, UNUSED_SUPPRESSION, USD_TOO_OLD, NOT_CHECKED)
 """The codes that the engine itself reports; `rules/lint/` holds only their pages."""
 NOT_IGNORABLE = frozenset({STAGE_UNREADABLE.code, RULE_FAILED.code})
 """They say that the job was not done, so nobody can switch them off."""

@@ -215,6 +215,8 @@ def _place(place: Place, first: Finding, shared: _Shared) -> dict[str, object]:
         said["message"] = finding.message
     if finding.suggestion != first.suggestion:
         said["suggestion"] = finding.suggestion
+    if finding.ignored != first.ignored:
+        said["reason"] = finding.ignored
     return said
 
 

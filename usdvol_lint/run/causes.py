@@ -58,12 +58,11 @@ class _Places:
 class _Gathered:
     """What is known of one cause so far: the places that are left, and those suppressed."""
 
-    __slots__ = ("left", "reason", "suppressed")
+    __slots__ = ("left", "suppressed")
 
     def __init__(self) -> None:
         self.left: _Places | None = None
         self.suppressed: _Places | None = None
-        self.reason: str | None = None
 
     @property
     def counting(self) -> _Places:
@@ -114,19 +113,17 @@ class Causes:
             gathered = self._found.get(key)
             if gathered is None:
                 gathered = self._found[key] = _Gathered()
-            reason = finding.ignored
-            if reason is None and self._reason_for:
-                reason = self._reason_for(path, finding, source)
+            if finding.ignored is None and self._reason_for:
+                finding = finding._replace(ignored=self._reason_for(path, finding, source))
             met = _Met(stage, number, finding)
             worst = shown.setdefault(key, None)
-            if reason is None:
+            if finding.ignored is None:
                 gathered.left = gathered.left or _Places()
                 gathered.left.add(met, self._most)
                 shown[key] = max(worst or finding.severity, finding.severity)
             else:
                 gathered.suppressed = gathered.suppressed or _Places()
                 gathered.suppressed.add(met, self._most)
-                gathered.reason = gathered.reason or reason
 
     def result(self) -> tuple[tuple[Cause, ...], Mapping[tuple[str, Source], int]]:
         """The causes in the order of their first places, and the number of each."""
@@ -166,7 +163,7 @@ def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
     code, source = key
     places = gathered.counting
     assert places.cover
-    is_left = gathered.left is not None
+    reason = places.first[0].finding.ignored
     return Cause(
         fingerprint=fingerprint(code, source),
         severity=places.severity,
@@ -174,8 +171,8 @@ def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
         cover=places.cover,
         places=tuple(Place(met.stage, met.finding) for met in places.first),
         count=places.count,
-        state=State.NEW if is_left else State.SUPPRESSED,
-        reason=None if is_left else gathered.reason,
+        state=State.NEW if reason is None else State.SUPPRESSED,
+        reason=reason,
     )
 
 

@@ -39,7 +39,15 @@ def main() -> None:
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
     answers = _Answers(replies)
-    engine = Engine(rules, setup.active, setup.depth, answers.advance, answers.send, setup.is_alone)
+    engine = Engine(
+        rules,
+        setup.active,
+        setup.depth,
+        answers.advance,
+        answers.send,
+        setup.is_alone,
+        setup.suppressions,
+    )
     _send(replies, Ready(usd_version()))
     while path := _next(requests):
         answers.end(engine.lint(path))
