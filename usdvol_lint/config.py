@@ -9,15 +9,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.releases import release, required_version
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from usdvol_lint.suppressions import Suppression
 
 FILE_NAME = "usdvol-lint.toml"
 TABLE = "usdvol-lint"
 FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = ("full", "concise", "json")
-SHOWABLE = ("info", "known", "suppressed")
+SHOWABLE = ("info", "known", "suppressed", "unused")
+SUPPRESSIONS = ("all", "configuration", "none")
 LOADS = ("all", "none")
 CONTENTS = ("all", "first", "off")
 VARIANTS = ("selected", "all")
@@ -35,6 +39,10 @@ class Config(NamedTuple):
     `max_places` is how many places of a cause a report has in full; `root` is the folder that
     layers go by in fingerprints, `version_pattern` what stands for any version in their paths.
     `baseline` is the file that has what is known.
+    `required_version` says which versions of the tool the rest is written for; built-in rules that
+    came after the release `rules_as_of` report infos.
+    `suppressions` are those that are heeded: those in stages are not the `configuration`'s own,
+    `suppress`; `today` is a date in place of the real one, for those that expire.
     See `Depth` for `load`, `content`, `times` and `statistics`.
     """
 
@@ -60,6 +68,11 @@ class Config(NamedTuple):
     root: str | None = None
     version_pattern: str | None = None
     baseline: str | None = None
+    required_version: str | None = None
+    rules_as_of: str | None = None
+    suppressions: str = "all"
+    suppress: tuple[Suppression, ...] = ()
+    today: str | None = None
 
     @property
     def least_shown(self) -> Severity:
@@ -114,7 +127,10 @@ def read_config(path: Path) -> Config:
     if table is None:
         raise UsageError(f"{path} has no table [tool.{TABLE}]")
     values = {}
-    for key, value in _table(f"{path}: tool.{TABLE}", table).items():
+    given = _table(f"{path}: tool.{TABLE}", table)
+    # A file that is written for another version may have keys that this one doesn't know.
+    for key in sorted(given, key=lambda key: key != "required-version"):
+        value = given[key]
         if key not in CHECKS:
             raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
         values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
@@ -213,6 +229,12 @@ def _pattern(where: str, value: Any) -> str:
     return str(value)
 
 
+def _suppress(where: str, value: Any) -> tuple[Suppression, ...]:
+    from usdvol_lint.suppressions import read_tables  # few configurations have one
+
+    return read_tables(where, value)
+
+
 def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
@@ -260,6 +282,10 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "root": _text,
     "version-pattern": _pattern,
     "baseline": _text,
+    "required-version": required_version,
+    "rules-as-of": release,
+    "suppressions": partial(one_of, allowed=SUPPRESSIONS),
+    "suppress": _suppress,
 }
 """For each key of the configuration a function that returns the value for the `Config`.
 

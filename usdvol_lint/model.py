@@ -144,7 +144,7 @@ class Finding(NamedTuple):
     absent: tuple[frozenset[Lack], ...] = ()
     """What is absent, if nothing else is wrong: of each set one has to be completed elsewhere."""
     ignored: str | None = None
-    """The reason why a suppression in the stage ignores it."""
+    """The reason why a suppression, in the stage or the configuration, ignores it."""
     since: str | None = None
     """The version in which the rule came to see this, where that is younger than the rule."""
 

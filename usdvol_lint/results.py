@@ -48,7 +48,8 @@ class Cause(NamedTuple):
     `source` is what is to blame, with the layer as fingerprints have it: in relation to the root.
     `severity` is the worst of all places, `cover` joins theirs; `places` are the first ones, and
     `count` is the number of all.
-    `was` is what the baseline has, where that is less; `reason` is why it is suppressed.
+    `was` is what the baseline has, where that is less; `reason` is why the first of its places is
+    suppressed, if all are: each has its own.
     """
 
     fingerprint: str
@@ -79,6 +80,7 @@ class StageResult(NamedTuple):
     """What came of one stage.
 
     `path` is the stage as the user named it or as it was found in a folder.
+    `completes` names layers as `source` of causes does, but for versions, which stay apart.
     `causes` are the numbers of the causes that it shows, ascending, and `worst` how bad each is
     here, None where a suppression takes it out; `levels` are the numbers of causes by level as
     this stage has them, without what is known or suppressed.

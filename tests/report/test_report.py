@@ -220,7 +220,7 @@ print(*sorted({unwanted!r} & set(sys.modules)))
     assert done.stdout.split() == []
 
 
-OPTIONAL = {"particle_fields", "message", "suggestion"}
+OPTIONAL = {"particle_fields", "message", "suggestion", "reason"}
 """What is there only if it was asked for, and what a place may say in its own words."""
 
 

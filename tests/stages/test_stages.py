@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
 from causes import told_twice
 
+from stages.blaming import blamed_though_clean
 from stages.defects import DEFECTS
 from stages.generating import FEATURES, Generated, generate
 from stages.judging import Found, misses
@@ -20,7 +20,6 @@ from stages.model import Expected
 from stages.usda import layer_text
 from stages.writing import write_scene, write_shared
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.model import Finding, Severity, Source
 
 SEED = 26
 COUNT = 2 * len(DEFECTS)
@@ -52,26 +51,12 @@ def test_nothing_is_found_but_the_defect(
             for each in report.findings
         ]
         missed = [*misses(made.expected, found), *told_twice(report.findings)]
-        missed += blamed_elsewhere(report.findings, path, engine)
+        missed += blamed_though_clean(engine, path, report.findings)
         if missed:
             failures.append(failure(number, path, made, missed))
         else:
             shutil.rmtree(folder)
     assert not failures, "\n".join(["", *failures])
-
-
-def blamed_elsewhere(findings: Iterable[Finding], root: Path, engine: Engine) -> Iterator[str]:
-    """Each finding that the layer to blame does not have when it is opened alone."""
-    blamed: dict[str, set[tuple[str, Source]]] = {}
-    for each in findings:
-        layer = each.source.layer
-        if each.severity is Severity.INFO or layer is None or not os.path.isfile(layer):
-            continue
-        if not os.path.samefile(layer, root):
-            blamed.setdefault(layer, set()).add((each.code, each.source))
-    for layer, told in blamed.items():
-        alone = {(each.code, each.source) for each in engine.lint(layer).findings}
-        yield from (f"not found in that layer alone: {each}" for each in told - alone)
 
 
 def failure(number: int, path: Path, made: Generated, missed: list[str]) -> str:

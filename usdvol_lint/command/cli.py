@@ -56,7 +56,7 @@ def _complete_from(constant: str) -> Any:
               help="Write the report to a file instead of standard output.")
 @click.option("--show", multiple=True, metavar="WHAT",
               shell_complete=_complete_from("SHOWABLE"),
-              help="Show what else is only counted: info, known, suppressed; may be repeated.")
+              help="Show more: info, known, suppressed, unused (suppressions); may be repeated.")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto",
               help="Colour the report; auto asks the terminal, NO_COLOR and FORCE_COLOR.")
 @click.option("--quiet", "-q", is_flag=True, help="Print findings only; nothing when healthy.")
@@ -91,6 +91,10 @@ def _complete_from(constant: str) -> Any:
               help="Exit with 1 if something in the baseline is gone.")
 @click.option("--moved", multiple=True, metavar="OLD=NEW",
               help="A layer or folder in the baseline is called otherwise now; may be repeated.")
+@click.option("--no-suppressions", is_flag=True,
+              help="Count what is suppressed too, in stages and by the configuration.")
+@click.option("--today", metavar="YYYY-MM-DD", hidden=True,
+              help="Take this for the date, where suppressions expire.")
 @click.option("--max-places", type=click.IntRange(min=1), metavar="N",
               help="How many places of a cause a report has in full (default: 20).")
 @click.option("--root", type=click.Path(), metavar="FOLDER",

@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+import click
+
 from usdvol_lint.command import output
 from usdvol_lint.command.codes import CLEAN, exit_code
 from usdvol_lint.command.progress import ProgressBar
@@ -55,6 +57,8 @@ def lint_stages(
     report = report._replace(run=_run_info(report, file))
     report, failure = prepared.apply(report) if prepared else (report, "")
     output.write(report, destinations, output.options_of(given, config))
+    if config.suppress and not given["quiet"]:
+        _tell_expired(config)
     if failure:
         raise UsageError(failure)
     if given["write_baseline"] is not None:
@@ -70,6 +74,14 @@ def _prepared(given: dict[str, Any], config: Config) -> Prepared | None:
     from usdvol_lint.command.baselines import prepared
 
     return prepared(given, config)
+
+
+def _tell_expired(config: Config) -> None:
+    """Says on standard error why what a table of the configuration suppressed is back."""
+    from usdvol_lint.run.suppressing import expired
+
+    for line in expired(config):
+        click.echo(f"usdvol-lint: {line}", err=True)
 
 
 def _run_info(report: Report, file: Path | None) -> RunInfo:

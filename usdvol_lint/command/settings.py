@@ -39,6 +39,12 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
         if given["baseline"] is not None:
             raise click.UsageError("--baseline and --no-baseline exclude each other")
         changes["baseline"] = None
+    if given["no_suppressions"]:
+        changes["suppressions"] = "none"
+    if given["today"] is not None:
+        from usdvol_lint.suppressions import date_of
+
+        changes["today"] = date_of("--today", given["today"])
     for name in given["output_format"]:
         CHECKS["output-format"]("--output-format", name)
     select = _codes(given["select"])
@@ -46,7 +52,21 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
         changes["select"] = select
     changes["ignore"] = _still_ignored(base.ignore, select) + _codes(given["ignore"])
     changes["severity"] = {**base.severity, **_severities(given["severity"])}
-    return base._replace(**changes), file
+    settings = base._replace(**changes)
+    _check_depth(settings)
+    return settings, file
+
+
+def _check_depth(settings: Config) -> None:
+    """Raises UsageError where a suppression would seem unused because little is looked at."""
+    if "unused" not in settings.show:
+        return
+    for name in ("load", "content", "times"):
+        value = getattr(settings, name)
+        if value != "all":
+            raise UsageError(
+                f"--show unused needs a run that looks at everything: leave out --{name} {value}"
+            )
 
 
 def _config_file(named: str | None, isolated: bool) -> Path | None:

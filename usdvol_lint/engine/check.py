@@ -59,6 +59,7 @@ class StageCheck:
 
     def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:
         """What the rules find under the selection composed now, and where they failed."""
+        self._stamp.recomposed()
         failures = Failures()
         for rule, prim in self._assigned(walked, facts, failures):
             options = self._options.get(rule.code, {})
@@ -70,6 +71,7 @@ class StageCheck:
         for prim, fault in facts.tables.unreadable:
             failures.add(NOT_CHECKED, prim, fault)
         yield from failures.findings(self._stamp.sites)
+        yield from self._stamp.suppressions(facts.stage, failures.prims)
 
     def others(self, selections: OtherSelections, known: set[Identity]) -> Iterator[Stamped]:
         """What only other variant selections show, each with the first selection that shows it."""

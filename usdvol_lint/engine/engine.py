@@ -23,6 +23,7 @@ from usdvol_lint.model import Completion, Finding, StageReport, Status, in_order
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import display
 from usdvol_lint.rule import Rule
+from usdvol_lint.suppressions import InStages
 from usdvol_lint.volumefile.cache import VolumeFiles
 
 _SENT_AT_ONCE = 100
@@ -36,7 +37,7 @@ def _ignore(message: object) -> None:
 class Engine:
     """Lints stages, one after the other, with the same rules.
 
-    `depth` says how much of each stage is checked.
+    `depth` says how much of each stage is checked, `suppressions` how those in it are taken.
     `advance` is called with the number of samples of a long sequence that were read since the last
     call, `send` with new findings, so that they are not lost if the process dies.
     `is_alone` says that there is but one stage, which no other may complete.
@@ -51,7 +52,10 @@ class Engine:
         advance: Callable[[int], None] = _ignore,
         send: Callable[[list[Finding]], None] = _ignore,
         is_alone: bool = False,
+        suppressions: InStages | None = None,
     ) -> None:
+        self._known = rules
+        self._suppressions = suppressions or InStages()
         self._rules = [rules[code] for code in active.severities]
         self._active = active
         self._depth = depth or Depth()
@@ -93,7 +97,9 @@ class Engine:
     ) -> StageReport:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
-        stamp = Stamp(self._active, depth.selections > 0, self._is_alone)
+        stamp = Stamp(
+            self._active, depth.selections > 0, self._known, self._suppressions, self._is_alone
+        )
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
         clock.lap("walk")

@@ -93,6 +93,11 @@ class Failures:
             self._failures[key] = _Failure(rule, root, error, text, of_precondition=True)
         error.__traceback__ = None
 
+    @property
+    def prims(self) -> list[Any]:
+        """The prims at which failures are reported."""
+        return [failure.prim for failure in self._failures.values()]
+
     def findings(self, sites: Sites) -> Iterator[Stamped]:
         """One finding for each kind of failure."""
         for key, failure in self._failures.items():
@@ -150,6 +155,7 @@ def _beside(found: Finding, error: BaseException) -> Finding:
         detail=_traceback(error),
         source=found.source._replace(subject="" if by_usd else found.code),
         cover=Cover(Severity.ERROR),
+        ignored=None,
     )
 
 

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.parts import parts_of
-from usdvol_lint.engine.site import Sites, cover_of
+from usdvol_lint.engine.site import Located, Sites, cover_of
 from usdvol_lint.model import Finding, Lack, Severity
 from usdvol_lint.packs.activation import ActiveRules
-from usdvol_lint.packs.catalog import NOT_CHECKED, help_for
+from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
+from usdvol_lint.suppressions import InStages
 from usdvol_lint.words import quoted
+
+if TYPE_CHECKING:
+    from usdvol_lint.engine.suppressions import Suppressions
 
 
 class Stamped(NamedTuple):
@@ -31,15 +36,30 @@ class Stamp:
 
     `several_selections` says whether findings need an identity, because more than one variant
     selection is checked; `is_alone` whether no other stage may complete this one.
+    `rules` are all there are, by code, and `asked` how suppressions in the stage are taken.
     """
 
     def __init__(
-        self, active: ActiveRules, several_selections: bool, is_alone: bool = False
+        self,
+        active: ActiveRules,
+        several_selections: bool,
+        rules: Mapping[str, Rule],
+        asked: InStages,
+        is_alone: bool = False,
     ) -> None:
         self.sites = Sites()
         self._active = active
         self._several_selections = several_selections
         self._is_alone = is_alone
+        self._rules = rules
+        self._asked = asked
+
+    @cached_property
+    def _suppressions(self) -> Suppressions:
+        """What the stage says is to be ignored; nobody asks on one without findings."""
+        from usdvol_lint.engine.suppressions import Suppressions
+
+        return Suppressions(self._rules, self._asked)
 
     def stamp(self, rule: Rule, problem: Problem | NotChecked) -> Iterator[Stamped]:
         """The finding; none if LNT005, which reports what was not checked, is switched off."""
@@ -49,15 +69,36 @@ class Stamp:
             return
         if problem.at_default and problem.times:
             for part in parts_of(problem):
-                yield self._stamped(rule, reported_as, part, severity)
+                yield from self._stamped(rule, reported_as, part, severity)
         else:
-            yield self._stamped(rule, reported_as, problem, severity)
+            yield from self._stamped(rule, reported_as, problem, severity)
+
+    def recomposed(self) -> None:
+        """Says that the stage was composed in another way."""
+        if "_suppressions" in self.__dict__:
+            self._suppressions.recomposed()
+
+    def suppressions(self, stage: Any, failed: Iterable[Any] = ()) -> Iterator[Stamped]:
+        """What is wrong with the suppressions that were met, or unused if that is asked for.
+
+        `failed` are prims on which rules failed.
+        """
+        if not self._asked.heeded:
+            return
+        for prim in failed:
+            self._suppressions.ask(prim)
+        if self._asked.unused:
+            for unused in self._suppressions.unused(stage, self._active.severities):
+                yield from self.stamp(UNUSED_SUPPRESSION, unused)
+        if "_suppressions" in self.__dict__:
+            for fault in self._suppressions.faults():
+                yield from self.stamp(UNUSED_SUPPRESSION, fault)
 
     def _stamped(
         self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
-    ) -> Stamped:
-        site, source, blame, instances = self.sites.locate(problem)
-        shown = f" (shown by {instances:,} instances)" if instances > 1 else ""
+    ) -> Iterator[Stamped]:
+        located = self.sites.locate(problem)
+        source, blame = located.source, located.blame
         clip = ""
         if blame.clip and blame.clip.rpartition("/")[2] not in problem.message:
             clip = f" (in the clip {quoted(blame.clip)})"
@@ -68,8 +109,8 @@ class Stamp:
             code=reported_as.code,
             name=reported_as.name,
             severity=self._lowered(severity, problem, reported_as.code),
-            message=problem.message + clip + shown,
-            site=site,
+            message=problem.message + clip,
+            site=located.site,
             source=source,
             cover=cover_of(problem, blame, own),
             suggestion=problem.suggestion,
@@ -79,14 +120,41 @@ class Stamp:
             since=problem.since,
         )
         same = identity(rule, problem, blame.spec) if self._several_selections else ()
-        return Stamped(finding, same, problem.holds)
+        for shown in self._as_shown(finding, problem, located):
+            reason = (shown.ignored,) if same and shown.ignored else ()
+            yield Stamped(shown, (*same, *reason), problem.holds)
+
+    def _as_shown(
+        self, finding: Finding, problem: Problem | NotChecked, located: Located
+    ) -> Iterator[Finding]:
+        """The finding, or one for each reason why some of its instances are ignored."""
+        prim = problem.at.GetPrim()
+        if not self._asked.heeded:
+            yield _shown_by(finding, located.instances)
+            return
+        layer = located.blame.spec.layer if located.blame.spec else prim.GetStage().GetRootLayer()
+        shares = self._suppressions.shares(
+            prim, layer if finding.source.layer is not None else None, finding.code
+        )
+        for share in shares:
+            site = finding.site._replace(prim=share.path) if finding.site.prim else finding.site
+            told = finding._replace(site=site, ignored=share.reason)
+            yield _shown_by(told, share.instances)
 
     def _lowered(self, severity: Severity, problem: Problem | NotChecked, code: str) -> Severity:
-        """The severity of a milder case, unless the user chose one for the rule."""
+        """The severity of a milder or younger case, unless the user chose one for the rule."""
+        if self._active.is_younger(code, problem.since):
+            return Severity.INFO
         milder = problem.severity
         if milder is None or code in self._active.chosen:
             return severity
         return min(severity, milder)
+
+
+def _shown_by(finding: Finding, instances: int) -> Finding:
+    if instances <= 1:
+        return finding
+    return finding._replace(message=f"{finding.message} (shown by {instances:,} instances)")
 
 
 def _absent(problem: Problem | NotChecked) -> tuple[frozenset[Lack], ...]:

@@ -24,9 +24,10 @@ def _engine_rule(code: str, name: str, severity: Severity) -> Rule:
 
 STAGE_UNREADABLE = _engine_rule("LNT001", "stage-unreadable", Severity.ERROR)
 RULE_FAILED = _engine_rule("LNT002", "rule-failed", Severity.ERROR)
+UNUSED_SUPPRESSION = _engine_rule("LNT003", "unused-suppression", Severity.WARNING)
 USD_TOO_OLD = _engine_rule("LNT004", "usd-too-old", Severity.WARNING)
 NOT_CHECKED = _engine_rule("LNT005", "not-checked", Severity.INFO)
-ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, USD_TOO_OLD, NOT_CHECKED)
+ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, UNUSED_SUPPRESSION, USD_TOO_OLD, NOT_CHECKED)
 """The codes that the engine itself reports; `rules/lint/` holds only their pages."""
 NOT_IGNORABLE = frozenset({STAGE_UNREADABLE.code, RULE_FAILED.code})
 """They say that the job was not done, so nobody can switch them off."""
@@ -38,10 +39,14 @@ def help_for(rule: Rule) -> str:
 
 
 class Catalog(NamedTuple):
-    """All rules by code, in order, with the folders their pages lie in."""
+    """All rules by code, in order, with the folders their pages lie in.
+
+    `built_in` are the codes of those that come with the tool.
+    """
 
     rules: Mapping[str, Rule]
     folders: tuple[str, ...] = ()
+    built_in: frozenset[str] = frozenset()
 
     def page(self, code: str) -> Page | None:
         """The page of a rule, or None if its pack has none."""
@@ -115,6 +120,7 @@ def load(packs: Sequence[str] = ()) -> Catalog:
     Raises PackError for a pack that can't be loaded, or two rules of the same code or name.
     """
     found = find_packs(packs)
+    built_in: frozenset[str] = frozenset()
     rules = {rule.code: rule for rule in ENGINE_RULES}
     names = {rule.name: rule for rule in ENGINE_RULES}
     for package, folder in found:
@@ -127,4 +133,5 @@ def load(packs: Sequence[str] = ()) -> Catalog:
                         f"rule pack {folder!r}: {rule.code} ({rule.name}) takes the code or "
                         f"name of another rule, {other.code} ({other.name})"
                     )
-    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in found))
+        built_in = built_in or frozenset(rules)  # the first pack is
+    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in found), built_in)

@@ -24,7 +24,7 @@ class Options(NamedTuple):
 
     `width` is that of the terminal in cells: with `color`, the text report is wrapped to it.
     Reports for people have causes from the severity `least` on; `verbose` shows all of them.
-    What is `known` or `suppressed` is there only where `show` names it.
+    What is `known` or `suppressed` is there only where `show` names it, and then all of it.
     """
 
     color: bool = False
@@ -41,8 +41,8 @@ class Options(NamedTuple):
 
     def shows(self, cause: Cause) -> bool:
         """Whether a report for people has this cause."""
-        if not cause.state.counts and cause.state not in self.show:
-            return False
+        if not cause.state.counts:
+            return cause.state in self.show
         return cause.severity >= self.threshold
 
 

@@ -63,7 +63,7 @@ def _key(number: int, cause: Cause) -> tuple[object, ...]:
     stage, finding = cause.places[0]
     if finding.fold is None:
         return stage, number
-    return stage, finding.code, finding.fold, cause.severity, cause.state
+    return stage, finding.code, finding.fold, cause.severity, cause.state, cause.reason
 
 
 def _stages_by_cause(report: Report) -> Mapping[int, list[int]]:
@@ -150,4 +150,6 @@ def remarks(one: Told) -> Iterator[tuple[str, str]]:
 
         yield "worse:", exceeds(cause.was, cause.cover) or ""
     if cause.state == State.SUPPRESSED and cause.reason:
-        yield "reason:", printable(cause.reason)
+        others = (place.finding.ignored for place in cause.places)
+        for reason in dict.fromkeys((cause.reason, *filter(None, others))):
+            yield "reason:", printable(reason)

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from usdvol_lint.baseline.cover import join
 from usdvol_lint.baseline.fingerprint import fingerprint
-from usdvol_lint.model import Cover, Finding, Severity, Source, StageReport
-from usdvol_lint.paths import below
+from usdvol_lint.model import Completion, Cover, Finding, Severity, Source, StageReport
+from usdvol_lint.paths import below, canonical
 from usdvol_lint.results import Cause, Place, StageResult, State
 
 MAX_PLACES = 20
@@ -58,12 +58,11 @@ class _Places:
 class _Gathered:
     """What is known of one cause so far: the places that are left, and those suppressed."""
 
-    __slots__ = ("left", "reason", "suppressed")
+    __slots__ = ("left", "suppressed")
 
     def __init__(self) -> None:
         self.left: _Places | None = None
         self.suppressed: _Places | None = None
-        self.reason: str | None = None
 
     @property
     def counting(self) -> _Places:
@@ -96,7 +95,12 @@ class Causes:
             name = below(layer, root)
             return versions.sub("*", name) if versions else name
 
+        @cache
+        def file_of(layer: str) -> str:
+            return below(canonical(layer), root)
+
         self._name_of = name_of
+        self._file_of = file_of
 
     def add(self, stage: int, path: str, findings: Iterable[tuple[int, Finding]]) -> None:
         """Adds findings of a stage, each with its number there."""
@@ -109,19 +113,17 @@ class Causes:
             gathered = self._found.get(key)
             if gathered is None:
                 gathered = self._found[key] = _Gathered()
-            reason = finding.ignored
-            if reason is None and self._reason_for:
-                reason = self._reason_for(path, finding, source)
+            if finding.ignored is None and self._reason_for:
+                finding = finding._replace(ignored=self._reason_for(path, finding, source))
             met = _Met(stage, number, finding)
             worst = shown.setdefault(key, None)
-            if reason is None:
+            if finding.ignored is None:
                 gathered.left = gathered.left or _Places()
                 gathered.left.add(met, self._most)
                 shown[key] = max(worst or finding.severity, finding.severity)
             else:
                 gathered.suppressed = gathered.suppressed or _Places()
                 gathered.suppressed.add(met, self._most)
-                gathered.reason = gathered.reason or reason
 
     def result(self) -> tuple[tuple[Cause, ...], Mapping[tuple[str, Source], int]]:
         """The causes in the order of their first places, and the number of each."""
@@ -141,9 +143,19 @@ class Causes:
             stats=report.stats,
             seconds=report.seconds,
             particle_fields=report.particle_fields,
-            completes=report.completes,
+            completes=report.completes and self._named(report.completes),
             causes=tuple(number for number, _ in ordered),
             worst=tuple(worst for _, worst in ordered),
+        )
+
+    def _named(self, completion: Completion) -> Completion:
+        """The same with layers as fingerprints have them, of each version its own."""
+        specs = (
+            spec._replace(layers=tuple(map(self._file_of, spec.layers)))
+            for spec in completion.specs
+        )
+        return Completion(
+            tuple(sorted(set(map(self._file_of, completion.layers)))), tuple(sorted(specs))
         )
 
 
@@ -151,7 +163,7 @@ def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
     code, source = key
     places = gathered.counting
     assert places.cover
-    is_left = gathered.left is not None
+    reason = places.first[0].finding.ignored
     return Cause(
         fingerprint=fingerprint(code, source),
         severity=places.severity,
@@ -159,8 +171,8 @@ def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
         cover=places.cover,
         places=tuple(Place(met.stage, met.finding) for met in places.first),
         count=places.count,
-        state=State.NEW if is_left else State.SUPPRESSED,
-        reason=None if is_left else gathered.reason,
+        state=State.NEW if reason is None else State.SUPPRESSED,
+        reason=reason,
     )
 
 

@@ -21,14 +21,15 @@ from usdvol_lint.run.discovery import discover
 from usdvol_lint.run.parts import completed_by
 from usdvol_lint.run.pool import Pool
 from usdvol_lint.run.protocol import Setup
+from usdvol_lint.run.suppressing import in_stages, reasons
 
 if TYPE_CHECKING:
     from subprocess import Popen
 
 
 _SHAPING = (
-    *("options", "packs", "fail_on", "show"),
-    *("load", "content", "variants", "variant_limit", "times", "timeout"),
+    *("options", "packs", "fail_on", "show", "rules_as_of"),
+    *("load", "content", "variants", "variant_limit", "times", "timeout", "suppressions"),
 )
 
 
@@ -72,9 +73,10 @@ def lint(
     try:
         settled = config() if callable(config) else config or Config()
         root, versions = naming(settled) if naming else Naming()
-        active = activate(settled, load(settled.packs))
+        catalog = load(settled.packs)
+        active = activate(settled, catalog)
         jobs = settled.jobs or os.cpu_count() or 1
-        causes = Causes(root, versions, settled.max_places)
+        causes = Causes(root, versions, settled.max_places, reasons(settled, catalog, root))
         named = tuple(paths)
         stages, found = _folded(
             causes, stage_reports(pool, discover(named), settled, active, jobs, progress)
@@ -108,7 +110,8 @@ def stage_reports(
     for future in futures:
         future.add_done_callback(lambda _: shown.stage_done())
     shown.begin(len(futures))
-    setup = Setup(active, config.packs, config.depth, is_alone=len(futures) == 1)
+    is_alone = len(futures) == 1
+    setup = Setup(active, config.packs, config.depth, in_stages(config), is_alone)
     pool.run(setup, jobs, config.timeout, shown.advance)
     while futures:
         yield futures.popleft().result()
@@ -140,4 +143,5 @@ def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
     return {
         "rules": {code: severity.label for code, severity in active.severities.items()},
         **{key: chosen[key] for key in _SHAPING},
+        "suppress": [each.as_written() for each in config.suppress],
     }

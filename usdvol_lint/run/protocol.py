@@ -11,10 +11,11 @@ from typing import NamedTuple
 from usdvol_lint.config import Depth
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import ActiveRules
+from usdvol_lint.suppressions import InStages
 
 
 class Setup(NamedTuple):
-    """The parent's first message: the rules to run, and how much of a stage to check.
+    """The parent's first message: the rules to run, and how stages are to be checked.
 
     `is_alone` says that there is but one stage in the run.
     """
@@ -22,6 +23,7 @@ class Setup(NamedTuple):
     active: ActiveRules
     packs: tuple[str, ...]
     depth: Depth
+    suppressions: InStages
     is_alone: bool = False
 
 

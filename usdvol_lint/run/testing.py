@@ -114,7 +114,8 @@ def findings_in(paths: Sequence[str], config: Config) -> list[tuple[Finding, ...
 def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
     """The findings in an example, independent of the folder that it was written to.
 
-    LNT004, which is about an old USD and not about the example, is left out.
+    LNT004, which is about an old USD and not about the example, is left out, and what the example
+    ignores.
     """
 
     def anywhere(text: str) -> str:
@@ -129,7 +130,7 @@ def portable(findings: Iterable[Finding], folder: Path) -> tuple[Finding, ...]:
             site=finding.site._replace(layer=anywhere(finding.site.layer)),
         )
         for finding in findings
-        if finding.code != USD_TOO_OLD.code
+        if finding.code != USD_TOO_OLD.code and finding.ignored is None
     )
 
 

@@ -38,34 +38,43 @@ def main() -> None:
         check_types(rules.values())
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
-    sent: list[Finding] = []
-
-    def send(findings: list[Finding]) -> None:
-        sent.extend(findings)
-        _send(replies, NewFindings(findings))
-
+    answers = _Answers(replies)
     engine = Engine(
         rules,
         setup.active,
         setup.depth,
-        lambda samples: _send(replies, Advance(samples)),
-        send,
+        answers.advance,
+        answers.send,
         setup.is_alone,
+        setup.suppressions,
     )
     _send(replies, Ready(usd_version()))
     while path := _next(requests):
-        sent.clear()
-        _send(replies, _done(engine.lint(path), sent))
+        answers.end(engine.lint(path))
         gc.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
 
 
-def _done(report: StageReport, sent: list[Finding]) -> Done:
-    """The report without what was sent before, which is most of it."""
-    numbers = {id(finding): number for number, finding in enumerate(sent)}
-    order = tuple(numbers.get(id(finding), finding) for finding in report.findings)
-    return Done(report._replace(findings=()), order)
+class _Answers:
+    """What is said of one stage: its findings as they come, and then the report without them."""
+
+    def __init__(self, replies: BinaryIO) -> None:
+        self._replies = replies
+        self._sent: list[Finding] = []
+
+    def advance(self, samples: int) -> None:
+        _send(self._replies, Advance(samples))
+
+    def send(self, findings: list[Finding]) -> None:
+        self._sent += findings
+        _send(self._replies, NewFindings(findings))
+
+    def end(self, report: StageReport) -> None:
+        numbers = {id(finding): number for number, finding in enumerate(self._sent)}
+        order = tuple(numbers.get(id(finding), finding) for finding in report.findings)
+        _send(self._replies, Done(report._replace(findings=()), order))
+        self._sent = []
 
 
 def _next(requests: BinaryIO) -> Any:
