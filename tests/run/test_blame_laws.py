@@ -6,10 +6,11 @@ import shutil
 from pathlib import Path
 
 import pytest
+import vdbwriter
 from identities import FILE, HEAD, Find, refers
 from process import ASSETS, write
 
-from usdvol_lint.model import Source
+from usdvol_lint.model import Severity, Source
 
 ALL = ("ALL",)
 META = 'upAxis = "Y"\nmetersPerUnit = 1\ntimeCodesPerSecond = 24\n'
@@ -26,6 +27,36 @@ def Volume "tank"
         token fieldName = "density"
         token fieldDataType = "float"
         token fieldClass = "fogVolume"
+    }
+}
+"""
+TWO_GRIDS = CLEAN.replace("cloud.vdb", "two_grids.vdb").replace("0.15", "-9").replace("0.65", "9")
+TWO = """
+def Xform "tank"
+{
+    def Volume "small"
+    {
+        float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]
+        rel field:density = </tank/small/density>
+        def OpenVDBAsset "density"
+        {
+            asset filePath = @./cloud.vdb@
+            token fieldName = "density"
+            token fieldDataType = "float"
+            token fieldClass = "fogVolume"
+        }
+    }
+    def Volume "large"
+    {
+        float3[] extent = [(0, 0, 0), (9, 9, 9)]
+        rel field:density = </tank/large/density>
+        def OpenVDBAsset "density"
+        {
+            asset filePath = @./box_growing.0003.vdb@
+            token fieldName = "density"
+            token fieldDataType = "float"
+            token fieldClass = "fogVolume"
+        }
     }
 }
 """
@@ -46,8 +77,14 @@ def ParticleField3DGaussianSplat "tank"
 @pytest.fixture
 def shots(tmp_path: Path) -> Path:
     """A folder for shots beside one with the files of assets."""
-    (tmp_path / "assets").mkdir()
-    shutil.copy(ASSETS / "cloud.vdb", tmp_path / "assets")
+    assets = Path(shutil.copytree(ASSETS, tmp_path / "assets"))
+    said = {"class": vdbwriter.string("fog volume"), **vdbwriter.bounds((0, 0, 0), (1, 1, 1))}
+    kinds = {"density": "Tree_float_5_4_3", "velocity": "Tree_vec3s_5_4_3"}
+    grids = [
+        vdbwriter.Grid(name, kind, metadata={**said, "name": vdbwriter.string(name)})
+        for name, kind in kinds.items()
+    ]
+    (assets / "two_grids.vdb").write_bytes(vdbwriter.vdb(*grids))
     return tmp_path / "shots"
 
 
@@ -64,6 +101,20 @@ def shots(tmp_path: Path) -> Path:
         ),
         (SPLATS, "float3[] extent = [(0, 0, 0), (0.5, 0.5, 0.5)]", "ARR013", "/a", "extent"),
         (SPLATS, "float[] opacities = [1]", "ARR002", "/a", "opacities"),
+        (
+            SPLATS,
+            "float3[] radiance:sphericalHarmonicsCoefficients (\nelementSize = 9\n)",
+            "ARR015",
+            "/a",
+            "radiance:sphericalHarmonicsCoefficients",
+        ),
+        (
+            SPLATS,
+            'float3[] radiance:sphericalHarmonicsCoefficients (\ncolorSpace = "acse"\n)',
+            "ARR016",
+            "/a",
+            "radiance:sphericalHarmonicsCoefficients",
+        ),
         (CLEAN, 'over "density" ( active = false ) {}', "VOL008", "/a/density", None),
         (
             CLEAN,
@@ -87,6 +138,44 @@ def shots(tmp_path: Path) -> Path:
             "extent",
         ),
         (CLEAN, "rel field:density = </a/gone>", "VOL001", "/a", "field:density"),
+        (
+            TWO_GRIDS,
+            'over "density"\n{\ntoken fieldName = "velocity"\n}',
+            "GRD005",
+            "/a/density",
+            "fieldName",
+        ),
+        (
+            TWO,
+            'over "small"\n{\nrel field:density = </a/large/density>\n}',
+            "VOL013",
+            "/a/small",
+            "field:density",
+        ),
+        (
+            TWO,
+            'over "small"\n{\nrel field:heat = </a/large/density>\n}',
+            "VOL014",
+            "/a/small",
+            "field:heat",
+        ),
+        (
+            CLEAN,
+            'over "density"\n{\ndouble3 xformOp:translate = (1, 0, 0)\n'
+            'uniform token[] xformOpOrder = ["xformOp:translate"]\n}',
+            "VOL013",
+            "/a/density",
+            "xformOp:translate",
+        ),
+        (
+            CLEAN.replace(
+                "token fieldName", "double3 xformOp:translate = (1, 0, 0)\ntoken fieldName"
+            ),
+            'over "density"\n{\nuniform token[] xformOpOrder = ["xformOp:translate"]\n}',
+            "VOL013",
+            "/a/density",
+            "xformOpOrder",
+        ),
     ],
 )
 def test_an_asset_that_two_shots_break_is_not_to_blame(
@@ -101,14 +190,16 @@ def test_an_asset_that_two_shots_break_is_not_to_blame(
     write(shots.parent / "assets", tank=LAYER + asset)
     shot = STAGE + refers("a", inside=broken)
     write(shots, one=shot, two=shot, whole=STAGE + refers("a"))
-    assert find("assets/tank.usda", "shots/whole.usda", rules=ALL) == []
+    clean = find("assets/tank.usda", "shots/whole.usda", rules=ALL)
+    assert [cause.first.message for cause in clean] == []
     causes = find("shots/one.usda", "shots/two.usda", "assets/tank.usda", rules=ALL)
     told = [cause for cause in causes if cause.code == code]
     assert [(cause.source.layer, cause.source.path, cause.source.property) for cause in told] == [
         ("shots/one.usda", path, name),
         ("shots/two.usda", path, name),
     ]
-    assert {cause.source.layer for cause in causes} == {"shots/one.usda", "shots/two.usda"}
+    wrong = {cause.source.layer for cause in causes if cause.severity > Severity.INFO}
+    assert wrong <= {"shots/one.usda", "shots/two.usda"}
 
 
 BROKEN = """

@@ -61,6 +61,8 @@ def _own(problem: Problem | NotChecked) -> Blame:
         return _given(problem, name)
     if problem.of == NAME:
         return Blame(_weakest(at) or maker(prim), name, subject)
+    if isinstance(problem.of, str) and (spec := _saying(problem.of, at.GetPropertyStack())):
+        return Blame(spec, name, subject)
     if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
         time = None if problem.at_default else problem.times[0]
         if found := _value(at, time, subject):
@@ -149,7 +151,12 @@ def _with_metadata(prim: Any, of: Any) -> Any | None:
         return _typed(prim)
     if isinstance(of, tuple):
         return next(filter(_lists(of[1]), _stack(prim)), None)
-    return next((spec for spec in _stack(prim) if of and spec.HasInfo(of)), None)
+    return _saying(of, _stack(prim)) if of else None
+
+
+def _saying(key: str, stack: Iterable[Any]) -> Any | None:
+    """The strongest spec with some metadata."""
+    return next((spec for spec in stack if spec.HasInfo(key)), None)
 
 
 def maker(prim: Any) -> Any | None:
