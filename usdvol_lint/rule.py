@@ -154,14 +154,16 @@ class _Result:
         machine: str | None = None,
     ) -> None:
         # What is no text here would fail where reports are written, for all stages at once.
-        if not all(isinstance(text, str) for text in (message, suggestion or "", subject)):
+        is_text = isinstance(message, str) and isinstance(subject, str)
+        if not is_text or not (suggestion is None or isinstance(suggestion, str)):
             raise TypeError("message, suggestion and subject of a problem are text")
-        self.cover = at
-        if hasattr(at, "at_default"):
+        self.cover = None
+        if not type(at).__module__.startswith("pxr"):  # to ask a prim what it lacks takes long
+            self.cover = at
             at, times, at_default, asset = at.attribute, at.times, at.at_default, at.asset
         self.message = message
         self.at = at
-        self.times = tuple(map(float, times))
+        self.times = tuple(map(float, times)) if times else ()
         self.at_default = at_default
         self.suggestion = suggestion
         self.spec = spec

@@ -18,6 +18,7 @@ def positions_too_coarse(particles: Prim, facts: Facts, *, factor: float = 4.0, 
         f"at {found.largest:.8g}, the step from one {kind} to the next is {found.step:g}, "
         f"more than {amount} of {seen:,} particles{found.count}",
         at=found,
+        against=[array.attribute for array in facts.particles.arrays(particles).used("scales")],
         severity=None if are_most_lost else INFO,
         suggestion=_remedy(found.is_half, found.middle),
     )

@@ -42,7 +42,7 @@ def main() -> int:
     began = time.perf_counter()
     tally = Tally()
     try:
-        for part in _parts(chosen):
+        for part in _blames(chosen) if chosen.blame else _parts(chosen):
             tally = tally.with_more(part)
             _print_new(part, tally)
     except FailedError as error:
@@ -62,6 +62,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--first", type=int, default=0, help="number of the first stage")
     parser.add_argument("--keep", type=Path, metavar="FOLDER", help="leave the stages there")
+    parser.add_argument("--blame", action="store_true", help="hold the laws of blame over them")
     parser.add_argument("--against", type=Path, metavar="CHECKOUT", help="compare with this one")
     return parser.parse_args()
 
@@ -80,6 +81,24 @@ def _parts(chosen: argparse.Namespace) -> Iterator[Tally]:
             for cases in written_cases(folder, _BATCH):
                 for flags in FLAGS[:2]:
                     yield _checked(folder, cases, flags, chosen.against)
+
+
+def _blames(chosen: argparse.Namespace) -> Iterator[Tally]:
+    """Each stage by itself, opened in this process."""
+    from usdvol_lint.config import Config
+    from usdvol_lint.engine.engine import Engine
+    from usdvol_lint.packs.activation import activate
+    from usdvol_lint.packs.catalog import load
+
+    from .blaming import broken_laws
+
+    catalog = load()
+    engine = Engine(catalog.rules, activate(Config(), catalog))
+    for number in range(chosen.first, chosen.first + chosen.count):
+        with _folder(chosen, f"blame{number:06}") as folder:
+            case, *_ = random_cases(folder, chosen.seed, range(number, number + 1))
+            broken = broken_laws(engine, folder / case.path, number)
+            yield Tally(1, tuple(f"{case.story}: {each}" for each in broken))
 
 
 def _checked(folder: Path, cases: list[Case], flags: tuple[str, ...], other: Path | None) -> Tally:

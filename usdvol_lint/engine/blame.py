@@ -82,9 +82,9 @@ def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
 def _sublayer_with(at: Any, layer: Any) -> str | None:
     """The path by which a layer names the sublayer with the strongest value of a property."""
     stack = at.GetPropertyStack() if isinstance(at, Usd.Property) else ()
-    own = next(filter(_has_value, stack), None)
-    for path in layer.subLayerPaths if own else ():
-        if Sdf.Layer.FindRelativeToLayer(layer, path) == own.layer:
+    holders = [spec.layer for spec in stack if _has_value(spec)][:1]
+    for path in layer.subLayerPaths:
+        if Sdf.Layer.FindRelativeToLayer(layer, path) in holders:
             return str(path)
     return None
 
@@ -154,6 +154,8 @@ def _with_metadata(prim: Any, of: Any) -> Any | None:
 def maker(prim: Any) -> Any | None:
     """The weakest spec that makes a prim what it is: with its type, or else one that defines it."""
     stack = _stack(prim)
+    if len(stack) == 1:
+        return stack[0]
     wanted = prim.GetTypeName()
     if wanted:
         typed = [spec for spec in stack if spec.typeName == wanted]
@@ -181,8 +183,9 @@ def _lists(api: str) -> Callable[[Any], bool]:
 
 
 def _stack(prim: Any) -> list[Any]:
-    session = prim.GetStage().GetSessionLayer()
-    return [spec for spec in prim.GetPrimStack() if spec.layer != session]
+    stack: list[Any] = prim.GetPrimStack()
+    session = prim.GetStage().GetSessionLayer() if len(stack) > 1 else None
+    return [spec for spec in stack if spec.layer != session] if session else stack
 
 
 def _weakest(prop: Any) -> Any | None:

@@ -40,6 +40,7 @@ class Engine:
     `depth` says how much of each stage is checked, `suppressions` how those in it are taken.
     `advance` is called with the number of samples of a long sequence that were read since the last
     call, `send` with new findings, so that they are not lost if the process dies.
+    `is_alone` says that there is but one stage, which no other may complete.
     USD's own warnings go to standard error, which in a worker process is a pipe to its parent.
     """
 
@@ -50,6 +51,7 @@ class Engine:
         depth: Depth | None = None,
         advance: Callable[[int], None] = _ignore,
         send: Callable[[list[Finding]], None] = _ignore,
+        is_alone: bool = False,
         suppressions: InStages | None = None,
     ) -> None:
         self._known = rules
@@ -59,6 +61,7 @@ class Engine:
         self._depth = depth or Depth()
         self._advance = advance
         self._send = send
+        self._is_alone = is_alone
         self._volume_files = VolumeFiles()
         self._folders = Folders()
 
@@ -95,7 +98,7 @@ class Engine:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
         several = depth.selections > 0
-        stamp = Stamp(self._active, several, self._known, self._suppressions)
+        stamp = Stamp(self._active, several, self._known, self._suppressions, self._is_alone)
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
         clock.lap("walk")

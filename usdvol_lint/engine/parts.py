@@ -12,14 +12,14 @@ from usdvol_lint.rule import NotChecked, Problem
 
 
 def parts_of(problem: Problem | NotChecked) -> Iterator[Problem | NotChecked]:
-    """The problem, or the parts of it that are of one opinion each."""
-    is_mixed = problem.at_default and problem.times and isinstance(problem.at, Usd.Attribute)
-    if not is_mixed or problem.spec or are_of_one(problem.at, problem.times[0]):
+    """A problem at the default time and at others, or the parts of it that are of one opinion."""
+    is_of_values = isinstance(problem.at, Usd.Attribute) and not problem.spec
+    if not is_of_values or are_of_one(problem.at, problem.times[0]):
         yield problem
         return
     of_default, of_samples = copy(problem), copy(problem)
     of_default.times, of_samples.at_default = (), False
-    if hasattr(problem.cover, "samples"):
+    if problem.cover and hasattr(problem.cover, "samples"):
         of_default.cover, of_samples.cover = by_opinion(problem.cover)
     yield of_default
     yield of_samples

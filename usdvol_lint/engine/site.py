@@ -57,7 +57,7 @@ class Sites:
             source = Source(None, subject=problem.machine)
         site = site._replace(
             layer=self._names.shown(layer),
-            variant=_variants(spec.path) if spec else None,
+            variant=_variants(spec.path) if spec and "{" in path else None,
             line=position.line if position else None,
             column=position.column if position else None,
             excerpt=position.excerpt if position else None,
@@ -73,8 +73,8 @@ class Sites:
 def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Cover:
     """How much a problem covers, in the time of the layer to blame; of value clips the stage's."""
     found = problem.cover
-    share = getattr(found, "share", None)
-    elements = getattr(found, "number", None)
+    share = getattr(found, "share", None) if found else None
+    elements = getattr(found, "number", None) if found else None
     if not problem.times or _are_all(problem):
         return Cover(level, None, problem.at_default, share, elements)
     frames = problem.times
@@ -86,7 +86,7 @@ def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Co
 
 def _are_all(problem: Problem | NotChecked) -> bool:
     """Whether the problem is at all time samples there are."""
-    total = getattr(problem.cover, "total", None)
+    total = getattr(problem.cover, "total", None) if problem.cover else None
     if total is None:
         is_attribute = isinstance(problem.at, Usd.Attribute)
         total = problem.at.GetNumTimeSamples() if is_attribute else 0

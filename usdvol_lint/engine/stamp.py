@@ -35,7 +35,7 @@ class Stamp:
     """Makes findings of the problems of one stage.
 
     `several_selections` says whether findings need an identity, because more than one variant
-    selection is checked.
+    selection is checked; `is_alone` whether no other stage may complete this one.
     `rules` are all there are, by code, and `asked` how suppressions in the stage are taken.
     """
 
@@ -45,12 +45,14 @@ class Stamp:
         several_selections: bool,
         rules: Mapping[str, Rule],
         asked: InStages,
+        is_alone: bool = False,
     ) -> None:
         self.sites = Sites()
         self._active = active
         self._several_selections = several_selections
         self._rules = rules
         self._asked = asked
+        self._is_alone = is_alone
 
     @cached_property
     def _suppressions(self) -> Suppressions:
@@ -65,8 +67,11 @@ class Stamp:
         severity = self._active.severities.get(reported_as.code)
         if severity is None:
             return
-        for part in parts_of(problem):
-            yield from self._stamped(rule, reported_as, part, severity)
+        if problem.at_default and problem.times:
+            for part in parts_of(problem):
+                yield from self._stamped(rule, reported_as, part, severity)
+        else:
+            yield from self._stamped(rule, reported_as, problem, severity)
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
@@ -111,7 +116,7 @@ class Stamp:
             suggestion=problem.suggestion,
             help=help_for(reported_as),
             fold=problem.fold,
-            absent=_absent(problem),
+            absent=() if self._is_alone else _absent(problem),
             since=problem.since,
         )
         same = identity(rule, problem, blame.spec) if self._several_selections else ()
@@ -123,16 +128,19 @@ class Stamp:
         self, finding: Finding, problem: Problem | NotChecked, located: Located
     ) -> Iterator[Finding]:
         """The finding, or one for each reason why some of its instances are ignored."""
-        prim = problem.at.GetPrim()
         if not self._asked.heeded:
             yield _shown_by(finding, located.instances)
             return
-        layer = located.blame.spec.layer if located.blame.spec else prim.GetStage().GetRootLayer()
-        shares = self._suppressions.shares(
-            prim, layer if finding.source.layer is not None else None, finding.code
-        )
-        for share in shares:
-            site = finding.site._replace(prim=share.path) if finding.site.prim else finding.site
+        prim, layer = problem.at.GetPrim(), None
+        if finding.source.layer is not None:
+            spec = located.blame.spec
+            layer = spec.layer if spec else prim.GetStage().GetRootLayer()
+        if not prim.IsInPrototype():
+            reason = self._suppressions.reason(prim, layer, finding.code)
+            yield finding if reason is None else finding._replace(ignored=reason)
+            return
+        for share in self._suppressions.shares(prim, layer, finding.code):
+            site = finding.site._replace(prim=share.path)
             told = finding._replace(site=site, ignored=share.reason)
             yield _shown_by(told, share.instances)
 

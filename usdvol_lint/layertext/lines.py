@@ -93,7 +93,7 @@ _SAMPLE = re.compile(
     + _PADDING
 )
 _ELEMENT = re.compile(r"\{[^{}]*\}|\..*|[^/{}.]+")
-_BLOCK_SIZE = 1 << 16
+_BLOCK_SIZE = 1 << 12
 
 
 @dataclass(frozen=True, slots=True, order=True)

@@ -32,6 +32,8 @@ _ORDER = attrgetter("stage", "number")
 class _Places:
     """Some places of a cause: the first ones, the number of all, and what they come to."""
 
+    __slots__ = ("count", "cover", "first", "severity")
+
     def __init__(self) -> None:
         self.first: list[_Met] = []
         self.count = 0
@@ -46,7 +48,9 @@ class _Places:
             self.cover = cover
         elif self.cover != cover:
             self.cover = join(self.cover, cover)
-        if len(self.first) < most or _ORDER(met) < _ORDER(self.first[-1]):
+        if not self.first:
+            self.first.append(met)
+        elif len(self.first) < most or _ORDER(met) < _ORDER(self.first[-1]):
             insort(self.first, met, key=_ORDER)
             del self.first[most:]
 
@@ -54,13 +58,17 @@ class _Places:
 class _Gathered:
     """What is known of one cause so far: the places that are left, and those suppressed."""
 
+    __slots__ = ("left", "suppressed")
+
     def __init__(self) -> None:
-        self.left = _Places()
-        self.suppressed = _Places()
+        self.left: _Places | None = None
+        self.suppressed: _Places | None = None
 
     @property
     def counting(self) -> _Places:
-        return self.left if self.left.count else self.suppressed
+        counting = self.left or self.suppressed
+        assert counting
+        return counting
 
 
 class Causes:
@@ -101,13 +109,16 @@ class Causes:
             if gathered is None:
                 gathered = self._found[key] = _Gathered()
             if finding.ignored is None and self._reason_for:
-                finding = finding._replace(ignored=self._reason_for(path, finding, source))
+                reason = self._reason_for(path, finding, source)
+                finding = finding if reason is None else finding._replace(ignored=reason)
             met = _Met(stage, number, finding)
             worst = shown.setdefault(key, None)
             if finding.ignored is None:
+                gathered.left = gathered.left or _Places()
                 gathered.left.add(met, self._most)
                 shown[key] = max(worst or finding.severity, finding.severity)
             else:
+                gathered.suppressed = gathered.suppressed or _Places()
                 gathered.suppressed.add(met, self._most)
 
     def result(self) -> tuple[tuple[Cause, ...], Mapping[tuple[str, Source], int]]:

@@ -110,7 +110,8 @@ def stage_reports(
     for future in futures:
         future.add_done_callback(lambda _: shown.stage_done())
     shown.begin(len(futures))
-    setup = Setup(active, config.packs, config.depth, in_stages(config))
+    is_alone = len(futures) == 1
+    setup = Setup(active, config.packs, config.depth, is_alone, in_stages(config))
     pool.run(setup, jobs, config.timeout, shown.advance)
     while futures:
         yield futures.popleft().result()

@@ -1,25 +1,30 @@
 """The messages between the parent and a worker process, pickled over two pipes.
 
-After `Setup` the parent sends paths, and the worker answers each with a StageReport.
+After `Setup` the parent sends paths, and the worker answers each with `Done`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from usdvol_lint.config import Depth
-from usdvol_lint.model import Finding
+from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.suppressions import InStages
 
 
 class Setup(NamedTuple):
-    """The parent's first message: the rules to run, and how stages are to be checked."""
+    """The parent's first message: the rules to run, and how stages are to be checked.
+
+    `is_alone` says that there is but one stage in the run.
+    """
 
     active: ActiveRules
     packs: tuple[str, ...]
     depth: Depth
-    suppressions: InStages
+    is_alone: bool = False
+    suppressions: InStages = InStages()
 
 
 class Ready(NamedTuple):
@@ -38,6 +43,22 @@ class NewFindings(NamedTuple):
     """Findings on a stage since the last such message; more messages about the stage follow."""
 
     findings: list[Finding]
+
+
+class Done(NamedTuple):
+    """The report on a stage, the last message about it: its findings were sent before.
+
+    `order` are the numbers of those that the report has, in its order, among all that were sent,
+    or findings that were not.
+    """
+
+    report: StageReport
+    order: tuple[int | Finding, ...]
+
+    def with_findings(self, sent: Sequence[Finding]) -> StageReport:
+        """The whole report."""
+        found = (sent[each] if isinstance(each, int) else each for each in self.order)
+        return self.report._replace(findings=tuple(found))
 
 
 class Advance(NamedTuple):

@@ -14,7 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 from usdvol_lint.child import start_child
 from usdvol_lint.engine.trouble import Trouble, report_trouble
 from usdvol_lint.model import Finding, StageReport, Status, UsageError
-from usdvol_lint.run.protocol import Advance, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
 
 if TYPE_CHECKING:
     import subprocess
@@ -75,9 +75,9 @@ class Worker:
                 advance(message.samples)
 
         reply, timed_out = self._ask(path, limit, hear)
-        self._is_gone = timed_out or not isinstance(reply, StageReport)
-        if isinstance(reply, StageReport):
-            return reply
+        self._is_gone = timed_out or not isinstance(reply, Done)
+        if isinstance(reply, Done):
+            return reply.with_findings(found)
         seconds = {"total": time.perf_counter() - began}
         trouble = self._timed_out(limit) if timed_out else self._crashed()
         status = Status.TIMED_OUT if timed_out else Status.CRASHED

@@ -6,11 +6,14 @@ import gc
 import os
 import pickle
 import signal
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
-from usdvol_lint.model import StageReport, UsageError
+from usdvol_lint.model import Finding, StageReport, UsageError
 from usdvol_lint.packs.catalog import load
-from usdvol_lint.run.protocol import Advance, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
+
+if TYPE_CHECKING:
+    from usdvol_lint.engine.engine import Engine
 
 
 def main() -> None:
@@ -38,20 +41,35 @@ def main() -> None:
         check_types(rules.values())
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
-    engine = Engine(
-        rules,
-        setup.active,
-        setup.depth,
-        lambda samples: _send(replies, Advance(samples)),
-        lambda findings: _send(replies, NewFindings(findings)),
-        setup.suppressions,
-    )
+    sent: list[Finding] = []
+
+    def send(findings: list[Finding]) -> None:
+        sent.extend(findings)
+        _send(replies, NewFindings(findings))
+
+    def advance(samples: int) -> None:
+        _send(replies, Advance(samples))
+
+    heard, asked = (advance, send), (setup.is_alone, setup.suppressions)
+    engine = Engine(rules, setup.active, setup.depth, *heard, *asked)
     _send(replies, Ready(usd_version()))
-    while path := _next(requests):
-        _send(replies, engine.lint(path))
-        gc.collect()
+    _answer(engine, requests, replies, sent)
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
+
+
+def _answer(engine: Engine, requests: BinaryIO, replies: BinaryIO, sent: list[Finding]) -> None:
+    while path := _next(requests):
+        _send(replies, _done(engine.lint(path), sent))
+        sent.clear()
+        gc.collect()
+
+
+def _done(report: StageReport, sent: list[Finding]) -> Done:
+    """The report without what was sent before, which is most of it."""
+    numbers = {id(finding): number for number, finding in enumerate(sent)}
+    order = tuple(numbers.get(id(finding), finding) for finding in report.findings)
+    return Done(report._replace(findings=()), order)
 
 
 def _next(requests: BinaryIO) -> Any:
@@ -72,8 +90,6 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
     return requests, replies
 
 
-def _send(
-    replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | StageReport
-) -> None:
+def _send(replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | Done) -> None:
     pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
     replies.flush()
