@@ -24,7 +24,7 @@ RULES = ROOT / "rules"
 PACKAGES = (
     {"words", "nearest"},
     {"model"},
-    {"results"},
+    {"results", "releases"},
     {"suppressions"},
     {"schema", "paths", "config"},
     {"spelling"},
@@ -248,6 +248,9 @@ def test_a_rule_module(path: Path) -> None:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
     }
     assert called.isdisjoint({"print", "open", "input", "exec", "eval", "breakpoint"})
+    for node in ast.walk(module):
+        if isinstance(node, ast.keyword) and node.arg == "since":
+            assert re.fullmatch(r"\d+\.\d+", ast.literal_eval(node.value)), "read by rules-as-of"
     assert path.with_suffix(".md").is_file()
 
 

@@ -144,7 +144,7 @@ def test_the_public_names(installed: Path, tmp_path: Path) -> None:
         "config = usdvol_lint.Config(select=('AST002',))\n"
         "for run in range(2):\n"
         "    report = usdvol_lint.lint(['stage.usda'], config)\n"
-        "    print(*[(f.code, f.site.line) for s in report.stages for f in s.findings])\n"
+        "    print(*[(c.code, c.first.site.line) for c in report.causes])\n"
         "assert 'pxr' not in sys.modules\n"
         "try: usdvol_lint.lint(['.'], usdvol_lint.Config(select=('NO',)))\n"
         "except usdvol_lint.UsageError as error: print(error)\n"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.releases import release, required_version
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,6 +39,8 @@ class Config(NamedTuple):
     `max_places` is how many places of a cause a report has in full; `root` is the folder that
     layers go by in fingerprints, `version_pattern` what stands for any version in their paths.
     `baseline` is the file that has what is known.
+    `required_version` says which versions of the tool the rest is written for; built-in rules that
+    came after the release `rules_as_of` report infos.
     `suppressions` are those that are heeded: those in stages are not the `configuration`'s own,
     `suppress`; `today` is a date in place of the real one, for those that expire.
     See `Depth` for `load`, `content`, `times` and `statistics`.
@@ -65,6 +68,8 @@ class Config(NamedTuple):
     root: str | None = None
     version_pattern: str | None = None
     baseline: str | None = None
+    required_version: str | None = None
+    rules_as_of: str | None = None
     suppressions: str = "all"
     suppress: tuple[Suppression, ...] = ()
     today: str | None = None
@@ -122,7 +127,10 @@ def read_config(path: Path) -> Config:
     if table is None:
         raise UsageError(f"{path} has no table [tool.{TABLE}]")
     values = {}
-    for key, value in _table(f"{path}: tool.{TABLE}", table).items():
+    given = _table(f"{path}: tool.{TABLE}", table)
+    # A file that is written for another version may have keys that this one doesn't know.
+    for key in sorted(given, key=lambda key: key != "required-version"):
+        value = given[key]
         if key not in CHECKS:
             raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
         values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
@@ -274,6 +282,8 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "root": _text,
     "version-pattern": _pattern,
     "baseline": _text,
+    "required-version": required_version,
+    "rules-as-of": release,
     "suppressions": partial(one_of, allowed=SUPPRESSIONS),
     "suppress": _suppress,
 }

@@ -80,6 +80,7 @@ class StageResult(NamedTuple):
     """What came of one stage.
 
     `path` is the stage as the user named it or as it was found in a folder.
+    `completes` names layers as `source` of causes does, but for versions, which stay apart.
     `causes` are the numbers of the causes that it shows, ascending, and `worst` how bad each is
     here, None where a suppression takes it out; `levels` are the numbers of causes by level as
     this stage has them, without what is known or suppressed.

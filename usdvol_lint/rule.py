@@ -122,7 +122,7 @@ class _Result:
     with its value, for a prim the weakest that makes it what it is, since what it lacks each
     stronger one merely did not bring.
     `of` asks for the opinion on something else: on TYPE, on an API, `(APIS, name)`, on metadata by
-    its name, or on NAME, which the weakest spec of a property has.
+    its name, also that of a property, or on NAME, which the weakest spec of a property has.
     `spec` names another `Sdf` spec.
     `against` is what contradicts it, as prims, properties, occurrences, or pairs of a prim and such
     an `of`: then the strongest spec of all is to blame, or the arc that brings them together.

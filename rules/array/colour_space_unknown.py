@@ -23,5 +23,6 @@ def colour_space_unknown(particles: Prim, facts: Facts) -> Problems:
         else f"USD does not read the colour space {quoted(space.name)}: ColorSpaceAPI is not applied"
         + ("" if space.is_known else ", nor does it know that name"),
         at=space.attribute,
+        of="colorSpace",
         suggestion="; ".join(advice),
     )

@@ -16,6 +16,7 @@ def element_size_differs(particles: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"elementSize {size}, and degree {degree.value} takes {each:,} coefficient{'s' * (each != 1)}",
                 at=array.attribute,
+                of="elementSize",
                 against=[degree.attribute],
                 suggestion=f"author elementSize = {each}, or leave it out",
             )

@@ -10,10 +10,11 @@ def outside_extent(
     outside = facts.particles.positions_outside_extent(particles, slack, half_slack, clamp)
     kernels = facts.particles.kernels_outside_extent(particles, 0.0, clamp) if outside else None
     if outside:
+        positions = facts.particles.arrays(particles).used("positions")
         yield Problem(
             f"{outside.elements.amount} outside of the extent, {outside.shown_extent}, {outside.elements.first}",
             at=outside,
-            against=[particles.GetAttribute("extent")],
+            against=[array.attribute for array in positions],
             suggestion=f"author at least {outside.shown_with(kernels.fitting)}, which holds their kernels too"
             if kernels
             else f"the positions span {outside.shown_positions}: author at least that",

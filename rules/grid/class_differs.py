@@ -23,7 +23,7 @@ def class_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"fieldClass is {claimed!r}, but grid {content.label} in {found.shown} {what}{found.count}",
             at=found,
-            against=[field.GetAttribute("fieldClass")],
+            against=[field.GetAttribute(name) for name in ("fieldName", "fieldIndex", "fieldClass")],
             suggestion=f"author fieldClass {held!r}, or correct the grid" if known else _UNSAID,
             severity=None if known else INFO,
         )

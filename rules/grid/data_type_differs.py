@@ -29,7 +29,7 @@ def data_type_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"fieldDataType is {claimed!r}, but grid {content.label} in {found.shown} holds {held}{saved}{found.count}",
             at=found,
-            against=[field.GetAttribute("fieldDataType")],
+            against=[field.GetAttribute(name) for name in ("fieldName", "fieldIndex", "fieldDataType")],
             suggestion=f"author fieldDataType {fitting[0]!r}"
             if fitting
             else f"remove it: no fieldDataType stands for {held}",

@@ -16,6 +16,6 @@ def grid_index_missing(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"fieldIndex is {index}, but {found.shown} holds {many} named {quoted(name)}{found.count}",
             at=found,
-            against=[field.GetAttribute("fieldIndex")],
+            against=[field.GetAttribute(name) for name in ("fieldName", "fieldIndex")],
             suggestion=f"count from 0: the last one is {count - 1}",
         )

@@ -18,6 +18,6 @@ def vector_type_differs(field: Prim, facts: Facts) -> Problems:
             f"vectorDataRoleHint is {claimed!r}, but the vectors of grid {content.label} in "
             f"{found.shown} are {held!r}{found.count}",
             at=found,
-            against=[field.GetAttribute("vectorDataRoleHint")],
+            against=[field.GetAttribute(name) for name in ("fieldName", "fieldIndex", "vectorDataRoleHint")],
             suggestion=f"author vectorDataRoleHint {content.role_hints[0]!r}, or correct the grid",
         )

@@ -1,6 +1,6 @@
 """PRT008: a ParticleField with the APIs of a Gaussian splat is one by another name."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import APIS, INFO, Facts, Prim, Problem, Problems, rule
 from usdvol_lint.schema import API_INCLUDES, BUILT_IN_APIS, PARTICLE_FIELD, expand_apis
 
 _SPLAT = "ParticleField3DGaussianSplat"
@@ -17,5 +17,6 @@ def splat_by_parts(particles: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"a ParticleField with exactly the {len(BUILT_IN_APIS[_SPLAT])} APIs that {_SPLAT} has built in",
             at=particles,
+            against=[(particles, (APIS, api)) for api in BUILT_IN_APIS[_SPLAT]],
             suggestion=f"use the type {_SPLAT}, and do without the list of APIs",
         )

@@ -2,19 +2,16 @@
 
 from usdvol_lint.rule import STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 
-_NAMED = 20
 _MOST_BOXES = 3
 
 
 @rule("SCH007", on=STAGE, severity=WARNING, since="0.1")
 def extent_missing(stage: Prim, facts: Facts) -> Problems:
     prims = [prim for prim in facts.prims.without_extent if not _may_be_elsewhere(prim, facts)]
-
-    def is_volume(prim: Prim) -> bool:
-        return facts.prims.is_a(prim, "Volume")
-
+    volumes = [prim for prim in prims if facts.prims.is_a(prim, "Volume")]
+    measured = volumes if len(volumes) <= _MOST_BOXES else []
     for prim in prims:
-        box = facts.volumes.fitting_extent(prim) if len(prims) <= _MOST_BOXES and is_volume(prim) else ""
+        box = facts.volumes.fitting_extent(prim) if prim in measured else ""
         yield Problem(
             f"{prim.GetTypeName()} without an extent, so USD takes its bounds for empty",
             at=prim,

@@ -21,7 +21,7 @@ def extent_too_small(volume: Prim, facts: Facts, *, relative_slack: float = 1e-5
         yield Problem(
             (nothing if found.is_of_empty_extent else f"{missed} by {found.worst.amounts}") + found.count,
             at=found,
-            against=found.against,
+            against=[*found.against, *facts.volumes.bindings(volume).properties_of(found.fields)],
             suggestion=_ALIGN if facts.volumes.are_apart(volume, found.fields) else found.remedy,
             severity=INFO if found.only_half_voxels else None,
         )

@@ -14,7 +14,7 @@ def mixed_files(volume: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"the fields name {len(mixed.fields)} files at one time, {mixed.shown}: some renderers read the first only",
             at=volume,
-            against=mixed.attributes,
+            against=mixed.opinions,
             times=mixed.times,
             at_default=mixed.at_default,
             suggestion="write the grids into one file, or give each file a Volume of its own",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from runs import cause, held, report, states, using, written
+from runs import INFO, WARNING, cause, held, report, states, using, written
 
 from usdvol_lint.model import UsageError
 from usdvol_lint.results import Cause
@@ -59,6 +59,30 @@ def test_what_has_other_causes_did_not_move(tmp_path: Path) -> None:
     assert moved(tmp_path, was, [cause("b/x.usda", "/A")]) == ()
     assert moved(tmp_path, was, [cause("b/x.usda", "/A"), cause("b/x.usda", "/C")]) == ()
     assert moved(tmp_path, [cause(None, None)], [cause("x", None)]) == ()
+
+
+def of_levels(layer: str) -> list[Cause]:
+    levels = {"/A": WARNING, "/B": INFO}
+    return [cause(layer, prim, severity=level) for prim, level in levels.items()]
+
+
+@pytest.mark.parametrize("was", ["error", "info"])
+@pytest.mark.parametrize("now", ["error", "info"])
+def test_a_layer_moved_with_its_infos(was: str, now: str, tmp_path: Path) -> None:
+    """A baseline has infos only where they count, and a run has them in any case."""
+    file = written(tmp_path, *of_levels("a/x.usda"), fail_on=was)
+    assert len(held(file)) == (2 if was == "info" else 1)
+    made = report(tmp_path, *of_levels("b/x.usda"), fail_on=now)
+    use = using(file).apply(made).report.baseline
+    assert use
+    assert use.moved == (("a", "b"),)
+
+
+def test_infos_alone_did_not_move(tmp_path: Path) -> None:
+    was = [cause("a/x.usda", "/A"), cause("a/x.usda", "/B")]
+    now = [cause("b/x.usda", "/A"), cause("b/x.usda", "/B", severity=INFO)]
+    assert moved(tmp_path, was, now) == (("a", "b"),), "a severity of the configuration"
+    assert moved(tmp_path, was[:1], now[1:]) == ()
 
 
 def test_a_run_that_sees_less_knows_of_no_moves(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from process import ROUGH, STUDIO, Ran, run, settings, volume, write
 
+from usdvol_lint import __version__
 from usdvol_lint.config import CHECKS, Config
 
 
@@ -106,7 +107,10 @@ strict = true
         ("variant-limit = 0", "variant-limit must be a whole number from 1, not 0"),
         ("select = 'AST'", "select must be a list of strings, not 'AST'"),
         ("show = 'info'", "show must be a list of strings, not 'info'"),
-        ("show = ['infos']", "show must be one of info, not 'infos'; did you mean 'info'?"),
+        (
+            "show = ['infos']",
+            "show must be one of info, known, suppressed, not 'infos'; did you mean 'info'?",
+        ),
         ("ignore = ['AST', 3]", "ignore must be a list of strings, not ['AST', 3]"),
         ("packs = true", "packs must be a list of strings, not True"),
         ("severity = 'error'", "severity must be a table, not 'error'"),
@@ -128,6 +132,29 @@ strict = true
         (
             "timeout = '9'",
             "timeout must be a number of seconds above 0, at most 1,000,000, not '9'",
+        ),
+        (
+            "xyzzy = 1\nrequired-version = '>=99,<100'",
+            f"required-version is '>=99,<100', and this is usdvol-lint {__version__}: "
+            "install one that is wanted, or change the key",
+        ),
+        (
+            "required-version = '~=0.1'",
+            "required-version must be a text such as '>=0.1,<0.2', or '0.1' for that and its "
+            "patches, not '~=0.1'",
+        ),
+        (
+            "required-version = 0.1",
+            "required-version must be a text such as '>=0.1,<0.2', or '0.1' for that and its "
+            "patches, not 0.1",
+        ),
+        (
+            "rules-as-of = 0.1",
+            "rules-as-of must be the number of a release as a text, such as '0.1', not 0.1",
+        ),
+        (
+            "rules-as-of = 'v1'",
+            "rules-as-of must be the number of a release as a text, such as '0.1', not 'v1'",
         ),
     ],
 )
@@ -178,6 +205,13 @@ def test_a_configuration_that_can_not_be_read(
     assert ran.err.startswith(f"usdvol-lint: error: {name}: ")
     if os.name == "posix":
         assert ran.err.endswith(f": {said}\n")
+
+
+def test_this_version_is_wanted(tool: Callable[..., Ran], tmp_path: Path) -> None:
+    for wanted in (__version__, f">={__version__}", ">=0.0.1,<99"):
+        text = f"xyzzy = 1\nrequired-version = '{wanted}'\n"
+        (tmp_path / "usdvol-lint.toml").write_text(text, encoding="utf-8")
+        assert tool("--show-settings").err.endswith("usdvol-lint.toml: unknown key 'xyzzy'\n")
 
 
 def test_configuration_shapes_a_run(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from process import ONLY_STUDIO, STUDIO, Ran, run, settings, volume, write
 
-from usdvol_lint.command import cli
+from usdvol_lint.command import linting
 
 
 @pytest.mark.parametrize(
@@ -128,8 +128,14 @@ def test_infos_are_shown_to_those_who_ask(
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ("--show infos .", "--show must be one of info, not 'infos'; did you mean 'info'?"),
-        ("--show info --show xyzzy .", "--show must be one of info, not 'xyzzy'"),
+        (
+            "--show infos .",
+            "--show must be one of info, known, suppressed, not 'infos'; did you mean 'info'?",
+        ),
+        (
+            "--show info --show xyzzy .",
+            "--show must be one of info, known, suppressed, not 'xyzzy'",
+        ),
         ("--select STU01x .", "no rule code starts with 'STU01x'; did you mean 'STU001'?"),
         (
             "--ignore volume-name .",
@@ -224,6 +230,6 @@ def test_what_goes_wrong_in_the_tool_itself_is_no_finding(
     def fail(*arguments: object) -> None:
         raise RuntimeError("two\nlines")
 
-    monkeypatch.setattr(cli, "_lint", fail)
+    monkeypatch.setattr(linting, "lint_stages", fail)
     said = "usdvol-lint: internal error: RuntimeError: two lines (--verbose shows more)\n"
     assert tool(".") == Ran(2, "", said)

@@ -10,7 +10,7 @@ import pytest
 from pxr import Sdf, Usd, UsdUtils
 
 from usdvol_lint.engine.site import Located, Sites
-from usdvol_lint.model import Site
+from usdvol_lint.model import Excerpt, Site, Source
 from usdvol_lint.rule import NotChecked, Problem
 
 Locate = Callable[..., Located]
@@ -52,42 +52,54 @@ def OpenVDBAsset "density"
 STAGE = {"stage.usda": DENSITY}
 
 
+def site(
+    prim: str | None, prop: str | None, line: int, column: int, excerpt: Excerpt, **more: Any
+) -> Site:
+    return Site("stage.usda", prim, prop, line=line, column=column, excerpt=excerpt, **more)
+
+
+HEADER = Excerpt("#usda 1.0", 1)
+PRIM = Excerpt('def OpenVDBAsset "density"', 1)
+
+
 def test_a_prim(locate: Locate) -> None:
-    assert locate("/density", STAGE).site == Site("stage.usda", "/density", line=2, column=1)
+    assert locate("/density", STAGE).site == site("/density", None, 2, 1, PRIM)
 
 
 def test_the_stage_itself(locate: Locate) -> None:
-    assert locate("/", STAGE).site == Site("stage.usda", line=1, column=1)
-    assert locate("/", {"stage.usda": ""}).site == Site("stage.usda", line=1, column=1)
+    assert locate("/", STAGE).site == site(None, None, 1, 1, HEADER)
+    assert locate("/", {"stage.usda": ""}).site == site(None, None, 1, 1, HEADER)
 
 
 def test_properties(locate: Locate) -> None:
-    site = Site("stage.usda", "/density", "filePath", line=4, column=5)
-    assert locate("/density.filePath", STAGE).site == site
-    site = Site("stage.usda", "/density", "proxyPrim", line=10, column=5)
-    assert locate("/density.proxyPrim", STAGE).site == site
+    words = Excerpt("asset filePath = @./a.vdb@", 1)
+    assert locate("/density.filePath", STAGE).site == site("/density", "filePath", 4, 5, words)
+    words = Excerpt("rel proxyPrim = </density>", 1)
+    assert locate("/density.proxyPrim", STAGE).site == site("/density", "proxyPrim", 10, 5, words)
 
 
 def test_an_attribute_that_nobody_authored_is_looked_for_at_its_prim(locate: Locate) -> None:
-    site = Site("stage.usda", "/density", "fieldName", line=2, column=1)
-    assert locate("/density.fieldName", STAGE).site == site
+    assert locate("/density.fieldName", STAGE).site == site("/density", "fieldName", 2, 1, PRIM)
 
 
 def test_a_time_sample_and_the_default(locate: Locate) -> None:
-    site = Site("stage.usda", "/density", "filePath", line=7, column=9, times=(2.0, 4.0))
-    assert locate("/density.filePath", STAGE, times=(2.0, 4.0)).site == site
+    words = Excerpt("2: @./a.0002.vdb@,", 1)
+    expected = site("/density", "filePath", 7, 9, words, times=(2.0, 4.0))
+    assert locate("/density.filePath", STAGE, times=(2.0, 4.0)).site == expected
     found = locate("/density.filePath", STAGE, times=(2.0, 4.0), at_default=True).site
     assert (found.line, found.times, found.at_default) == (4, (2.0, 4.0), True)
 
 
 def test_a_time_between_samples_points_at_the_samples(locate: Locate) -> None:
-    site = Site("stage.usda", "/density", "filePath", line=5, column=5, times=(3.0,))
-    assert locate("/density.filePath", STAGE, times=(3.0,)).site == site
+    words = Excerpt("asset filePath.timeSamples = {", 1)
+    expected = site("/density", "filePath", 5, 5, words, times=(3.0,))
+    assert locate("/density.filePath", STAGE, times=(3.0,)).site == expected
 
 
 def test_an_asset_path(locate: Locate) -> None:
     found = locate("/density.filePath", STAGE, asset="./a.vdb").site
     assert (found.line, found.column) == (4, 22)
+    assert found.excerpt == Excerpt("asset filePath = @./a.vdb@", 18)
     found = locate("/density.filePath", STAGE, times=(4.0,), asset="./a.0004.vdb").site
     assert (found.line, found.column) == (8, 12)
 
@@ -113,8 +125,8 @@ def test_targets_are_an_opinion_and_a_bare_relationship_is_none(locate: Locate) 
         'over "cloud"\n{\n    rel field:density\n}\n',
         "weak.usda": 'def Volume "cloud"\n{\n    rel field:density = </gone>\n}\n',
     }
-    site = locate("/cloud.field:density", layers).site
-    assert (site.layer, site.line) == ("weak.usda", 4)
+    found = locate("/cloud.field:density", layers).site
+    assert (found.layer, found.line) == ("weak.usda", 4)
 
 
 def test_times_are_the_stages_and_lines_those_of_the_layers_own_time(locate: Locate) -> None:
@@ -171,9 +183,11 @@ def "model" (
 
 def test_variants(locate: Locate) -> None:
     found = locate("/model/smoke", {"stage.usda": VARIANTS}).site
-    assert found == Site("stage.usda", "/model/smoke", variant="look=thick", line=16, column=13)
-    found = locate("/model/dark", {"stage.usda": VARIANTS}).site
-    assert (found.variant, found.line) == ("look=thick, time=night", 21)
+    words = Excerpt('def Volume "smoke"', 1)
+    assert found == site("/model/smoke", None, 16, 13, words, variant="look=thick")
+    dark = locate("/model/dark", {"stage.usda": VARIANTS})
+    assert (dark.site.variant, dark.site.line) == ("look=thick, time=night", 21)
+    assert dark.source.path == "/model{look=thick}{time=night}dark"
 
 
 def test_the_layer_is_named_from_the_working_directory(
@@ -217,11 +231,15 @@ def OpenVDBAsset "density" (
 }
 
 
-def test_clips(locate: Locate) -> None:
-    found = locate("/density.filePath", CLIPS, times=(1.0,)).site
-    assert (found.layer, found.line) == ("one.usda", 5)
-    found = locate("/density.filePath", CLIPS, times=(4.0,)).site
-    assert (found.layer, found.line) == ("two.usda", 6)
+def test_clips(locate: Locate, tmp_path: Path) -> None:
+    """To blame is the spec that names the clips, where the line is that of the clip."""
+    for time, name, column in ((1.0, "./one.usda", 23), (4.0, "./two.usda", 37)):
+        found = locate("/density.filePath", CLIPS, times=(time,))
+        words = Excerpt("asset[] assetPaths = [@./one.usda@, @./two.usda@]", column)
+        expected = site("/density", "filePath", 9, 12 + column, words, times=(time,))
+        assert (found.site, found.blame.clip) == (expected, name)
+        stage = str(tmp_path.resolve() / "stage.usda")
+        assert found.source == Source(stage, "/density", "clips", ".filePath")
 
 
 def test_binary_layers_have_no_lines(locate: Locate, tmp_path: Path) -> None:
@@ -275,7 +293,9 @@ def test_instances_are_shown_at_the_first(locate: Locate) -> None:
     prim = stage.GetPrototypes()[0].GetChild("density")
     found = Sites().locate(Problem("", at=prim.GetAttribute("filePath")))
     assert found.instances == 2
-    assert found.site == Site("lib.usda", "/a/density", "filePath", line=6, column=5)
+    words = Excerpt("asset filePath = @./a.vdb@", 1)
+    expected = site("/a/density", "filePath", 6, 5, words)
+    assert found.site == expected._replace(layer="lib.usda")
 
 
 def test_columns_count_characters_and_lines_end_as_on_windows(
@@ -286,6 +306,8 @@ def test_columns_count_characters_and_lines_end_as_on_windows(
     (tmp_path / "stage.usda").write_text(f"#usda 1.0\n{text}", encoding="utf-8")
     found = located("stage.usda", "/density.filePath").site
     assert (found.line, found.column) == (4, 31)
+    assert found.excerpt == Excerpt('string Größe = "größer" ; asset filePath = @./a.vdb@', 27)
     windows = f"#usda 1.0\n{DENSITY}".replace("\n", "\r\n").encode()
     (tmp_path / "windows.usda").write_bytes(windows)
-    assert located("windows.usda", "/density.filePath", times=(2.0,)).site.line == 7
+    found = located("windows.usda", "/density.filePath", times=(2.0,)).site
+    assert (found.line, found.excerpt) == (7, Excerpt("2: @./a.0002.vdb@,", 1))

@@ -54,7 +54,12 @@ def test_what_is_found_as_authored_stays_as_it_is(lint: Lint) -> None:
         selected.findings
     )
     assert len(every.findings) == 4
-    assert len({each.fingerprint for each in every.findings}) == 4
+    assert {(each.source.path, each.source.property) for each in every.findings} == {
+        ("/apart/d", "filePath"),
+        ("/model{look=a}v/d", "filePath"),
+        ("/model{look=b}v/d", "filePath"),
+        ("/other/v/d", "filePath"),
+    }
 
 
 def test_a_finding_of_several_selections_names_the_first(lint: Lint) -> None:

@@ -178,8 +178,8 @@ def test_an_edited_pack_is_read_anew(show: Path, tmp_path: Path) -> None:
         )
         options = {"EDT001": {option: 4}}
         config = Config(select=("EDT",), packs=(str(module.parent),), jobs=1, options=options)
-        (stage,) = lint([str(show)], config).stages
-        found += [(finding.severity.label, finding.message) for finding in stage.findings]
+        causes = lint([str(show)], config).causes
+        found += [(cause.severity.label, cause.first.message) for cause in causes]
     assert found == [("info", "one is 4"), ("error", "second is 4")]
 
 

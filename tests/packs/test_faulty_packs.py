@@ -52,10 +52,14 @@ def test_times_may_be_any_sequence(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize("problem", ["5, at=volume", "'seen', at=volume, suggestion=5"])
+@pytest.mark.parametrize(
+    "problem",
+    ["5, at=volume", "'seen', at=volume, suggestion=5", "'seen', at=volume, subject=5"],
+)
 def test_what_is_no_text_is_a_fault_of_the_rule(problem: str, tmp_path: Path) -> None:
     said = (
-        "rule FLT001 (faulty) failed here: TypeError: message and suggestion of a problem are text"
+        "rule FLT001 (faulty) failed here: TypeError: message, suggestion and subject of a problem "
+        "are text"
     )
     assert findings(tmp_path, problem) == (
         2,
@@ -186,7 +190,7 @@ def test_a_type_by_a_misspelt_name(types: tuple[str, ...], meant: str, tmp_path:
 def test_types_that_only_a_plugin_has(
     types: tuple[str, ...], message: str, advice: str, jobs: int, tmp_path: Path
 ) -> None:
-    """Where it is not installed that is said once in a run, for the rule finds nothing."""
+    """Where it is not installed that is one cause in a run, for the rule finds nothing."""
     stages = write(tmp_path / "stages", one=volume("a"), two=volume("b"))
     pack = on(tmp_path, *types)
     ran = run(
@@ -194,8 +198,11 @@ def test_types_that_only_a_plugin_has(
         *(f"-j{jobs}", stages),
         cwd=tmp_path,
     )
-    [[found], []] = [stage["findings"] for stage in ran.stages]
+    [found] = ran.json["causes"]
     assert (ran.code, found["code"], found["severity"]) == (0, "LNT005", "info")
+    assert found["source"]["layer"] is None
+    assert found["source"]["subject"] == "FLT001"
+    assert [place["stage"] for place in found["places"]] == [0, 1]
     assert found["message"] == (
         f"rule FLT001 (faulty) looked at nothing: no schema that is installed here {message}"
     )

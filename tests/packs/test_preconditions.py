@@ -17,7 +17,7 @@ from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.found import Wing, summary
 from usdvol_lint.facts.prims.tables import Table
-from usdvol_lint.model import PackError, Severity
+from usdvol_lint.model import PackError, Severity, Source
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import Catalog, load
 from usdvol_lint.packs.examples import STAGE, cases, pages
@@ -71,36 +71,33 @@ KEY_OF_CONTENT = {
 def test_a_precondition_that_fails_is_one_finding_in_a_run(
     rule: dict[str, str], stage: str, prim: str, error: str, jobs: int, tmp_path: Path
 ) -> None:
-    """The rule looks at all prims, and the first stage says so, whichever was done first."""
+    """The rule looks at all prims, and every stage says so, whichever was done first."""
     folder = pack(tmp_path / "pack", **rule)
     stages = write(tmp_path / "stages", a=stage, b=stage, c=stage)
     (stages / "cloud.vdb").write_bytes((ROOT / "rules" / "assets" / "cloud.vdb").read_bytes())
     chosen = ("--isolated", "--pack", folder, "--select", "WHN", "--fail-on", "never")
-    ran = run(*chosen, "--output-format", "json", f"-j{jobs}", ".", cwd=stages)
-    found = {
-        report["path"]: [(each["code"], each["prim"], each["message"]) for each in found_in(report)]
-        for report in ran.stages
-    }
+    ran = run(*chosen, "--output-format", "json", "--root", ".", f"-j{jobs}", ".", cwd=stages)
     failed = (
         "the precondition of rule WHN001 (seen) failed, so the rule looked at every prim that it "
         f"asks for: {error}"
     )
-    seen = ("WHN001", prim, "seen")
-    assert found == {
-        "a.usda": [("LNT002", None, failed), seen],
-        "b.usda": [seen],
-        "c.usda": [seen],
-    }
+    assert [
+        (
+            each["code"],
+            each["message"],
+            (each["source"]["layer"], each["source"]["subject"]),
+            [(place["stage"], place["prim"]) for place in each["places"]],
+        )
+        for each in ran.json["causes"]
+    ] == [
+        ("LNT002", failed, (None, "WHN001"), [(0, None), (1, None), (2, None)]),
+        *(("WHN001", "seen", (f"{name}.usda", ""), [(n, prim)]) for n, name in enumerate("abc")),
+    ]
     assert (ran.code, ran.err) == (2, "")
 
 
-def found_in(report: Any) -> list[dict[str, Any]]:
-    findings: list[dict[str, Any]] = report["findings"]
-    return findings
-
-
-def test_preconditions_of_two_rules_are_two_findings(tmp_path: Path) -> None:
-    """Each with the first stage that shows it."""
+def test_preconditions_of_two_rules_are_two_causes(tmp_path: Path) -> None:
+    """Each with the stages that show it."""
     folder = pack(tmp_path / "pack", **ATTRIBUTE_ERROR)
     text = (folder / "seen.py").read_text()
     (folder / "other.py").write_text(
@@ -109,14 +106,20 @@ def test_preconditions_of_two_rules_are_two_findings(tmp_path: Path) -> None:
     both = volume("a") + 'def Xform "b"\n{\n}\n'
     stages = write(tmp_path / "stages", a=volume("a"), b=both, c=both)
     config = Config(select=("WHN",), packs=(str(folder),), jobs=1)
+    report = lint([str(stages)], config)
     assert [
-        [(each.code, each.faulty_rule) for each in report.findings]
-        for report in lint([str(stages)], config).stages
+        (each.code, each.source.subject, [place.stage for place in each.places])
+        for each in report.causes
     ] == [
-        [("LNT002", "WHN001"), ("WHN001", None)],
-        [("LNT002", "WHN002"), ("WHN001", None), ("WHN002", None)],
-        [("WHN001", None), ("WHN002", None)],
+        ("LNT002", "WHN001", [0, 1, 2]),
+        ("WHN001", "", [0]),
+        ("LNT002", "WHN002", [1, 2]),
+        ("WHN001", "", [1]),
+        ("WHN002", "", [1]),
+        ("WHN001", "", [2]),
+        ("WHN002", "", [2]),
     ]
+    assert [stage.causes for stage in report.stages] == [(0, 1), (0, 2, 3, 4), (0, 2, 5, 6)]
 
 
 def test_keys_that_can_not_be_computed_fail_every_rule_that_looks_at_them(tmp_path: Path) -> None:
@@ -149,8 +152,9 @@ def test_keys_that_can_not_be_computed_fail_every_rule_that_looks_at_them(tmp_pa
         assert Sdf.Layer.Find(str(stage)) is None
     finally:
         gc.enable()
-    details = {each.faulty_rule: each.detail for each in report.findings if each.faulty_rule}
-    assert details.keys() == rules.keys()
+    failed = [each for each in report.findings if each.code == "LNT002"]
+    assert {each.source for each in failed} == {Source(None, subject=code) for code in rules}
+    details = {each.source.subject: each.detail for each in failed}
     for detail in details.values():
         assert 'raise KeyError("lost")' in str(detail)
 
@@ -160,9 +164,9 @@ def test_a_rule_with_options_is_narrowed_too(options: str, tmp_path: Path) -> No
     folder = pack(tmp_path / "pack", "bindings(BindingMark.NESTED)", options=options)
     stages = write(tmp_path / "stages", nested=NESTED, plain=volume("cloud"))
     config = Config(select=("WHN",), packs=(str(folder),), jobs=1)
-    nested, plain = lint([str(stages)], config).stages
-    assert [finding.code for finding in nested.findings] == ["WHN001"]
-    assert plain.findings == ()
+    report = lint([str(stages)], config)
+    assert [cause.code for cause in report.causes] == ["WHN001"]
+    assert [stage.causes for stage in report.stages] == [(0,), ()]
 
 
 def test_a_precondition_is_given_the_options_that_it_names(tmp_path: Path) -> None:
@@ -173,7 +177,7 @@ def test_a_precondition_is_given_the_options_that_it_names(tmp_path: Path) -> No
         config = Config(
             select=("WHN",), packs=(str(folder),), jobs=1, options={"WHN001": dict(longest)}
         )
-        assert [len(report.findings) for report in lint([str(stages)], config).stages] == [seen]
+        assert len(lint([str(stages)], config).causes) == seen
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from process import ROOT, ROUGH, STUDIO, Ran, run
 
-from usdvol_lint.model import Finding, Severity, Site
+from usdvol_lint.model import Cover, Finding, Severity, Site, Source
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.packs.examples import cases, pages, words_file, words_of
 from usdvol_lint.packs.page import read_page
@@ -225,10 +225,18 @@ def test_the_folder_of_an_example_is_not_in_its_words(tmp_path: Path) -> None:
         Severity.ERROR,
         f"no file at {folder}/a.vdb or {folder.as_posix()}/b.vdb, example-0001/c.usda",
         Site("example-0001/example.usda", "/a", "b", "look=thin", 3, 7, (1.0, 2.0), True),
+        Source("a.usda"),
+        Cover(Severity.ERROR),
         suggestion=f"look at {folder}",
     )
-    old = Finding("LNT004", "usd-too-old", Severity.WARNING, "old", Site("a.usda"))
-    bare = Finding("LNT005", "not-checked", Severity.INFO, "two\nlines", Site("a.usdc"))
+    old = finding._replace(code="LNT004", message="old", site=Site("a.usda"))
+    bare = finding._replace(
+        code="LNT005",
+        severity=Severity.INFO,
+        message="two\nlines",
+        site=Site("a.usdc"),
+        suggestion=None,
+    )
     assert words_of(portable([finding, old, bare], folder)) == (
         "  example.usda:3: AST002 error </a.b> [default, 1-2] (variant look=thin)\n"
         "    no file at <folder>/a.vdb or <folder>/b.vdb, c.usda\n"

@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from reports import STRICT, report, without_styles
 
 from usdvol_lint.model import (
+    Completed,
+    Completion,
     Cover,
     Excerpt,
     Finding,
@@ -95,6 +97,17 @@ PARTICLE_FIELDS = st.builds(
     scale=st.none() | QUANTILES,
     transparent=st.none() | st.floats(0, 1),
 )
+FILES = st.lists(
+    st.text(st.characters(codec="utf-8", exclude_characters="\0")), min_size=1, max_size=2
+).map(tuple)
+"""What files can be called, as the real paths of layers are."""
+COMPLETIONS = st.builds(
+    Completion,
+    layers=FILES,
+    specs=st.lists(
+        st.builds(Completed, layers=FILES, path=ANYTHING, lacking=st.tuples(ANYTHING)), max_size=2
+    ).map(tuple),
+)
 STAGES = st.builds(
     StageReport,
     path=ANYTHING,
@@ -104,6 +117,7 @@ STAGES = st.builds(
     findings=st.lists(FINDINGS, max_size=4).map(tuple),
     seconds=st.dictionaries(ANYTHING, st.floats(0, 1e6), max_size=3),
     particle_fields=st.none() | st.lists(PARTICLE_FIELDS, max_size=2).map(tuple),
+    completes=st.none() | COMPLETIONS,
 )
 SETTINGS: st.SearchStrategy[object] = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | ANYTHING | st.sampled_from(Severity),

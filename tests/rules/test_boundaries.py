@@ -144,37 +144,42 @@ def test_a_layer_that_is_there_and_broken_is_no_slip_of_the_pen(
 # --- lists ---
 
 
-@pytest.mark.parametrize(("count", "more"), [(20, ""), (21, " and 1 more")])
-def test_prims_without_extent_that_are_named(count: int, more: str, lint: FindIn) -> None:
-    volumes = "".join(f'def Volume "v{number:02}" {{}}\n' for number in range(count))
-    [finding] = lint(volumes, "SCH007")
-    assert finding.message.count("<") == 20
-    assert finding.message.endswith(f"Volume </v19>{more}")
+def test_prims_without_extent_are_told_in_one_line(lint: FindIn) -> None:
+    volumes = "".join(f'def Volume "v{number:02}" {{}}\n' for number in range(40))
+    assert [(each.site.prim, each.message, each.fold) for each in lint(volumes, "SCH007")] == [
+        (f"/v{number:02}", "Volume without an extent, so USD takes its bounds for empty", "extent")
+        for number in range(40)
+    ]
+
+
+NO_TYPE, EMPTY_TYPE = "no fieldDataType", "fieldDataType is empty"
 
 
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (("",), "no fieldDataType"),
-        (('token fieldDataType = ""',), "fieldDataType is empty"),
-        ((TYPED, ""), "no fieldDataType"),
+        (("",), {"/f0": NO_TYPE}),
+        (('token fieldDataType = ""',), {"/f0.fieldDataType": EMPTY_TYPE}),
+        ((TYPED, ""), {"/f1": NO_TYPE}),
         (
             ("", TYPED, 'token fieldDataType = ""'),
-            "2 fields have no fieldDataType, the first is </f0>",
+            {"/f0": NO_TYPE, "/f2.fieldDataType": EMPTY_TYPE},
         ),
-        (("",) * 1200, "1,200 fields have no fieldDataType, the first is </f0>"),
+        (("",) * 40, {f"/f{number}": NO_TYPE for number in range(40)}),
     ],
     ids=["one", "empty", "other", "mixed", "many"],
 )
-def test_fields_without_a_data_type_are_one_finding(
-    lines: tuple[str, ...], said: str, lint: FindIn
+def test_fields_without_a_data_type_are_told_in_one_line(
+    lines: tuple[str, ...], said: dict[str, str], lint: FindIn
 ) -> None:
     fields = "".join(
         f'def OpenVDBAsset "f{number}"\n{{\n{line}\n}}\n' for number, line in enumerate(lines)
     )
-    [finding] = lint(fields, "FLD002")
-    assert finding.message == said
-    assert finding.site.prim == f"/f{lines.index('') if '' in lines else 0}"
+    found = lint(fields, "FLD002")
+    assert {each.fold for each in found} == {"fieldDataType"}
+    assert len(found) == len(said)
+    places = (".".join(filter(None, (each.site.prim, each.site.property))) for each in found)
+    assert dict(zip(places, [each.message for each in found], strict=True)) == said
 
 
 # --- contents ---

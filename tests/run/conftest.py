@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from identities import Find, finder
 from partlayers import Files, Judge, told, write
 
 from usdvol_lint.config import Config
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
-from usdvol_lint.run.parts import without_completed
+from usdvol_lint.run.parts import completed_by
 
 
 @pytest.fixture
@@ -24,6 +25,13 @@ def judge(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         write(tmp_path, layers)
         engine = Engine(catalog.rules, activate(Config(), catalog))
         stages = [engine.lint(f"{name}.usda") for name in names or sorted(layers)]
-        return told(without_completed(stages))
+        return told(stages, completed_by(stages))
 
     return call
+
+
+@pytest.fixture
+def find(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Find:
+    """The causes of a run over stages below a temporary folder, which is the root too."""
+    monkeypatch.chdir(tmp_path)
+    return finder(catalog, tmp_path)

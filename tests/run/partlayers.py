@@ -8,7 +8,7 @@ from pathlib import Path
 
 from process import ASSETS
 
-from usdvol_lint.model import StageReport
+from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.catalog import USD_TOO_OLD
 
 Files = dict[str, str]
@@ -121,12 +121,14 @@ def write(folder: Path, layers: Files) -> None:
         (folder / f"{name}.usda").write_text(text, encoding="utf-8")
 
 
-def told(stages: Sequence[StageReport]) -> list[str]:
+def told(
+    stages: Sequence[StageReport], is_completed: Callable[[StageReport, Finding], bool]
+) -> list[str]:
     return [
         f"{stage.path.removesuffix('.usda')} {each.code} {each.severity.label}"
         for stage in stages
         for each in stage.findings
-        if each.code != USD_TOO_OLD.code
+        if each.code != USD_TOO_OLD.code and not is_completed(stage, each)
     ]
 
 

@@ -62,8 +62,9 @@ def test_packages_are_parts_too(tmp_path: Path) -> None:
 
 def test_reports_say_what_a_stage_completes(tmp_path: Path) -> None:
     write(tmp_path, RIG_AND_CACHE)
-    (rig,) = run("rig.usda", "--output-format", "json", cwd=tmp_path).json["stages"]
-    (shot,) = run("shot.usda", "--output-format", "json", cwd=tmp_path).json["stages"]
+    json = ("--root", ".", "--output-format", "json")
+    (rig,) = run("rig.usda", *json, cwd=tmp_path).json["stages"]
+    (shot,) = run("shot.usda", *json, cwd=tmp_path).json["stages"]
     assert rig["completes"] is None
     assert shot["completes"] == {
         "layers": ["cache.usda", "rig.usda"],

@@ -113,10 +113,10 @@ def test_a_folder_that_can_not_be_listed_is_not_passed_over(
 def test_names_with_brackets(tmp_path: Path) -> None:
     """They are how USD names layers inside packages, and legal in file names all the same."""
     write(tmp_path / "[1]", **{"[2]": volume("fog"), "a[3]b": volume("fog")})
-    ran = run(*STUDIO_ONLY, tmp_path, cwd=tmp_path)
+    ran = run(*STUDIO_ONLY, "--root", tmp_path, tmp_path, cwd=tmp_path)
     assert set(troubles(ran)) == {"[1]/[2].usda", "[1]/a[3]b.usda"}
-    layers = {f["layer"] for stage in ran.stages for f in stage["findings"]}
-    assert layers == {"[1]/[2].usda", "[1]/a[3]b.usda"}
+    layers = [cause["source"]["layer"] for cause in ran.json["causes"]]
+    assert layers == ["[1]/[2].usda", "[1]/a[3]b.usda"]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere file names are Unicode")

@@ -29,16 +29,16 @@ _SMALL = Vt.Vec3fArray([(0.4, 0.4, 0.4), (0.41, 0.41, 0.41)])
 def broken_laws(engine: Engine, path: Path, number: int) -> Iterator[str]:
     """What laws a stage shows to be broken; one that is right is also broken from above."""
     if path.suffix != ".usdz":
-        yield from blamed_though_clean(engine, path)
+        yield from blamed_though_clean(engine, path, engine.lint(str(path)).findings)
         yield from moved_by_types_on_top(engine, path)
         if number % 2 == 0:
             yield from blamed_for_a_break_above(engine, path, Random(number))
 
 
-def blamed_though_clean(engine: Engine, path: Path) -> Iterator[str]:
+def blamed_though_clean(engine: Engine, path: Path, findings: Iterable[Finding]) -> Iterator[str]:
     """Each layer below the root that is blamed for what it does not show when opened alone."""
     root = canonical(str(path))
-    for code, source in sorted(_blamed(engine.lint(str(path)).findings), key=str):
+    for code, source in sorted(_blamed(findings), key=str):
         layer = source.layer or ""
         if layer in ("", root) or layer.endswith("]"):
             continue

@@ -89,20 +89,21 @@ class _Making:
             for name, wanted in defect.needs.items()
         }
         subject = self._subject(kind, 0, needs)
-        at = None if is_on_scene else defect.make(subject, self.rng) or subject.prim
-        path = subject.find(at) if at else None
+        made = [] if is_on_scene else defect.make(subject, self.rng) or subject.prim
+        paths = [subject.find(each) for each in (made if isinstance(made, list) else [made])]
         arcs = [arc for arc in ARCS if arc.name == defect.within]
         arcs += [arc for arc in self._arcs(3) if arc.name not in defect.without]
         placed = [self._arranged(subject, 0, arcs)]
-        shown = placed[0].shown(path) if path else None
+        shown = [placed[0].shown(path) for path in paths]
         if self.rng.random() < 0.3:
             other = self._subject(self.rng.choice(("volume", "particles")), 1, {})
             placed.append(self._arranged(other, 1, self._arcs(2)))
         root = self._combine(placed, is_on_scene, subject.time_range)
         if is_on_scene and root:
             prim = defect.make(self.scene, root, self.rng)
-            shown = f"/{prim.name}" if prim else None
-        expected = Expected(defect.code, shown, defect.also, defect.perhaps, defect.is_info)
+            shown = [f"/{prim.name}"] if isinstance(prim, Prim) else []
+        levels = (defect.also, defect.perhaps, defect.is_info)
+        expected = Expected(defect.code, next(iter(shown), None), *levels, tuple(shown[1:]))
         return self._result(expected, defect.name)
 
     def _result(self, expected: Expected, defect: str | None) -> Generated:

@@ -29,8 +29,10 @@ def misses(expected: Expected, found: Iterable[Found]) -> list[str]:
     codes = {each.code for each in findings}
     allowed = (*expected.also, *expected.perhaps)
     missed = [f"no {code}, to which it leads" for code in expected.also if code not in codes]
-    if expected.code and not wanted:
-        missed.insert(0, f"no {expected.code} at {expected.prim}")
+    if expected.code:
+        places = {_first_copy(each.prim) for each in wanted}
+        lacking = [prim for prim in (expected.prim, *expected.others) if prim not in places]
+        missed = [*(f"no {expected.code} at {prim}" for prim in lacking), *missed]
     return missed + [
         f"{each.severity} {each.code} at {each.prim}: {each.message}"
         for each in findings
@@ -42,7 +44,7 @@ def _is_wanted(found: Found, expected: Expected) -> bool:
     """Whether it is what must be found, at the level of an information or above it."""
     return (
         found.code == expected.code
-        and _first_copy(found.prim) == expected.prim
+        and _first_copy(found.prim) in (expected.prim, *expected.others)
         and (found.severity == "info") == expected.is_info
     )
 

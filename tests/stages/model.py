@@ -122,7 +122,7 @@ class Scene(Content):
 
 
 class Expected(NamedTuple):
-    """What must be found of a scene: nothing, or one code at one prim.
+    """What must be found of a scene: nothing, or one code at one prim, and at `others` if any.
 
     `also` are codes that the same defect leads to by its nature, `perhaps` those of some platforms
     only; `is_info` says that the code is no warning.
@@ -133,3 +133,4 @@ class Expected(NamedTuple):
     also: tuple[str, ...] = ()
     perhaps: tuple[str, ...] = ()
     is_info: bool = False
+    others: tuple[str, ...] = ()

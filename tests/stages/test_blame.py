@@ -14,7 +14,7 @@ from stages.writing import write_scene, write_shared
 from usdvol_lint.engine.engine import Engine
 
 SEED = 27
-COUNT = 160
+COUNT = 120
 PARTS = 4
 
 

@@ -1,4 +1,7 @@
-"""Random stages: what is right is clean, and a defect is found at its prim, and nothing else."""
+"""Random stages: what is right is clean, a defect is found at its prim, and nothing else is.
+
+What is blamed on another layer is found in that one alone.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ from pathlib import Path
 import pytest
 from causes import told_twice
 
+from stages.blaming import blamed_though_clean
 from stages.defects import DEFECTS
 from stages.generating import FEATURES, Generated, generate
 from stages.judging import Found, misses
@@ -47,6 +51,7 @@ def test_nothing_is_found_but_the_defect(
             for each in report.findings
         ]
         missed = [*misses(made.expected, found), *told_twice(report.findings)]
+        missed += blamed_though_clean(engine, path, report.findings)
         if missed:
             failures.append(failure(number, path, made, missed))
         else:
@@ -101,6 +106,16 @@ UNUSED = Found("VOL012", "info", "/a/cloud/density", "no Volume targets it")
             Expected("VOL013", "/a/cloud", also=("AST002",)),
             [EXTENT],
             ["no AST002, to which it leads"],
+        ),
+        (
+            Expected("AST002", "/a/cloud/density", others=("/a/cloud/heat",)),
+            [FILE_MISSING, FILE_MISSING._replace(prim="/a/cloud/heat")],
+            [],
+        ),
+        (
+            Expected("AST002", "/a/cloud/density", others=("/a/cloud/heat",)),
+            [FILE_MISSING, FILE_MISSING._replace(prim="/a/cloud/fuel")],
+            ["no AST002 at /a/cloud/heat", "error AST002 at /a/cloud/fuel: no file"],
         ),
         (Expected("VOL012", "/a/cloud/density", is_info=True), [UNUSED], []),
         (

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from usdvol_lint.baseline.compare import brought_up_to_date, compare, held, pruned
-from usdvol_lint.baseline.entry import Entry, entry_of, least_held
+from usdvol_lint.baseline.entry import Entry, least_held
 from usdvol_lint.baseline.file import Baseline, check_writable, write_baseline
 from usdvol_lint.baseline.moved import Move, moves, renamed
 from usdvol_lint.baseline.reading import read_baseline
 from usdvol_lint.baseline.scope import Scope, lacking, not_done, scope_of, widest
-from usdvol_lint.model import UsageError
+from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.packs.catalog import NOT_IGNORABLE
 from usdvol_lint.paths import canonical
 from usdvol_lint.results import BaselineUse, Cause, Report, State
@@ -142,13 +142,19 @@ def _told(
         return None
     if lacking:
         return BaselineUse(baseline.file, len(baseline.entries), None, lacking)
-    new = [entry_of(cause) for cause in report.causes if cause.state is State.NEW]
     return BaselineUse(
         path=baseline.file,
         entries=len(baseline.entries),
         gone=tuple(map(str, unmatched)),
-        moved=moves(unmatched, new),
+        moved=_moved(report, unmatched),
     )
+
+
+def _moved(report: Report, unmatched: Sequence[Entry]) -> tuple[Move, ...]:
+    """The places that may have moved; the run that wrote the baseline had infos in it, or not."""
+    new = [cause for cause in report.causes if cause.state is State.NEW] if unmatched else []
+    levels = (Severity.WARNING, Severity.INFO)
+    return tuple(sorted({move for least in levels for move in moves(unmatched, held(new, least))}))
 
 
 def _written(report: Report, prepared: Prepared, now: _Scopes) -> Applied:

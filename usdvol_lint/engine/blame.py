@@ -46,8 +46,9 @@ def blamed(problem: Problem | NotChecked) -> Blame:
     found = decisive([Opinion(prim, own.spec), *others])
     if found.spec == own.spec:
         return own
-    subject = problem.subject or _path_of(at, prim, found.spec)
-    return Blame(found.spec, _property_of(found.spec) or own.property, subject)
+    path = "" if problem.subject else _path_of(at, prim, found.spec)
+    name = _property_of(found.spec) or (None if path else own.property)
+    return Blame(found.spec, name, problem.subject or path)
 
 
 def _own(problem: Problem | NotChecked) -> Blame:
@@ -60,6 +61,8 @@ def _own(problem: Problem | NotChecked) -> Blame:
         return _given(problem, name)
     if problem.of == NAME:
         return Blame(_weakest(at) or maker(prim), name, subject)
+    if isinstance(problem.of, str) and (spec := _saying(problem.of, at.GetPropertyStack())):
+        return Blame(spec, name, subject)
     if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
         time = None if problem.at_default else problem.times[0]
         if found := _value(at, time, subject):
@@ -148,7 +151,12 @@ def _with_metadata(prim: Any, of: Any) -> Any | None:
         return _typed(prim)
     if isinstance(of, tuple):
         return next(filter(_lists(of[1]), _stack(prim)), None)
-    return next((spec for spec in _stack(prim) if of and spec.HasInfo(of)), None)
+    return _saying(of, _stack(prim)) if of else None
+
+
+def _saying(key: str, stack: Iterable[Any]) -> Any | None:
+    """The strongest spec with some metadata."""
+    return next((spec for spec in stack if spec.HasInfo(key)), None)
 
 
 def maker(prim: Any) -> Any | None:

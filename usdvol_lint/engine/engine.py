@@ -97,8 +97,9 @@ class Engine:
     ) -> StageReport:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
-        several = depth.selections > 0
-        stamp = Stamp(self._active, several, self._known, self._suppressions, self._is_alone)
+        stamp = Stamp(
+            self._active, depth.selections > 0, self._known, self._suppressions, self._is_alone
+        )
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
         clock.lap("walk")

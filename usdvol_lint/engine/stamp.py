@@ -145,7 +145,9 @@ class Stamp:
             yield _shown_by(told, share.instances)
 
     def _lowered(self, severity: Severity, problem: Problem | NotChecked, code: str) -> Severity:
-        """The severity of a milder case, unless the user chose one for the rule."""
+        """The severity of a milder or younger case, unless the user chose one for the rule."""
+        if self._active.is_younger(code, problem.since):
+            return Severity.INFO
         milder = problem.severity
         if milder is None or code in self._active.chosen:
             return severity

@@ -9,6 +9,7 @@ from usdvol_lint.config import Config, strings
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.packs.catalog import NOT_IGNORABLE, Catalog, length
+from usdvol_lint.releases import is_later
 
 _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
 
@@ -18,18 +19,28 @@ class ActiveRules(NamedTuple):
 
     `chosen` are the codes whose severity is not the rule's own but the user's, also for the milder
     cases that a rule tells apart.
-    `softened` are those of them that the user made milder than they are on their own.
+    `softened` are the codes that the user made milder than they are on their own.
+    `dated` are those of which what came after the release `as_of` is an info: built-in rules whose
+    severity the user did not choose.
     """
 
     severities: Mapping[str, Severity]
     options: Mapping[str, Mapping[str, Any]]
     chosen: frozenset[str] = frozenset()
     softened: frozenset[str] = frozenset()
+    as_of: str | None = None
+    dated: frozenset[str] = frozenset()
 
     @property
     def telling(self) -> frozenset[str]:
         """The codes in whose favour other rules are silent: those in force, unsoftened."""
         return frozenset(self.severities) - self.softened
+
+    def is_younger(self, code: str, since: str | None) -> bool:
+        """Whether what a rule sees since a release came too late to be more than an info."""
+        if self.as_of is None or since is None or code not in self.dated:
+            return False
+        return is_later(since, self.as_of)
 
 
 def activate(config: Config, catalog: Catalog) -> ActiveRules:
@@ -46,14 +57,33 @@ def activate(config: Config, catalog: Catalog) -> ActiveRules:
         for code in catalog.expand(selector) & severities.keys() - NOT_IGNORABLE:
             severities[code] = Severity[level.upper()]
             chosen.add(code)
+    active = ActiveRules(severities, _options(config, catalog), frozenset(chosen))
+    return _dated(active, config.rules_as_of, catalog)
+
+
+def _dated(active: ActiveRules, as_of: str | None, catalog: Catalog) -> ActiveRules:
+    """The same with infos of rules that are younger than `as_of`, and with what that softens."""
+    # Whether the job was done is told whatever the version.
+    dated = catalog.built_in - active.chosen - NOT_IGNORABLE if as_of else frozenset()
+    active = active._replace(as_of=as_of, dated=dated)
+    rules = catalog.rules
+    severities = {
+        code: Severity.INFO if active.is_younger(code, rules[code].since) else severity
+        for code, severity in active.severities.items()
+    }
+    softened = {code for code in severities if severities[code] < rules[code].severity}
+    return active._replace(severities=severities, softened=frozenset(softened))
+
+
+def _options(config: Config, catalog: Catalog) -> dict[str, dict[str, Any]]:
+    """The options that were given, by code; raises UsageError for those that no rule has."""
     options: dict[str, dict[str, Any]] = {}
     for name, given in config.options.items():
         rule = catalog.find(name)
         for option, value in given.items():
             checked = _checked_option(rule.name, rule.options, option, value)
             options.setdefault(rule.code, {})[option] = checked
-    softened = {code for code in chosen if severities[code] < catalog.rules[code].severity}
-    return ActiveRules(severities, options, frozenset(chosen), frozenset(softened))
+    return options
 
 
 def _checked_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> Any:

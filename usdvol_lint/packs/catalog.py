@@ -39,10 +39,14 @@ def help_for(rule: Rule) -> str:
 
 
 class Catalog(NamedTuple):
-    """All rules by code, in order, with the folders their pages lie in."""
+    """All rules by code, in order, with the folders their pages lie in.
+
+    `built_in` are the codes of those that come with the tool.
+    """
 
     rules: Mapping[str, Rule]
     folders: tuple[str, ...] = ()
+    built_in: frozenset[str] = frozenset()
 
     def page(self, code: str) -> Page | None:
         """The page of a rule, or None if its pack has none."""
@@ -116,6 +120,7 @@ def load(packs: Sequence[str] = ()) -> Catalog:
     Raises PackError for a pack that can't be loaded, or two rules of the same code or name.
     """
     found = find_packs(packs)
+    built_in: frozenset[str] = frozenset()
     rules = {rule.code: rule for rule in ENGINE_RULES}
     names = {rule.name: rule for rule in ENGINE_RULES}
     for package, folder in found:
@@ -128,4 +133,5 @@ def load(packs: Sequence[str] = ()) -> Catalog:
                         f"rule pack {folder!r}: {rule.code} ({rule.name}) takes the code or "
                         f"name of another rule, {other.code} ({other.name})"
                     )
-    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in found))
+        built_in = built_in or frozenset(rules)  # the first pack is
+    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in found), built_in)

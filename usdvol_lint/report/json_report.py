@@ -13,7 +13,6 @@ from pathlib import PurePath
 from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
-from usdvol_lint.paths import display
 from usdvol_lint.report import Options
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
 
@@ -143,12 +142,12 @@ def _stage(stage: StageResult) -> dict[str, object]:
 
 def _completion(completion: Completion) -> dict[str, object]:
     return {
-        "layers": list(map(display, completion.layers)),
+        "layers": completion.layers,
         "specs": [
             {
-                "layers": list(map(display, spec.layers)),
+                "layers": spec.layers,
                 "path": spec.path,
-                "lacking": list(spec.lacking),
+                "lacking": spec.lacking,
             }
             for spec in completion.specs
         ],

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from usdvol_lint.baseline.cover import join
 from usdvol_lint.baseline.fingerprint import fingerprint
-from usdvol_lint.model import Cover, Finding, Severity, Source, StageReport
-from usdvol_lint.paths import below
+from usdvol_lint.model import Completion, Cover, Finding, Severity, Source, StageReport
+from usdvol_lint.paths import below, canonical
 from usdvol_lint.results import Cause, Place, StageResult, State
 
 MAX_PLACES = 20
@@ -95,7 +95,12 @@ class Causes:
             name = below(layer, root)
             return versions.sub("*", name) if versions else name
 
+        @cache
+        def file_of(layer: str) -> str:
+            return below(canonical(layer), root)
+
         self._name_of = name_of
+        self._file_of = file_of
 
     def add(self, stage: int, path: str, findings: Iterable[tuple[int, Finding]]) -> None:
         """Adds findings of a stage, each with its number there."""
@@ -139,9 +144,19 @@ class Causes:
             stats=report.stats,
             seconds=report.seconds,
             particle_fields=report.particle_fields,
-            completes=report.completes,
+            completes=report.completes and self._named(report.completes),
             causes=tuple(number for number, _ in ordered),
             worst=tuple(worst for _, worst in ordered),
+        )
+
+    def _named(self, completion: Completion) -> Completion:
+        """The same with layers as fingerprints have them, of each version its own."""
+        specs = (
+            spec._replace(layers=tuple(map(self._file_of, spec.layers)))
+            for spec in completion.specs
+        )
+        return Completion(
+            tuple(sorted(set(map(self._file_of, completion.layers)))), tuple(sorted(specs))
         )
 
 

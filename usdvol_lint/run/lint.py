@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 _SHAPING = (
-    *("options", "packs", "fail_on", "show"),
+    *("options", "packs", "fail_on", "show", "rules_as_of"),
     *("load", "content", "variants", "variant_limit", "times", "timeout", "suppressions"),
 )
 
@@ -111,7 +111,7 @@ def stage_reports(
         future.add_done_callback(lambda _: shown.stage_done())
     shown.begin(len(futures))
     is_alone = len(futures) == 1
-    setup = Setup(active, config.packs, config.depth, is_alone, in_stages(config))
+    setup = Setup(active, config.packs, config.depth, in_stages(config), is_alone)
     pool.run(setup, jobs, config.timeout, shown.advance)
     while futures:
         yield futures.popleft().result()

@@ -23,8 +23,8 @@ class Setup(NamedTuple):
     active: ActiveRules
     packs: tuple[str, ...]
     depth: Depth
+    suppressions: InStages
     is_alone: bool = False
-    suppressions: InStages = InStages()
 
 
 class Ready(NamedTuple):

@@ -6,14 +6,11 @@ import gc
 import os
 import pickle
 import signal
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 from usdvol_lint.model import Finding, StageReport, UsageError
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
-
-if TYPE_CHECKING:
-    from usdvol_lint.engine.engine import Engine
 
 
 def main() -> None:
@@ -41,35 +38,43 @@ def main() -> None:
         check_types(rules.values())
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
-    sent: list[Finding] = []
-
-    def send(findings: list[Finding]) -> None:
-        sent.extend(findings)
-        _send(replies, NewFindings(findings))
-
-    def advance(samples: int) -> None:
-        _send(replies, Advance(samples))
-
-    heard, asked = (advance, send), (setup.is_alone, setup.suppressions)
-    engine = Engine(rules, setup.active, setup.depth, *heard, *asked)
+    answers = _Answers(replies)
+    engine = Engine(
+        rules,
+        setup.active,
+        setup.depth,
+        answers.advance,
+        answers.send,
+        setup.is_alone,
+        setup.suppressions,
+    )
     _send(replies, Ready(usd_version()))
-    _answer(engine, requests, replies, sent)
+    while path := _next(requests):
+        answers.end(engine.lint(path))
+        gc.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
 
 
-def _answer(engine: Engine, requests: BinaryIO, replies: BinaryIO, sent: list[Finding]) -> None:
-    while path := _next(requests):
-        _send(replies, _done(engine.lint(path), sent))
-        sent.clear()
-        gc.collect()
+class _Answers:
+    """What is said of one stage: its findings as they come, and then the report without them."""
 
+    def __init__(self, replies: BinaryIO) -> None:
+        self._replies = replies
+        self._sent: list[Finding] = []
 
-def _done(report: StageReport, sent: list[Finding]) -> Done:
-    """The report without what was sent before, which is most of it."""
-    numbers = {id(finding): number for number, finding in enumerate(sent)}
-    order = tuple(numbers.get(id(finding), finding) for finding in report.findings)
-    return Done(report._replace(findings=()), order)
+    def advance(self, samples: int) -> None:
+        _send(self._replies, Advance(samples))
+
+    def send(self, findings: list[Finding]) -> None:
+        self._sent += findings
+        _send(self._replies, NewFindings(findings))
+
+    def end(self, report: StageReport) -> None:
+        numbers = {id(finding): number for number, finding in enumerate(self._sent)}
+        order = tuple(numbers.get(id(finding), finding) for finding in report.findings)
+        _send(self._replies, Done(report._replace(findings=()), order))
+        self._sent = []
 
 
 def _next(requests: BinaryIO) -> Any:

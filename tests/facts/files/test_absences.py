@@ -100,13 +100,18 @@ def test_a_file_that_lies_in_several_sibling_folders(
     assert found.advice == f"there are files of that name at {elsewhere}"
 
 
-@pytest.mark.parametrize(("path", "count"), [("./gone.vdb", 2), ("./gone/a.vdb", 1)])
-def test_a_folder_is_one_finding_and_a_file_one_for_each_field(
-    path: str, count: int, lint_text: Lint
+@pytest.mark.parametrize("path", ["./gone.vdb", "./gone/a.vdb"])
+def test_fields_below_one_missing_folder_are_told_in_one_line(
+    path: str, lint_text: Lint, tmp_path: Path
 ) -> None:
+    """A file that they name has to be written for each: these are told one by one."""
     one = volume(f"asset filePath = @{path}@")
     found = findings(lint_text(one + one.replace("cloud", "second")))
-    assert [each.code for each in found] == ["AST002"] * count
+    fold = f"{tmp_path}/gone" if "/a" in path else None
+    assert [(each.code, each.site.prim, each.fold) for each in found] == [
+        ("AST002", "/cloud/density", fold),
+        ("AST002", "/second/density", fold),
+    ]
 
 
 def test_what_lies_beside_the_folder_of_a_layer_is_another_asset(tmp_path: Path) -> None:

@@ -122,28 +122,26 @@ def test_names_in_a_package_that_are_no_text(
 
 
 @pytest.mark.parametrize(
-    ("start", "others"),
+    ("start", "reason", "folder"),
     [
-        ("./shot.usdz[gone/", ": no folder 'gone' in 'shot.usdz', where 1 other field should"),
-        ("./shot.usdz[vdb/gone/", ": no folder 'vdb/gone' in 'shot.usdz', where 1 other field"),
-        ("./gone.usdz[vdb/", ": no package './gone.usdz', where 1 other field should have"),
-        ("./shot.usdz[vdb/", None),
-        ("./shot.usdz[", None),
-        ("./shot.usdz[in.usdz[vdb/", None),
+        ("./shot.usdz[gone/", ": no folder 'gone' in 'shot.usdz'", "shot.usdz[gone]"),
+        ("./shot.usdz[vdb/gone/", ": no folder 'vdb/gone' in 'shot.usdz'", "shot.usdz[vdb/gone]"),
+        ("./gone.usdz[vdb/", ": no package './gone.usdz'", "gone.usdz"),
+        ("./shot.usdz[vdb/", " in 'shot.usdz'", None),
+        ("./shot.usdz[", " in 'shot.usdz'", None),
+        ("./shot.usdz[in.usdz[vdb/", " in 'shot.usdz'", None),
     ],
 )
-def test_a_folder_that_a_package_lacks_is_one_finding(
-    start: str, others: str | None, lint_text: Lint, tmp_path: Path
+def test_fields_below_a_folder_that_a_package_lacks_are_told_in_one_line(
+    start: str, reason: str, folder: str | None, lint_text: Lint, tmp_path: Path
 ) -> None:
     package(tmp_path / "shot.usdz", "#usda 1.0\n", {"vdb/b/cloud.vdb": CONTENT, "in.usdz": CONTENT})
     one, two = (f"{start}{name}.vdb]{']' * (start.count('[') - 1)}" for name in ("mist", "sparks"))
     first, second = (volume(f"asset filePath = @{path}@") for path in (one, two))
-    found = said(lint_text(first + second.replace("cloud", "second").replace("#usda 1.0", "")))
-    if others:
-        [finding] = found
-        assert finding.startswith(f"AST002 no file at '{one}'{others}")
-    else:
-        assert found == [f"AST002 no file at '{path}' in 'shot.usdz'{WRITE}" for path in (one, two)]
+    report = lint_text(first + second.replace("cloud", "second").replace("#usda 1.0", ""))
+    assert said(report) == [f"AST002 no file at '{path}'{reason}{WRITE}" for path in (one, two)]
+    fold = folder and os.path.join(tmp_path, folder)
+    assert [finding.fold for finding in report.findings] == [fold, fold]
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")

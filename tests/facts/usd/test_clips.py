@@ -45,20 +45,21 @@ def write_clips(folder: Path) -> None:
 
 
 def test_missing_frames_in_several_clips_name_their_layers(lint_text: Lint, tmp_path: Path) -> None:
+    """The line is that of the first such clip in the layer with the clips."""
     write_clips(tmp_path)
     write(tmp_path, "0.1.vdb", "0.2.vdb")
     clips = "asset[] assetPaths = [@./clip.0.usda@, @./clip.1.usda@, @./clip.2.usda@]"
     finding = only(lint_text("#usda 1.0\n" + CLIPS % clips))
     assert (finding.site.layer, finding.site.line, finding.site.frames, finding.message) == (
-        "clip.1.usda",
-        7,
+        "stage.usda",
+        13,
         "3-6",
         "no file at './1.3.vdb' (4 of 6 samples, in 2 layers: clip.1.usda, clip.2.usda)",
     )
 
 
 def test_a_clip_with_times_of_its_own(lint_text: Lint, tmp_path: Path) -> None:
-    """The stage's frame is named, and the line is that of the clip's."""
+    """The stage's frame is named, and the line is that of the layer with the clips."""
     write_clips(tmp_path)
     write(tmp_path, "0.1.vdb")
     clips = CLIPS.replace("(1, 0), (3, 1), (5, 2)", "(101, 0)").replace(
@@ -66,10 +67,10 @@ def test_a_clip_with_times_of_its_own(lint_text: Lint, tmp_path: Path) -> None:
     )
     finding = only(lint_text("#usda 1.0\n" + clips % "asset[] assetPaths = [@./clip.0.usda@]"))
     assert (finding.site.layer, finding.site.line, finding.site.frames, finding.message) == (
-        "clip.0.usda",
-        8,
+        "stage.usda",
+        13,
         "102",
-        "no file at './0.2.vdb' (1 of 2 samples)",
+        "no file at './0.2.vdb' (1 of 2 samples) (in the clip './clip.0.usda')",
     )
 
 
@@ -83,7 +84,7 @@ def test_the_sample_that_usd_adds_where_a_clip_jumps_is_none(
     finding = only(lint_text("#usda 1.0\n" + clips % "asset[] assetPaths = [@./clip.0.usda@]"))
     assert (finding.site.frames, finding.message) == (
         "2, 4",
-        "no file at './0.2.vdb' (2 of 4 samples)",
+        "no file at './0.2.vdb' (2 of 4 samples) (in the clip './clip.0.usda')",
     )
 
 

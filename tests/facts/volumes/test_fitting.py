@@ -13,6 +13,7 @@ from volumetexts import LARGE, OPS, SMALL, Lint, only, samples, volume
 TODAY = "author extent, at every time at which the shape changes"
 GROWING = samples({1: SMALL, 2: LARGE, 3: SMALL})
 AROUND_LARGE = "float3[] extent = [(0.05, 0.05, 0.05), (0.75, 0.75, 0.75)]"
+AROUND_CLOUD = "float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]"
 EMPTY = "./box_growing.0001.vdb"
 
 
@@ -96,14 +97,19 @@ def test_none_where_a_field_does_not_move_with_the_volume(
 def test_each_of_a_few_volumes_has_one(count: int, is_offered: bool, lint: Lint) -> None:
     clouds = [volume("").replace("cloud", f"cloud{number}", 1) for number in range(count)]
     clouds = [text.replace("</cloud", f"</cloud{n}") for n, text in enumerate(clouds)]
-    written = offered("".join(clouds), lint)
-    assert written is not None
-    assert written.count("float3[] extent = ") == (count if is_offered else 0)
-    assert written.count(" in </cloud") == (count if is_offered and count > 1 else 0)
+    found = lint("".join(clouds), "SCH007")
+    advice = f"write '{AROUND_CLOUD}'" if is_offered else TODAY
+    assert [(each.site.prim, each.fold, each.suggestion) for each in found] == [
+        (f"/cloud{number}", "extent", advice) for number in range(count)
+    ]
 
 
-@pytest.mark.parametrize(
-    "other", ['def ParticleField3DGaussianSplat "scan" {\n}\n', 'def Volume "bare" {\n}\n']
-)
-def test_none_where_one_of_several_has_none(other: str, lint: Lint) -> None:
-    assert offered(volume("") + other, lint) == TODAY
+def test_each_has_its_own(lint: Lint) -> None:
+    """Particle fields, however many, and a Volume without files take none away."""
+    scans = "".join(f'def ParticleField3DGaussianSplat "s{n}" {{\n}}\n' for n in range(3))
+    found = lint(volume("") + scans + 'def Volume "bare" {\n}\n', "SCH007")
+    assert {each.site.prim: each.suggestion for each in found} == {
+        "/bare": TODAY,
+        "/cloud": f"write '{AROUND_CLOUD}'",
+        **{f"/s{n}": TODAY for n in range(3)},
+    }

@@ -11,7 +11,7 @@ from ..files import shared
 from ..model import Attribute, File, Layer, Prim, Scene
 from ..subjects import FieldPart, ParticleSubject, VolumeSubject
 
-Make = Callable[..., Prim | None]
+Make = Callable[..., Prim | list[Prim] | None]
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,8 @@ class Defect:
     """Changes one thing of a subject, or of the root layer of a scene.
 
     `make` gets the subject, or the scene and its root layer, and the random numbers; it returns
-    the prim that the finding is at, None for that of the subject, or for none on a scene.
+    the prim that the finding is at, the prims if each has one, None for that of the subject, or for
+    none on a scene.
     `needs` is what the subject has to be like, see `volumes.choose` and `particles.particles`;
     `without` are arcs that would hide the defect or add to it, and `within`
     names one that it needs.  `also` are codes that it leads to

@@ -64,12 +64,11 @@ def cache_moved(subject: VolumeSubject, rng: Random) -> Prim:
 
 
 @on_volume("AST002", needs={**ONE_FILE, "fields": (2, 3, 4)}, without=("package",))
-def folder_of_all_fields_missing(subject: VolumeSubject, rng: Random) -> Prim:
-    """One finding, at the first of the fields."""
+def folder_of_all_fields_missing(subject: VolumeSubject, rng: Random) -> list[Prim]:
     for part in subject.fields:
         name = f"./published/{rng.choice(('', 'v2/'))}{part.prim.name}.vdb"
         part.prim.properties["filePath"] = Attribute("asset", name)
-    return min(subject.fields, key=lambda part: part.path).prim
+    return [part.prim for part in subject.fields]
 
 
 @on_scene("STG011")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import builtins
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -83,6 +83,10 @@ class FieldBindings(NamedTuple):
         for binding in self.bindings:
             if binding.target and binding.target.state in states:
                 yield binding, binding.target
+
+    def properties_of(self, fields: Container[str]) -> Iterator[Any]:
+        """The properties that bind some fields, given by their paths as the stage shows them."""
+        return (binding.property for binding, field in self.with_files() if field.shown in fields)
 
     def with_files(self) -> Iterator[tuple[Binding, Target]]:
         """The bindings of fields that may name files, with those fields."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import chain
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
@@ -20,13 +21,13 @@ class MixedFiles(NamedTuple):
     """The times at which the fields of a Volume name several files.
 
     `fields` maps each file at the first such time to the names of the fields that name it;
-    `attributes` are those that name files.
+    `opinions` are the properties that bind them, and that name the files.
     """
 
     fields: dict[str, tuple[str, ...]]
     times: tuple[float, ...]
     at_default: bool
-    attributes: tuple[Any, ...] = ()
+    opinions: tuple[Any, ...] = ()
 
     @property
     def shown(self) -> str:
@@ -44,12 +45,13 @@ def find_mixed_files(
 
     Paths to no file are ignored, and fields of which `is_told`: they are findings of other rules.
     """
-    fields = [
-        (binding.name, in_prototype(target.prim)) for binding, target in bindings.with_files()
-    ]
-    if not _compare([(name, paths(field)) for name, field in fields]):
+    fields = [(binding, in_prototype(target.prim)) for binding, target in bindings.with_files()]
+    if not _compare([(binding.name, paths(field)) for binding, field in fields]):
         return None  # nearly always, and quick
-    return _compare([(name, paths(field)) for name, field in fields if not is_told(field)])
+    kept = [(binding, paths(field)) for binding, field in fields if not is_told(field)]
+    mixed = _compare([(binding.name, files) for binding, files in kept])
+    opinions = chain.from_iterable((binding.property, files.attribute) for binding, files in kept)
+    return mixed._replace(opinions=tuple(opinions)) if mixed else None
 
 
 def _compare(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles | None:
@@ -73,7 +75,6 @@ def _compare(fields: Sequence[tuple[str, AssetSamples]]) -> MixedFiles | None:
         fields=named,
         times=tuple(time for time in mixed if time is not None),
         at_default=mixed[0] is None and len(times) > 1,
-        attributes=tuple(paths.attribute for _, paths in fields),
     )
 
 

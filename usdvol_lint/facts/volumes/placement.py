@@ -64,9 +64,10 @@ class Placement(NamedTuple):
 
     @property
     def attributes(self) -> tuple[Any, ...]:
-        """The attributes of the transforms."""
-        ops = chain.from_iterable(each.GetOrderedXformOps() for each in (*self.up, *self.down))
-        return tuple(op.GetAttr() for op in ops)
+        """The attributes of the transforms, and those that say their order."""
+        every = (*self.up, *self.down)
+        ops = chain.from_iterable(each.GetOrderedXformOps() for each in every)
+        return (*(op.GetAttr() for op in ops), *(each.GetXformOpOrderAttr() for each in every))
 
     def _words(self, time: Time) -> str:
         """In words what the matrix does; empty where it is the identity up to rounding."""

@@ -1,0 +1,46 @@
+"""Assets and shots that show their causes, and the causes of a run over them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from usdvol_lint.config import Config, Depth
+from usdvol_lint.engine.engine import Engine
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.paths import canonical
+from usdvol_lint.results import Cause
+from usdvol_lint.run.causes import Causes, versions_in
+
+Find = Callable[..., list[Cause]]
+
+FILE = ("AST002",)
+HEAD = "#usda 1.0\n"
+
+
+def refers(name: str, path: str = "../assets/tank.usda", meta: str = "", inside: str = "") -> str:
+    """A prim that refers to the default prim of a layer."""
+    return f'def "{name}" (\n{meta}\nreferences = @{path}@\n)\n{{\n{inside}\n}}\n'
+
+
+def finder(catalog: Catalog, folder: Path) -> Find:
+    """The causes of a run over stages, whose layers go by a folder."""
+
+    def call(
+        *stages: str | Path,
+        rules: tuple[str, ...] = FILE,
+        root: str | Path = folder,
+        selections: int = 0,
+        versions: str | None = None,
+    ) -> list[Cause]:
+        active = activate(Config(select=rules), catalog)
+        engine = Engine(catalog.rules, active, Depth(selections=selections))
+        causes = Causes(canonical(str(root)), versions_in(versions))
+        for number, stage in enumerate(stages):
+            report = engine.lint(str(stage))
+            assert report.status == "checked"
+            causes.add(number, report.path, enumerate(report.findings))
+        return list(causes.result()[0])
+
+    return call
