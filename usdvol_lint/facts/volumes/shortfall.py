@@ -71,7 +71,8 @@ class PlacedField:
     @property
     def opinions(self) -> tuple[Any, ...]:
         """The attributes that say which grids there are, and where they are placed."""
-        names = map(self._target.prim.GetAttribute, ("fieldName", "fieldIndex"))
+        prim = self._paths.attribute.GetPrim()
+        names = map(prim.GetAttribute, ("fieldName", "fieldIndex"))
         return (self._paths.attribute, *names, *self._placement.attributes)
 
     def has_known_grids(self, boxes: GridBoxes) -> bool:
