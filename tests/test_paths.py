@@ -61,7 +61,7 @@ FOLDERS = {
         ("/volumes/SHOW/tank.USDA", "/Volumes/Show/Tank.usda"),
         ("/Volumes/Show/Tank.usda", "/Volumes/Show/Tank.usda"),
         ("/volumes/show/gone.usda", "/Volumes/Show/gone.usda"),
-        ("/volumes/none/tank.usda", "/Volumes/none/tank.usda"),
+        ("/volumes/none/tank.usda", "/volumes/none/tank.usda"),
         (f"/volumes/show/{NFC.upper()}", f"/Volumes/Show/{NFD}"),
         ("/volumes/show/a", "/Volumes/Show/a"),
         ("/volumes/show/A", "/Volumes/Show/A"),

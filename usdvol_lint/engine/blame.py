@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -40,15 +40,18 @@ def blamed(problem: Problem | NotChecked) -> Blame:
     at = problem.at
     prim = at.GetPrim()
     own = _own(problem)
-    others = [each for other in problem.against for each in _opinions(other)]
+    others = [each for other in problem.against if (each := _opinion(other, problem))]
     if own.spec is None or not others:
         return own
-    found = decisive([Opinion(prim, own.spec), *others])
+    opinions = [Opinion(each.GetPrim(), blame.spec) for each, blame in others]
+    found = decisive([Opinion(prim, own.spec), *opinions])
     if found.spec == own.spec:
         return own
+    theirs = next((blame for _, blame in others if blame.spec == found.spec), Blame(found.spec))
     path = "" if problem.subject else _path_of(at, prim, found.spec)
-    name = _property_of(found.spec) or (None if path else own.property)
-    return Blame(found.spec, name, problem.subject or path)
+    name = theirs.property if theirs.clip else _property_of(found.spec)
+    name = name or (None if path else own.property)
+    return theirs._replace(property=name, subject=problem.subject or path or theirs.subject)
 
 
 def _own(problem: Problem | NotChecked) -> Blame:
@@ -110,7 +113,7 @@ def _value(attribute: Any, time: float | None, subject: str) -> Blame | None:
     spec, offset = strongest
     prim = attribute.GetPrim()
     if time is None:
-        return Blame(spec, attribute.GetName(), subject)
+        return Blame(spec, attribute.GetName(), subject, None, offset)
     if node_of(prim, spec) is None and (clips := _clips_with(prim, spec.layer)):
         below = (
             prim.GetPath()
@@ -205,23 +208,22 @@ def _has_value(spec: Any) -> bool:
     return any(map(spec.HasInfo, _VALUES))
 
 
-def _opinions(other: Any) -> Iterator[Opinion]:
-    """The opinions on what contradicts: a prim, a property, an occurrence, a spec, a metadatum."""
+def _opinion(other: Any, problem: Problem | NotChecked) -> tuple[Any, Blame] | None:
+    """The opinion of what contradicts: of a prim, a property, an occurrence or of metadata.
+
+    A property counts with its value at the times of the problem.
+    """
     if isinstance(other, tuple):
-        prim, of = other
-        specs: Iterable[Any] = [_with_metadata(prim, of)]
+        at, of = other
+        blame = Blame(_with_metadata(at, of))
     elif isinstance(other, Usd.Prim):
-        prim, specs = other, [maker(other)]
+        at, blame = other, Blame(maker(other))
     elif isinstance(other, Usd.Property) or hasattr(other, "at_default"):
-        attribute = getattr(other, "attribute", other)
-        prim = attribute.GetPrim()
-        times = tuple(getattr(other, "times", ()))
-        at_default = getattr(other, "at_default", False)
-        problem = Problem("", at=attribute, times=times, at_default=at_default)
-        specs = [_own(problem).spec]
+        at, of = getattr(other, "attribute", other), other if hasattr(other, "times") else problem
+        blame = _own(Problem("", at=at, times=of.times, at_default=of.at_default))
     else:
         raise TypeError(f"a problem is against prims, properties and occurrences, not {other!r}")
-    yield from (Opinion(prim, spec) for spec in specs if spec)
+    return (at, blame) if blame.spec else None
 
 
 def _path_of(at: Any, prim: Any, spec: Any) -> str:
