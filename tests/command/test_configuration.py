@@ -109,7 +109,8 @@ strict = true
         ("show = 'info'", "show must be a list of strings, not 'info'"),
         (
             "show = ['infos']",
-            "show must be one of info, known, suppressed, not 'infos'; did you mean 'info'?",
+            "show must be one of info, known, suppressed, unused, not 'infos'; "
+            "did you mean 'info'?",
         ),
         ("ignore = ['AST', 3]", "ignore must be a list of strings, not ['AST', 3]"),
         ("packs = true", "packs must be a list of strings, not True"),

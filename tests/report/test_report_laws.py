@@ -267,8 +267,8 @@ def test_a_cause_is_told_once_and_under_the_first_stage_that_shows_it(
     expected = [
         (cause.fingerprint, cause.places[0].stage)
         for cause in subject.causes
-        if cause.severity >= options.threshold
-        and (cause.state in options.show or cause.state in ("new", "worse"))
+        if cause.state in options.show
+        or (cause.state in ("new", "worse") and cause.severity >= options.threshold)
     ]
     assert sorted(where) == sorted(expected)
 

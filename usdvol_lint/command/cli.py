@@ -93,8 +93,8 @@ def _complete_from(constant: str) -> Any:
               help="A layer or folder in the baseline is called otherwise now; may be repeated.")
 @click.option("--no-suppressions", is_flag=True,
               help="Count what is suppressed too, in stages and by the configuration.")
-@click.option("--today", metavar="YYYY-MM-DD", hidden=True,
-              help="Take this for the date, where suppressions expire.")
+@click.option("--today", metavar="YYYY-MM-DD",
+              help="The date by which suppressions expire (default: today's, in UTC).")
 @click.option("--max-places", type=click.IntRange(min=1), metavar="N",
               help="How many places of a cause a report has in full (default: 20).")
 @click.option("--root", type=click.Path(), metavar="FOLDER",

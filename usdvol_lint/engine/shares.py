@@ -41,11 +41,8 @@ class Shares:
         self._through: dict[tuple[Any, str], list[Share]] = {}
 
     def of(self, prim: Any, code: str, otherwise: str | None) -> list[Share]:
-        """The shares of a finding; `otherwise` is the reason where none is said, or None."""
-        if prim.IsInPrototype():
-            told = self._told_apart(prim, code) if self._matchers else self._found(prim, code)
-        else:
-            told = [Share(self._reason_at(prim, code), str(prim.GetPath()), 1)]
+        """The shares of a finding in a prototype; `otherwise` is the reason where none is said."""
+        told = self._told_apart(prim, code) if self._matchers else self._found(prim, code)
         return _joined(
             share._replace(reason=otherwise if share.reason is None else share.reason or None)
             for share in told

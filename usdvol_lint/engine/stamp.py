@@ -50,9 +50,9 @@ class Stamp:
         self.sites = Sites()
         self._active = active
         self._several_selections = several_selections
-        self._is_alone = is_alone
         self._rules = rules
         self._asked = asked
+        self._is_alone = is_alone
 
     @cached_property
     def _suppressions(self) -> Suppressions:
@@ -128,16 +128,19 @@ class Stamp:
         self, finding: Finding, problem: Problem | NotChecked, located: Located
     ) -> Iterator[Finding]:
         """The finding, or one for each reason why some of its instances are ignored."""
-        prim = problem.at.GetPrim()
         if not self._asked.heeded:
             yield _shown_by(finding, located.instances)
             return
-        layer = located.blame.spec.layer if located.blame.spec else prim.GetStage().GetRootLayer()
-        shares = self._suppressions.shares(
-            prim, layer if finding.source.layer is not None else None, finding.code
-        )
-        for share in shares:
-            site = finding.site._replace(prim=share.path) if finding.site.prim else finding.site
+        prim, layer = problem.at.GetPrim(), None
+        if finding.source.layer is not None:
+            spec = located.blame.spec
+            layer = spec.layer if spec else prim.GetStage().GetRootLayer()
+        if not prim.IsInPrototype():
+            reason = self._suppressions.reason(prim, layer, finding.code)
+            yield finding if reason is None else finding._replace(ignored=reason)
+            return
+        for share in self._suppressions.shares(prim, layer, finding.code):
+            site = finding.site._replace(prim=share.path)
             told = finding._replace(site=site, ignored=share.reason)
             yield _shown_by(told, share.instances)
 

@@ -49,15 +49,25 @@ class Suppressions:
         self._marked: set[tuple[Any, str]] = set()
         self._shares = Shares(self._reason_at, self._asked.prims)
 
-    def shares(self, prim: Any, layer: Any | None, code: str) -> list[Share]:
-        """The places at which the stage shows a finding, by the reason why it is ignored there.
+    def reason(self, prim: Any, layer: Any | None, code: str) -> str | None:
+        """Why a finding at a prim outside of prototypes is ignored; None if it is not.
 
         `layer` is the one to blame; None if there is none.
         """
-        said = self._of_layer(prim.GetStage(), layer).get(code) if layer else None
-        found = self._shares.of(prim, code, said or None)
-        if layer and said and any(share.reason == said for share in found):
-            self._used.add((layer.identifier, "/", code))
+        reason = self._reason_at(prim, code)
+        if reason is not None:
+            return reason or None
+        said = self._said_by(layer, prim, code)
+        if said:
+            self._use_layer(layer, code)
+        return said
+
+    def shares(self, prim: Any, layer: Any | None, code: str) -> list[Share]:
+        """The same for a prim of a prototype: what shows it, by the reason why it is ignored."""
+        said = self._said_by(layer, prim, code)
+        found = self._shares.of(prim, code, said)
+        if said and any(share.reason == said for share in found):
+            self._use_layer(layer, code)
         return found
 
     def ask(self, prim: Any) -> Mapping[str, _Reason]:
@@ -143,6 +153,13 @@ class Suppressions:
             return True  # each instance may ignore it for a reason of its own
         layers = prim.GetStage().GetUsedLayers()
         return any(_has_text(layer.pseudoRoot, _OF_LAYER, keys) for layer in layers)
+
+    def _said_by(self, layer: Any | None, prim: Any, code: str) -> str | None:
+        """Why a layer ignores a code."""
+        return (layer and self._of_layer(prim.GetStage(), layer).get(code)) or None
+
+    def _use_layer(self, layer: Any, code: str) -> None:
+        self._used.add((layer.identifier, "/", code))
 
     def _of_layer(self, stage: Any, layer: Any) -> Mapping[str, str]:
         key = layer.identifier

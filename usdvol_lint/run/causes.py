@@ -114,7 +114,8 @@ class Causes:
             if gathered is None:
                 gathered = self._found[key] = _Gathered()
             if finding.ignored is None and self._reason_for:
-                finding = finding._replace(ignored=self._reason_for(path, finding, source))
+                reason = self._reason_for(path, finding, source)
+                finding = finding if reason is None else finding._replace(ignored=reason)
             met = _Met(stage, number, finding)
             worst = shown.setdefault(key, None)
             if finding.ignored is None:
