@@ -16,7 +16,7 @@ _IN_PACKAGE = r"(?is)(?P<package>.+?\.usdz)(?P<inside>\[.+\])"
 
 def real(path: str) -> str:
     """The absolute path without links; of `package.usdz[inner]` that of the package."""
-    outer, inner = _split(path)
+    outer, inner = split_package(path)
     return os.path.realpath(outer) + inner
 
 
@@ -25,7 +25,7 @@ def canonical(path: str) -> str:
 
     It is spelt as its folder spells it, also where the case of letters does not matter.
     """
-    outer, inner = _split(path.partition(FORMAT_ARGUMENTS)[0])
+    outer, inner = split_package(path.partition(FORMAT_ARGUMENTS)[0])
     outer = os.path.realpath(outer)
     if sys.platform == "darwin":  # elsewhere `realpath` does it, or letters have one case
         outer = as_spelt(outer)
@@ -70,7 +70,7 @@ def below(path: str, root: str | None) -> str:
 
 def display(path: str) -> str:
     """A path relative to the working directory, with `/`; `package.usdz[inner]` stays as it is."""
-    outer, inner = _split(path)
+    outer, inner = split_package(path)
     try:
         relative = os.path.relpath(outer)
     except ValueError:  # another drive
@@ -78,7 +78,7 @@ def display(path: str) -> str:
     return relative.replace(os.sep, "/") + inner
 
 
-def _split(path: str) -> tuple[str, str]:
+def split_package(path: str) -> tuple[str, str]:
     """The path of a file, and what is named in it if it is a package."""
     package = re.fullmatch(_IN_PACKAGE, path) if path.endswith("]") else None
     return (package["package"], package["inside"]) if package else (path, "")

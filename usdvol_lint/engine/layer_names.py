@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from usdvol_lint.paths import canonical, display
+from usdvol_lint.paths import canonical, display, split_package
 
 ANONYMOUS = "anon:"
 
@@ -38,7 +38,7 @@ def _real(layer: Any) -> str:
     if path.endswith("]"):
         from usdvol_lint.volumefile.package import first_in
 
-        package, _, inner = path[:-1].partition("[")
-        if "[" not in inner and first_in(package) == inner:
+        package, inner = split_package(path)
+        if inner and first_in(package) == inner[1:-1]:
             return canonical(package)
     return canonical(path)

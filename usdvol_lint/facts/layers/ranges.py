@@ -23,20 +23,22 @@ class TimeRange(NamedTuple):
         the arc, or the values, are in a sublayer of it.  What is between, with another range or
         none, has nothing to do with it.
         """
-        from usdvol_lint.facts.usd.bringing import arc_that  # costs start-up time; few need it
+        from usdvol_lint.facts.usd.bringing import (  # costs start-up time; few need it
+            crossings,
+            node_of,
+            root_layer,
+        )
 
         prim, own = _source(attribute, time)
         if own is None:
             return None
-        said_by: list[Any] = []
-
-        def is_it(arc: Any) -> bool:
-            is_said = self._is_said_by(arc.source)
-            said_by.extend([arc.source.layerStack.identifier.rootLayer] if is_said else [])
-            return is_said
-
-        spec = arc_that(prim, own.layer, is_it) or own
-        top = said_by[0] if said_by else attribute.GetStage().GetRootLayer()
+        spec, node = own, node_of(prim, own)
+        if not self._is_said_by(node):
+            for arc in reversed(list(crossings(node))):
+                spec, node = arc.spec, arc.source
+                if self._is_said_by(node):
+                    break
+        top = root_layer(node)
         if spec.layer != top:
             return top.pseudoRoot
         return None if spec == own else spec
