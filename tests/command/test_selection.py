@@ -130,11 +130,12 @@ def test_infos_are_shown_to_those_who_ask(
     [
         (
             "--show infos .",
-            "--show must be one of info, known, suppressed, not 'infos'; did you mean 'info'?",
+            "--show must be one of info, known, suppressed, unused, not 'infos'; "
+            "did you mean 'info'?",
         ),
         (
             "--show info --show xyzzy .",
-            "--show must be one of info, known, suppressed, not 'xyzzy'",
+            "--show must be one of info, known, suppressed, unused, not 'xyzzy'",
         ),
         ("--select STU01x .", "no rule code starts with 'STU01x'; did you mean 'STU001'?"),
         (

@@ -39,15 +39,8 @@ def main() -> None:
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
     answers = _Answers(replies)
-    engine = Engine(
-        rules,
-        setup.active,
-        setup.depth,
-        answers.advance,
-        answers.send,
-        setup.is_alone,
-        setup.suppressions,
-    )
+    heard, asked = (answers.advance, answers.send), (setup.is_alone, setup.suppressions)
+    engine = Engine(rules, setup.active, setup.depth, *heard, *asked)
     _send(replies, Ready(usd_version()))
     while path := _next(requests):
         answers.end(engine.lint(path))
