@@ -235,6 +235,12 @@ def _suppress(where: str, value: Any) -> tuple[Suppression, ...]:
     return read_tables(where, value)
 
 
+def _day(where: str, value: Any) -> str:
+    from usdvol_lint.suppressions import date_of
+
+    return date_of(where, value)
+
+
 def _whole_number(where: str, value: Any, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
@@ -286,6 +292,7 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "rules-as-of": release,
     "suppressions": partial(one_of, allowed=SUPPRESSIONS),
     "suppress": _suppress,
+    "today": _day,
 }
 """For each key of the configuration a function that returns the value for the `Config`.
 

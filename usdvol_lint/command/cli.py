@@ -203,9 +203,12 @@ def _show_settings(given: dict[str, Any]) -> int:
     from usdvol_lint.packs.activation import activate
     from usdvol_lint.packs.catalog import load
     from usdvol_lint.run.lint import settings_of
+    from usdvol_lint.run.suppressing import reasons
 
     config, file = read_settings(given)
-    settings = settings_of(config, activate(config, load(config.packs)))
+    catalog = load(config.packs)
+    settings = settings_of(config, activate(config, catalog))
+    reasons(config, catalog, root=None)  # which says where a table names no rule
     output.print_text(about.show_settings(settings, str(file) if file else None))
     return CLEAN
 

@@ -12,7 +12,7 @@ from usdvol_lint.model import UsageError
 
 _REPLACING = (
     *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
-    *("max-places", "root", "baseline"),
+    *("max-places", "root", "baseline", "today"),
 )
 """The options that replace what the file says; the others add to it."""
 
@@ -41,10 +41,6 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
         changes["baseline"] = None
     if given["no_suppressions"]:
         changes["suppressions"] = "none"
-    if given["today"] is not None:
-        from usdvol_lint.suppressions import date_of
-
-        changes["today"] = date_of("--today", given["today"])
     for name in given["output_format"]:
         CHECKS["output-format"]("--output-format", name)
     select = _codes(given["select"])
