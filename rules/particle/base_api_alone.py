@@ -10,9 +10,8 @@ def base_api_alone(particles: Prim, facts: Facts) -> Problems:
     if apis.third_party or not apis.built_in_type:
         return
     for base, providers in API_PROVIDERS.items():
-        if base not in apis.applied or apis.providers(base) or any(map(apis.has, providers)):
-            continue
-        if base == RADIANCE_BASE and facts.particles.material_is_bound(particles):
+        is_bound = base == RADIANCE_BASE and facts.particles.material_is_bound(particles)
+        if is_bound or base not in apis.applied or apis.providers(base) or any(map(apis.has, providers)):
             continue
         yield Problem(
             f"{base!r} is applied, but nothing that provides its data",

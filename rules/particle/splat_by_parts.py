@@ -9,10 +9,8 @@ _APIS = frozenset(expand_apis(BUILT_IN_APIS[_SPLAT]))
 
 @rule("PRT008", on=PARTICLE_FIELD, severity=INFO, since="0.1")
 def splat_by_parts(particles: Prim, facts: Facts) -> Problems:
-    if particles.GetTypeName() != PARTICLE_FIELD:
-        return
     apis = facts.particles.apis(particles)
-    is_splat = API_INCLUDES.keys() & apis.applied == _APIS
+    is_splat = particles.GetTypeName() == PARTICLE_FIELD and API_INCLUDES.keys() & apis.applied == _APIS
     if is_splat and not apis.misspelt and not apis.third_party and not facts.layers.may_lack(particles):
         yield Problem(
             f"a ParticleField with exactly the {len(BUILT_IN_APIS[_SPLAT])} APIs that {_SPLAT} has built in",

@@ -316,3 +316,47 @@ def test_frames_are_those_of_the_layer_to_blame(find: Find, shots: Path) -> None
     [cause] = find("shots/one.usda", "assets/tank.usda", rules=FILE)
     assert (cause.count, cause.cover.frames) == (2, (2.0, 4.0))
     assert [place.finding.site.times for place in cause.places] == [(1004.0, 1008.0), (2.0, 4.0)]
+    missing = field.replace("asset filePath.", "asset filePath = @./smoke.5.vdb@\n asset filePath.")
+    write(shots.parent / "assets", tank=LAYER + missing)
+    [cause] = find("shots/one.usda", "assets/tank.usda", rules=FILE)
+    assert (cause.count, cause.cover.frames, cause.cover.at_default) == (2, (2.0, 4.0), True)
+
+
+INSIDE, OUTSIDE = "[(0.2, 0.2, 0.2), (0.8, 0.8, 0.8)]", "[(0.2, 0.2, 0.2), (3, 3, 3)]"
+
+
+def test_frames_of_what_contradicts_are_those_of_the_layer_to_blame(
+    find: Find, shots: Path
+) -> None:
+    """Here positions of an animation, which reach out of the extent of an asset."""
+    write(shots.parent / "assets", tank=LAYER + SPLATS)
+    samples = f"point3f[] positions.timeSamples = {{\n1: {INSIDE},\n2: {OUTSIDE},\n}}\n"
+    write(shots, animation=STAGE + f'over "a"\n{{\n{samples}}}\n')
+    moved = f"{META}subLayers = [@./animation.usda@ (offset = 100)]\n"
+    write(shots, one=STAGE.replace(META, moved) + refers("a"))
+    [cause] = find("shots/one.usda", rules=("ARR013",))
+    assert cause.source == Source("shots/animation.usda", "/a", "positions")
+    [place] = cause.places
+    assert (cause.cover.frames, place.finding.site.times) == ((2.0,), (102.0,))
+    assert (place.finding.site.layer, place.finding.site.line) == ("shots/animation.usda", 11)
+
+
+def test_clips_that_contradict_are_to_blame_as_clips(find: Find, shots: Path) -> None:
+    clip = 'over "clip"\n{\npoint3f[] positions.timeSamples = {\n1: %s,\n2: %s,\n}\n}\n'
+    write(shots, clip=HEAD + clip % (OUTSIDE, OUTSIDE))
+    write(shots, manifest=HEAD + 'over "clip"\n{\npoint3f[] positions\n}\n')
+    keys = (
+        "asset[] assetPaths = [@./clip.usda@]",
+        "asset manifestAssetPath = @./manifest.usda@",
+        'string primPath = "/clip"',
+        "double2[] active = [(1, 0)]",
+        "double2[] times = [(1, 1), (2, 2)]",
+    )
+    meta = "clips = {{\ndictionary default = {{\n{}\n}}\n}}".format("\n".join(keys))
+    write(shots, one=STAGE + refers("a", meta=meta))
+    write(
+        shots.parent / "assets", tank=LAYER + SPLATS.replace(f"positions = {INSIDE}", "positions")
+    )
+    [cause] = find("shots/one.usda", rules=("ARR013",))
+    assert cause.source == Source("shots/one.usda", "/a", "clips", ".positions")
+    assert cause.first.message.endswith("(in the clip './clip.usda')")

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from functools import lru_cache
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
@@ -35,42 +34,100 @@ class Blame(NamedTuple):
     asset: str | None = None
 
 
-def blamed(problem: Problem | NotChecked) -> Blame:
-    """What is to blame for a problem."""
-    at = problem.at
-    prim = at.GetPrim()
-    own = _own(problem)
-    others = [each for other in problem.against for each in _opinions(other)]
-    if own.spec is None or not others:
-        return own
-    found = decisive([Opinion(prim, own.spec), *others])
-    if found.spec == own.spec:
-        return own
-    path = "" if problem.subject else _path_of(at, prim, found.spec)
-    name = _property_of(found.spec) or (None if path else own.property)
-    return Blame(found.spec, name, problem.subject or path)
+class Blaming:
+    """Finds what is to blame for the problems of one stage; the clips of a prim are read once."""
+
+    def __init__(self) -> None:
+        self._clip_sets: dict[Any, list[tuple[ClipSet, frozenset[str]]]] = {}
+
+    def blame(self, problem: Problem | NotChecked) -> Blame:
+        """What is to blame for a problem."""
+        at = problem.at
+        prim = at.GetPrim()
+        own = self._own(problem)
+        others = [each for other in problem.against if (each := self._opinion(other, problem))]
+        if own.spec is None or not others:
+            return own
+        opinions = [Opinion(each.GetPrim(), blame.spec) for each, blame in others]
+        found = decisive([Opinion(prim, own.spec), *opinions])
+        if found.spec == own.spec:
+            return own
+        theirs = next((blame for _, blame in others if blame.spec == found.spec), Blame(found.spec))
+        path = "" if problem.subject else _path_of(at, prim, found.spec)
+        name = theirs.property if theirs.clip else _property_of(found.spec)
+        name = name or (None if path else own.property)
+        return theirs._replace(property=name, subject=problem.subject or path or theirs.subject)
+
+    def _own(self, problem: Problem | NotChecked) -> Blame:
+        """The spec whose opinion counts where the problem is."""
+        at, prim, subject = problem.at, problem.at.GetPrim(), problem.subject
+        if not isinstance(at, Usd.Property):
+            return Blame(problem.spec or _of_prim(prim, problem.of), None, subject)
+        name = at.GetName()
+        if problem.spec:
+            return _given(problem, name)
+        if problem.of == NAME:
+            return Blame(_weakest(at) or maker(prim), name, subject)
+        if isinstance(problem.of, str) and (spec := _saying(problem.of, at.GetPropertyStack())):
+            return Blame(spec, name, subject)
+        if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
+            time = None if problem.at_default else problem.times[0]
+            if found := self._value(at, time, subject):
+                return found
+        spec = next(filter(_has_value, at.GetPropertyStack()), None)
+        if spec is None and isinstance(at, Usd.Relationship):
+            spec = _weakest(at)
+        return Blame(spec or _declared(maker(prim), name), name, subject)
+
+    def _value(self, attribute: Any, time: float | None, subject: str) -> Blame | None:
+        """The spec with the value at a time of the stage; of one in clips, that with the clips."""
+        strongest = strongest_opinion(attribute, time)
+        if strongest is None:
+            return None
+        spec, offset = strongest
+        prim = attribute.GetPrim()
+        if time is None:
+            return Blame(spec, attribute.GetName(), subject, None, offset)
+        if node_of(prim, spec) is None and (clips := self._clips_with(prim, spec.layer)):
+            path = attribute.GetPath().MakeRelativePath(clips.prim.GetPath())
+            clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
+            bearer = clips.spec_with(clips.key)
+            return Blame(bearer, "clips", subject or str(path), None, None, clips.named(clip))
+        return Blame(spec, attribute.GetName(), subject, offset.GetInverse() * time, offset)
+
+    def _clips_with(self, prim: Any, layer: Any) -> ClipSet | None:
+        """The clip set that has a layer among its clips, of a prim or the next one above it."""
+        while not prim.IsPseudoRoot():
+            if prim.HasAuthoredMetadata("clips"):
+                if prim not in self._clip_sets:
+                    self._clip_sets[prim] = [(each, _paths_of(each)) for each in clip_sets_on(prim)]
+                for clip_set, paths in self._clip_sets[prim]:
+                    if layer.realPath in paths:
+                        return clip_set
+            prim = prim.GetParent()
+        return None
+
+    def _opinion(self, other: Any, problem: Problem | NotChecked) -> tuple[Any, Blame] | None:
+        """The opinion of what contradicts: of a prim, a property, an occurrence or of metadata.
+
+        A property counts with its value at the times of the problem.
+        """
+        if isinstance(other, tuple):
+            at, of = other
+            blame = Blame(_with_metadata(at, of))
+        elif isinstance(other, Usd.Prim):
+            at, blame = other, Blame(maker(other))
+        elif isinstance(other, Usd.Property):
+            at = other
+            times, at_default = problem.times, problem.at_default
+            blame = self._own(Problem("", at=at, times=times, at_default=at_default))
+        else:
+            at, blame = other.attribute, self._own(Problem("", at=other))
+        return (at, blame) if blame.spec else None
 
 
-def _own(problem: Problem | NotChecked) -> Blame:
-    """The spec whose opinion counts where the problem is."""
-    at, prim, subject = problem.at, problem.at.GetPrim(), problem.subject
-    if not isinstance(at, Usd.Property):
-        return Blame(problem.spec or _of_prim(prim, problem.of), None, subject)
-    name = at.GetName()
-    if problem.spec:
-        return _given(problem, name)
-    if problem.of == NAME:
-        return Blame(_weakest(at) or maker(prim), name, subject)
-    if isinstance(problem.of, str) and (spec := _saying(problem.of, at.GetPropertyStack())):
-        return Blame(spec, name, subject)
-    if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
-        time = None if problem.at_default else problem.times[0]
-        if found := _value(at, time, subject):
-            return found
-    spec = next(filter(_has_value, at.GetPropertyStack()), None)
-    if spec is None and isinstance(at, Usd.Relationship):
-        spec = _weakest(at)
-    return Blame(spec or _declared(maker(prim), name), name, subject)
+def _paths_of(clip_set: ClipSet) -> frozenset[str]:
+    return frozenset(each.resolvedPath for each in clip_set.clips)
 
 
 def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
@@ -100,43 +157,6 @@ def _declared(spec: Any | None, name: str) -> Any | None:
 
 def _property_of(spec: Any) -> str | None:
     return str(spec.name) if spec.path.IsPropertyPath() else None
-
-
-def _value(attribute: Any, time: float | None, subject: str) -> Blame | None:
-    """The spec with the value at a time of the stage; of a value in clips, that with the clips."""
-    strongest = strongest_opinion(attribute, time)
-    if strongest is None:
-        return None
-    spec, offset = strongest
-    prim = attribute.GetPrim()
-    if time is None:
-        return Blame(spec, attribute.GetName(), subject)
-    if node_of(prim, spec) is None and (clips := _clips_with(prim, spec.layer)):
-        below = (
-            prim.GetPath()
-            .MakeRelativePath(clips.prim.GetPath())
-            .AppendProperty(attribute.GetName())
-        )
-        clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
-        bearer = clips.spec_with(clips.key)
-        return Blame(bearer, "clips", subject or str(below), None, None, clips.named(clip))
-    return Blame(spec, attribute.GetName(), subject, offset.GetInverse() * time, offset)
-
-
-def _clips_with(prim: Any, layer: Any) -> ClipSet | None:
-    """The clip set that has a layer among its clips, of a prim or the next one above it."""
-    while not prim.IsPseudoRoot():
-        if prim.HasAuthoredMetadata("clips"):
-            for clip_set in clip_sets_on(prim):
-                if layer.realPath in _resolved(clip_set):
-                    return clip_set
-        prim = prim.GetParent()
-    return None
-
-
-@lru_cache(maxsize=8)
-def _resolved(clip_set: ClipSet) -> frozenset[str]:
-    return frozenset(each.resolvedPath for each in clip_set.clips)
 
 
 def _of_prim(prim: Any, of: Any) -> Any | None:
@@ -203,25 +223,6 @@ def _weakest(prop: Any) -> Any | None:
 
 def _has_value(spec: Any) -> bool:
     return any(map(spec.HasInfo, _VALUES))
-
-
-def _opinions(other: Any) -> Iterator[Opinion]:
-    """The opinions on what contradicts: a prim, a property, an occurrence, a spec, a metadatum."""
-    if isinstance(other, tuple):
-        prim, of = other
-        specs: Iterable[Any] = [_with_metadata(prim, of)]
-    elif isinstance(other, Usd.Prim):
-        prim, specs = other, [maker(other)]
-    elif isinstance(other, Usd.Property) or hasattr(other, "at_default"):
-        attribute = getattr(other, "attribute", other)
-        prim = attribute.GetPrim()
-        times = tuple(getattr(other, "times", ()))
-        at_default = getattr(other, "at_default", False)
-        problem = Problem("", at=attribute, times=times, at_default=at_default)
-        specs = [_own(problem).spec]
-    else:
-        raise TypeError(f"a problem is against prims, properties and occurrences, not {other!r}")
-    yield from (Opinion(prim, spec) for spec in specs if spec)
 
 
 def _path_of(at: Any, prim: Any, spec: Any) -> str:

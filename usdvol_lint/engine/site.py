@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from pxr import Usd
 
-from usdvol_lint.engine.blame import Blame, blamed
+from usdvol_lint.engine.blame import Blame, Blaming
 from usdvol_lint.engine.layer_names import LayerNames
 from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.instances import shown
@@ -30,6 +30,7 @@ class Sites:
     def __init__(self) -> None:
         self._texts = LayerTexts()
         self._names = LayerNames()
+        self._blaming = Blaming()
 
     def locate(self, problem: Problem | NotChecked) -> Located:
         """The site of a problem, what is to blame for it, and how many instances show it."""
@@ -42,7 +43,7 @@ class Sites:
             times=problem.times,
             at_default=problem.at_default,
         )
-        blame = blamed(problem)
+        blame = self._blaming.blame(problem)
         spec = blame.spec
         layer = spec.layer if spec else prim.GetStage().GetRootLayer()
         path = str(spec.path) if spec else "/"

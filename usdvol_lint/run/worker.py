@@ -6,11 +6,16 @@ import gc
 import os
 import pickle
 import signal
-from typing import Any, BinaryIO
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from usdvol_lint.model import Finding, StageReport, UsageError
 from usdvol_lint.packs.catalog import load
+from usdvol_lint.rule import Rule
 from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
+
+if TYPE_CHECKING:
+    from usdvol_lint.engine.engine import Engine
 
 
 def main() -> None:
@@ -27,7 +32,6 @@ def main() -> None:
     except ImportError as error:
         return _send(replies, Refusal(f"USD can't be imported ({error}); install usd-core"))
     from usdvol_lint.engine.asked_types import check_types
-    from usdvol_lint.engine.engine import Engine
     from usdvol_lint.engine.usd_version import usd_version
 
     setup: Setup | None = _next(requests)
@@ -39,14 +43,27 @@ def main() -> None:
     except UsageError as error:
         return _send(replies, Refusal(str(error)))
     answers = _Answers(replies)
-    heard, asked = (answers.advance, answers.send), (setup.is_alone, setup.suppressions)
-    engine = Engine(rules, setup.active, setup.depth, *heard, *asked)
+    engine = _engine(rules, setup, answers)
     _send(replies, Ready(usd_version()))
     while path := _next(requests):
         answers.end(engine.lint(path))
         gc.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
+
+
+def _engine(rules: Mapping[str, Rule], setup: Setup, answers: _Answers) -> Engine:
+    from usdvol_lint.engine.engine import Engine
+
+    return Engine(
+        rules,
+        setup.active,
+        setup.depth,
+        answers.advance,
+        answers.send,
+        setup.is_alone,
+        setup.suppressions,
+    )
 
 
 class _Answers:

@@ -71,8 +71,9 @@ class PlacedField:
     @property
     def opinions(self) -> tuple[Any, ...]:
         """The attributes that say which grids there are, and where they are placed."""
-        names = map(self._target.prim.GetAttribute, ("fieldName", "fieldIndex"))
-        return (self._paths.attribute, *names, *self._placement.attributes)
+        path = self._paths.attribute
+        names = map(path.GetPrim().GetAttribute, ("fieldName", "fieldIndex"))
+        return (path, *names, *self._placement.attributes)
 
     def has_known_grids(self, boxes: GridBoxes) -> bool:
         """Whether each file was looked into, and has the grid, whose box and place are known."""
