@@ -128,8 +128,11 @@ def test_a_layer_ignores_what_it_is_to_blame_for(lint: Lint) -> None:
 
 def test_a_layer_ignores_what_is_found_on_the_stage_as_such(lint: Lint) -> None:
     reversed_range = ("startTimeCode = 2", "endTimeCode = 1")
-    text = on_layer(*reversed_range, STG007="why") + prim("A", kind="def Cube")
-    assert found(lint({"stage.usda": text})) == [("STG007", None, "why")]
+    text = on_layer(*reversed_range, STG007="why") + field()
+    assert found(lint({"stage.usda": text})) == [
+        ("STG007", None, "why"),
+        ("AST002", "/density", None),
+    ]
 
 
 def test_a_layer_of_a_package_is_asked(lint: Lint, tmp_path: Path) -> None:
