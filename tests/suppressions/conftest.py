@@ -17,7 +17,7 @@ from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.suppressions import InStages
 
-RULES = ("AST002", "AST010", "FLD002", "LNT")
+RULES = ("AST002", "AST010", "FLD002", "STG007", "LNT")
 Lint: TypeAlias = Callable[..., tuple[Finding, ...]]
 
 

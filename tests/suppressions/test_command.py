@@ -64,6 +64,13 @@ def test_places_are_taken_away_and_a_cause_once_none_is_left(library: Path) -> N
     assert [place.get("reason") for place in cause["places"]] == [None, "an old cache"]
 
 
+def test_the_reason_in_a_stage_comes_first(library: Path) -> None:
+    file = library / "usdvol-lint.toml"
+    file.write_text(f'{RULES}[[suppress]]\nprims = "/**"\nreason = "all"\n', encoding="utf-8")
+    (cause,) = causes(library, "s1.usda", "s2.usda")
+    assert [cause["reason"], cause["places"][1]["reason"]] == ["shot one", "all"]
+
+
 def test_who_audits_sees_all(library: Path) -> None:
     (library / "usdvol-lint.toml").write_text(
         f'suppressions = "configuration"\n{RULES}{TABLE}', encoding="utf-8"

@@ -126,6 +126,12 @@ def test_a_layer_ignores_what_it_is_to_blame_for(lint: Lint) -> None:
     ]
 
 
+def test_a_layer_ignores_what_is_found_on_the_stage_as_such(lint: Lint) -> None:
+    reversed_range = ("startTimeCode = 2", "endTimeCode = 1")
+    text = on_layer(*reversed_range, STG007="why") + prim("A", kind="def Cube")
+    assert found(lint({"stage.usda": text})) == [("STG007", None, "why")]
+
+
 def test_a_layer_of_a_package_is_asked(lint: Lint, tmp_path: Path) -> None:
     asset = "#usda 1.0\n" + on_layer(DEFAULT, AST002="packed") + smoke()
     with ZipFile(tmp_path / "asset.usdz", "w") as package:
@@ -241,6 +247,21 @@ def test_a_prim_in_a_prototype_is_nearer_than_an_instance(lint: Lint) -> None:
     apart = [("/A/density", "asset", GONE), ("/B/density", "asset", GONE)]
     assert messages(lint(layers)) == together
     assert messages(lint(layers, prims=(("/A",),))) == apart
+
+
+def inherited(inside: str) -> str:
+    """Two instances of a class in the stage itself."""
+    return prim("Rig", inside=inside, kind="class") + "".join(
+        prim(name, "inherits = </Rig>\ninstanceable = true", kind="def") for name in "AB"
+    )
+
+
+def test_what_is_taken_back_in_a_prototype_no_layer_ignores(lint: Lint) -> None:
+    text = on_layer(AST002="layer") + inherited(field(on_prim(AST002="")) + field(name="e"))
+    assert messages(lint({"stage.usda": text})) == [
+        ("/A/density", None, f"{GONE} (shown by 2 instances)"),
+        ("/A/e", "layer", f"{GONE} (shown by 2 instances)"),
+    ]
 
 
 def test_very_many_instances_are_not_told_apart_by_patterns(
@@ -373,8 +394,10 @@ def test_what_matched_nothing_is_told_where_it_is_asked_for(lint: Lint) -> None:
 
 
 def test_what_a_nearer_one_stands_before_is_not_used(lint: Lint) -> None:
-    text = on_layer(AST002="layer", VOL001="did not run") + field(on_prim(AST002="near"))
-    assert told(lint({"stage.usda": text}, unused=True)) == [unused("AST002", "layer")]
+    near = field(on_prim(AST002="near"))
+    for text in (near, inherited(near)):
+        text = on_layer(AST002="layer", VOL001="did not run") + text
+        assert told(lint({"stage.usda": text}, unused=True)) == [unused("AST002", "layer")]
 
 
 def test_what_is_taken_back_is_not_unused(lint: Lint) -> None:
@@ -384,10 +407,7 @@ def test_what_is_taken_back_is_not_unused(lint: Lint) -> None:
 
 
 def test_prototypes_are_looked_at(lint: Lint) -> None:
-    inside = prim("Calm", on_prim(AST002="idle"))
-    text = prim("Rig", inside=inside, kind="class") + "".join(
-        prim(name, "inherits = </Rig>\ninstanceable = true", kind="def") for name in "AB"
-    )
+    text = inherited(prim("Calm", on_prim(AST002="idle")))
     findings = lint({"stage.usda": text}, unused=True)
     assert messages(findings) == [
         ("/A/Calm", None, f"{unused('AST002', 'idle')} (shown by 2 instances)")
