@@ -12,6 +12,7 @@ from pxr import Usd
 from usdvol_lint.engine.blame import Blaming
 from usdvol_lint.engine.parts import parts_of
 from usdvol_lint.engine.site import cover_of
+from usdvol_lint.facts.usd.values import Value, Values
 from usdvol_lint.model import Cover, Severity
 from usdvol_lint.rule import APIS, NAME, TYPE, NotChecked, Problem
 
@@ -160,7 +161,6 @@ def test_the_session_layer_is_never_to_blame(opened: Open) -> None:
     stage = opened(shot=shot(), asset=ASSET)
     with Usd.EditContext(stage, stage.GetSessionLayer()):
         stage.GetPrimAtPath("/tank").SetTypeName("Xform")
-        stage.GetPrimAtPath("/tank").SetTypeName("Volume")
     assert blame(stage, "/tank", of=TYPE) == WHOLE
 
 
@@ -176,6 +176,9 @@ def test_a_spec_that_the_rule_names(opened: Open) -> None:
     assert blame(stage, "/tank/density.filePath", spec=top) == expected
     assert blame(stage, "/tank/density", spec=top) == ("asset", "/", None, "")
     assert blame(stage, "/tank", spec=top, subject="x") == ("asset", "/", None, "x")
+    stage = opened(other=shot().replace("tank", "a", 1), asset=ASSET)
+    top = stage.GetPrimAtPath("/a").GetPrimStack()[-1].layer.pseudoRoot
+    assert blame(stage, "/a/density.filePath", spec=top) == expected
 
 
 def test_a_layer_names_the_sublayer_with_the_value(opened: Open) -> None:
@@ -344,6 +347,15 @@ def test_the_cover_of_a_bare_attribute_counts_its_samples(opened: Open) -> None:
     assert cover_of(problem, Blaming().blame(problem), LEVEL) == Cover(LEVEL, (5.0,))
 
 
+def test_what_is_stronger_than_all_that_contradicts_keeps_its_time(opened: Open) -> None:
+    text = ANIMATED.replace("asset filePath = ", 'token fieldName = "x"\n    asset filePath = ')
+    stage = opened(shot=MOVED, base=text)
+    at = stage.GetObjectAtPath("/density.filePath")
+    name = stage.GetObjectAtPath("/density.fieldName")
+    found = Blaming().blame(Problem("", at=at, times=[104, 108], against=[name]))
+    assert (found.property, found.time) == ("filePath", 2.0)
+
+
 # --- two opinions are two problems ---
 
 OVERRIDE = (
@@ -365,6 +377,9 @@ def test_a_default_and_samples_of_two_layers_are_two(opened: Open) -> None:
     problem = Problem("", at=at, times=[1], at_default=True)
     assert parts(problem) == [((), True, "base.usda"), ((1.0,), False, "shot.usda")]
     whole = opened(base=ANIMATED)
+    values = Values(at, (Value(None, "a"), Value(1.0, "b")), 1)
+    samples = [part.cover.samples for part in parts_of(Problem("", at=values))]
+    assert samples == [values.samples[:1], values.samples[1:]]
     one = whole.GetObjectAtPath("/density.filePath")
     problem = Problem("", at=one, times=[1], at_default=True)
     assert parts(problem) == [((1.0,), True, "base.usda")]

@@ -60,7 +60,7 @@ def path_beside(prim: Any, spec: Any) -> str:
     layer = spec.layer
     nodes = (node for node in nodes_of(prim.GetPrimIndex()) if layer in node.layerStack.layers)
     node = next(nodes, None)
-    return str(node.path.StripAllVariantSelections()) if node else ""
+    return str(node.path) if node else ""
 
 
 def _standing(opinion: Opinion) -> _Standing | None:
