@@ -50,7 +50,7 @@ def moved_by_types_on_top(engine: Engine, path: Path) -> Iterator[str]:
     """What is blamed on another spec once a layer on top repeats the types of what is blamed."""
     findings = engine.lint(str(path)).findings
     stage = Usd.Stage.Open(str(path))
-    top = _layer_on_top(stage, path.with_name("repeated.usda"))
+    top = _layer_on_top(stage, path.with_name("on_top_repeated.usda"))
     for finding in findings:
         _repeat_types(stage, finding.site.prim, top)
     top.Save()
@@ -68,7 +68,7 @@ def blamed_for_a_break_above(engine: Engine, path: Path, random: Random) -> Iter
     if not ways:
         return
     prim, way = random.choice(ways)
-    top = _layer_on_top(stage, path.with_name("broken.usda"))
+    top = _layer_on_top(stage, path.with_name("on_top_broken.usda"))
     way(top, prim)
     top.Save()
     for code, source in sorted(_blamed(engine.lint(top.realPath).findings) - known, key=str):

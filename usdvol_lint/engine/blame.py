@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
@@ -45,7 +45,8 @@ class Blaming:
         at = problem.at
         prim = at.GetPrim()
         own = self._own(problem)
-        others = [each for other in problem.against if (each := self._opinion(other, problem))]
+        against = (*problem.against, *_forwarded(at)) if _is_relationship(at) else problem.against
+        others = [each for other in against if (each := self._opinion(other, problem))]
         if own.spec is None or not others:
             return own
         opinions = [Opinion(each.GetPrim(), blame.spec) for each, blame in others]
@@ -124,6 +125,21 @@ class Blaming:
         else:
             at, blame = other.attribute, self._own(Problem("", at=other))
         return (at, blame) if blame.spec else None
+
+
+def _is_relationship(at: Any) -> bool:
+    return isinstance(at, Usd.Relationship)
+
+
+def _forwarded(relationship: Any) -> Iterator[Any]:
+    """The relationships that one forwards to, from one to the next."""
+    seen = {relationship.GetPath()}
+    while len(targets := relationship.GetTargets()) == 1 and targets[0] not in seen:
+        seen.add(targets[0])
+        relationship = relationship.GetStage().GetRelationshipAtPath(targets[0])
+        if not relationship:
+            return
+        yield relationship
 
 
 def _paths_of(clip_set: ClipSet) -> frozenset[str]:

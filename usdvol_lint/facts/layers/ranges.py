@@ -35,7 +35,7 @@ class TimeRange(NamedTuple):
         spec, node = own, node_of(prim, own)
         if not self._is_said_by(node):
             for arc in reversed(list(crossings(node))):
-                spec, node = arc.spec, arc.source
+                spec, node = arc.spec or spec, arc.source
                 if self._is_said_by(node):
                     break
         top = root_layer(node)

@@ -69,11 +69,21 @@ def from_root(node: Any) -> Iterator[Any]:
         yield node
 
 
+def as_introduced(node: Any) -> Any:
+    """The node where its arc is authored: USD also puts what is specialized below the root."""
+    origin = node.origin
+    while origin and origin.path == node.path and root_layer(origin) == root_layer(node):
+        node, origin = origin, origin.origin
+    return node
+
+
 def crossings(node: Any) -> Iterator[Crossing]:
     """The arcs into other layer stacks that lead from the root to a node, in this order."""
-    for each in from_root(node):
-        if root_layer(each) != root_layer(each.parent):
-            yield Crossing(each, each.parent)
+    node = as_introduced(node)
+    if not node.IsRootNode():
+        yield from crossings(node.parent)
+        if root_layer(node) != root_layer(node.parent):
+            yield Crossing(node, node.parent)
 
 
 def root_layer(node: Any) -> Any:

@@ -117,13 +117,18 @@ def _children(
 
 
 def _undeclared(
-    relationships: Iterable[Any], bindings: Iterable[Binding], kinds: PrimKinds
+    relationships: Iterable[Any], bindings: Sequence[Binding], kinds: PrimKinds
 ) -> Iterator[Any]:
-    """The relationships outside the namespace that were probably intended as bindings."""
+    """The relationships outside the namespace that were probably intended as bindings.
+
+    One with the name of a binding is none: the binding may have forwarded to it.
+    """
+    names = {binding.key for binding in bindings}
     bound = {target.path for binding in bindings for target in binding.targets}
     for relationship in relationships:
         if relationship.GetName() == _BARE_NAMESPACE or (
-            not _is_declared(relationship)
+            relationship.GetBaseName() not in names
+            and not _is_declared(relationship)
             and any(
                 path not in bound and kinds.is_a(prim, schema.FIELD)
                 for path in relationship.GetForwardedTargets()
