@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 from pxr import Sdf, Usd, Vt
 
 from usdvol_lint.engine.engine import Engine
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.model import Finding, Severity, Source
 from usdvol_lint.paths import canonical
 
@@ -30,9 +31,10 @@ def broken_laws(engine: Engine, path: Path, number: int) -> Iterator[str]:
     """What laws a stage shows to be broken; one that is right is also broken from above."""
     if path.suffix != ".usdz":
         yield from blamed_though_clean(engine, path, engine.lint(str(path)).findings)
-        yield from moved_by_types_on_top(engine, path)
-        if number % 2 == 0:
-            yield from blamed_for_a_break_above(engine, path, Random(number))
+        if stage := _opened(path):
+            yield from moved_by_types_on_top(engine, path, stage)
+            if number % 2 == 0:
+                yield from blamed_for_a_break_above(engine, path, stage, Random(number))
 
 
 def blamed_though_clean(engine: Engine, path: Path, findings: Iterable[Finding]) -> Iterator[str]:
@@ -46,10 +48,9 @@ def blamed_though_clean(engine: Engine, path: Path, findings: Iterable[Finding])
             yield f"{code} is blamed on {source}, which is clean opened alone"
 
 
-def moved_by_types_on_top(engine: Engine, path: Path) -> Iterator[str]:
+def moved_by_types_on_top(engine: Engine, path: Path, stage: Any) -> Iterator[str]:
     """What is blamed on another spec once a layer on top repeats the types of what is blamed."""
     findings = engine.lint(str(path)).findings
-    stage = Usd.Stage.Open(str(path))
     top = _layer_on_top(stage, path.with_name("on_top_repeated.usda"))
     for finding in findings:
         _repeat_types(stage, finding.site.prim, top)
@@ -60,9 +61,10 @@ def moved_by_types_on_top(engine: Engine, path: Path) -> Iterator[str]:
             yield f"{code} is no more blamed on {source} below types that say the same"
 
 
-def blamed_for_a_break_above(engine: Engine, path: Path, random: Random) -> Iterator[str]:
+def blamed_for_a_break_above(
+    engine: Engine, path: Path, stage: Any, random: Random
+) -> Iterator[str]:
     """Each layer that is blamed for what only a layer on top of it breaks."""
-    stage = Usd.Stage.Open(str(path))
     known = _blamed(engine.lint(str(path)).findings)
     ways = [(prim, way) for prim in stage.Traverse() for way in _BREAKS.get(prim.GetTypeName(), ())]
     if not ways:
@@ -74,6 +76,14 @@ def blamed_for_a_break_above(engine: Engine, path: Path, random: Random) -> Iter
     for code, source in sorted(_blamed(engine.lint(top.realPath).findings) - known, key=str):
         if source.layer != canonical(top.realPath):
             yield f"{code} is blamed on {source} for {way.__name__} in a layer above"
+
+
+def _opened(path: Path) -> Any | None:
+    """The stage; None where USD raises for a layer that it can't read."""
+    try:
+        return Usd.Stage.Open(str(path))
+    except UNREADABLE:
+        return None
 
 
 def _blamed(findings: Iterable[Finding], least: Severity = Severity.WARNING) -> set[Blamed]:
