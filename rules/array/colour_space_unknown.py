@@ -1,6 +1,6 @@
 """ARR016: a colour space that USD does not know by name, or does not read, is none to USD."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, quoted, rule
+from usdvol_lint.rule import APIS, WARNING, Facts, Prim, Problem, Problems, quoted, rule
 
 
 @rule("ARR016", on="ParticleField", severity=WARNING, since="0.1")
@@ -24,5 +24,6 @@ def colour_space_unknown(particles: Prim, facts: Facts) -> Problems:
         + ("" if space.is_known else ", nor does it know that name"),
         at=space.attribute,
         of="colorSpace",
+        against=[] if space.is_applied else [(particles, (APIS, "ColorSpaceAPI"))],
         suggestion="; ".join(advice),
     )

@@ -42,10 +42,17 @@ def blamed_though_clean(engine: Engine, path: Path, findings: Iterable[Finding])
     root = canonical(str(path))
     for code, source in sorted(_blamed(findings), key=str):
         layer = source.layer or ""
-        if layer in ("", root) or layer.endswith("]"):
+        if layer in ("", root) or layer.endswith("]") or _is_part(layer, source.path):
             continue
         if (code, source) not in _blamed(engine.lint(layer).findings, Severity.INFO):
             yield f"{code} is blamed on {source}, which is clean opened alone"
+
+
+def _is_part(layer: str, path: str | None) -> bool:
+    """Whether nothing in a layer defines what a spec is about, which another one does."""
+    stage = _opened(Path(layer))
+    prim = stage and stage.GetPrimAtPath(Sdf.Path(path or "/").StripAllVariantSelections())
+    return bool(prim) and not prim.IsPseudoRoot() and not prim.IsDefined()
 
 
 def moved_by_types_on_top(engine: Engine, path: Path, stage: Any) -> Iterator[str]:

@@ -220,8 +220,13 @@ def _typed(prim: Any) -> Any | None:
 
 
 def _lists(api: str) -> Callable[[Any], bool]:
+    """Whether a spec says of an API that it is applied, or not."""
+
     def lists(spec: Any) -> bool:
-        return spec.HasInfo(APIS) and api in spec.GetInfo(APIS).GetAppliedItems()
+        listed = spec.GetInfo(APIS) if spec.HasInfo(APIS) else None
+        if listed is None:
+            return False
+        return listed.isExplicit or api in (*listed.GetAppliedItems(), *listed.deletedItems)
 
     return lists
 
