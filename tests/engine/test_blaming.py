@@ -388,3 +388,15 @@ def test_a_default_and_samples_of_two_layers_are_two(opened: Open) -> None:
     assert parts(problem) == [((1.0,), True, "shot.usda")]
     problem = Problem("", at=at.GetPrim(), times=[1], at_default=True)
     assert parts(problem) == [((1.0,), True, "base.usda")]
+
+
+def test_a_relationship_that_another_forwards_to_is_an_opinion(opened: Open) -> None:
+    asset = ASSET.replace("rel field:density = </tank/density>", "rel field:density = </tank.to>")
+    asset = asset.replace("rel field", "rel to = </tank/density>\n    rel field")
+    stage = opened(shot=shot("rel to = </tank/gone>"), asset=asset)
+    assert blame(stage, "/tank.field:density") == ("shot", "/tank.to", "to", "")
+
+
+def test_an_api_that_is_taken_away_is_an_opinion_on_it(opened: Open) -> None:
+    stage = opened(shot=shot(meta='delete apiSchemas = ["MotionAPI"]'), asset=ASSET)
+    assert blame(stage, "/tank", of=(APIS, "MotionAPI"))[:2] == ("shot", "/tank")

@@ -129,3 +129,25 @@ def test_nodes_are_in_the_order_of_strength(stage: Usd.Stage) -> None:
     prim = stage.GetPrimAtPath("/a/child")
     paths = [str(node.path) for node in nodes_of(prim.GetPrimIndex())]
     assert paths == ["/a/child", "/_class", "/top", "/_class", "/top{look=x}", "/heavy"]
+
+
+def test_what_is_specialized_across_layers_comes_by_the_arc_that_is_authored(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """USD puts it below the root too, as the weakest of all, where no spec has an arc."""
+    monkeypatch.chdir(tmp_path)
+    head = "#usda 1.0\n"
+    Path("far.usda").write_text(head + 'def "far"\n{\n    def "c"\n    {\n    }\n}\n')
+    Path("lib.usda").write_text(
+        head + 'def "lib" (\n    specializes = </base>\n)\n{\n}\n'
+        'class "base" (\n    references = @./far.usda@</far>\n)\n{\n}\n'
+    )
+    Path("top.usda").write_text(head + 'def "a" (\n    references = @./lib.usda@</lib>\n)\n{\n}\n')
+    prim = Usd.Stage.Open("top.usda").GetPrimAtPath("/a/c")
+    [spec] = prim.GetPrimStack()
+    arcs = [each.spec for each in crossings(node_of(prim, spec))]
+    assert [(arc.layer.GetDisplayName(), str(arc.path)) for arc in arcs if arc] == [
+        ("top.usda", "/a"),
+        ("lib.usda", "/base"),
+    ]
+    assert None not in arcs
