@@ -143,7 +143,8 @@ def test_what_is_specialized_across_layers_comes_by_the_arc_that_is_authored(
         'class "base" (\n    references = @./far.usda@</far>\n)\n{\n}\n'
     )
     Path("top.usda").write_text(head + 'def "a" (\n    references = @./lib.usda@</lib>\n)\n{\n}\n')
-    prim = Usd.Stage.Open("top.usda").GetPrimAtPath("/a/c")
+    stage = Usd.Stage.Open("top.usda")
+    prim = stage.GetPrimAtPath("/a/c")
     [spec] = prim.GetPrimStack()
     arcs = [each.spec for each in crossings(node_of(prim, spec))]
     assert [(arc.layer.GetDisplayName(), str(arc.path)) for arc in arcs if arc] == [
