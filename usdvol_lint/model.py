@@ -95,7 +95,8 @@ class Cover(NamedTuple):
 
     `frames` are time codes of the layer to blame, of the stage for value clips, in ascending order;
     None are all that there are, or ever will be.  `at_default` adds the default time.
-    `share` is the share of an array's elements and `elements` their number, None without an array.
+    `share` is the share of an array's elements that is concerned, and `elements` how many it has
+    at one time; None without an array.
     `level` is the rule's own, whatever a configuration makes of it.
     """
 

@@ -75,7 +75,8 @@ def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Co
     """How much a problem covers, in the time of the layer to blame; of value clips the stage's."""
     found = problem.cover
     share = getattr(found, "share", None) if found else None
-    elements = getattr(found, "number", None) if found else None
+    sizes = getattr(found, "sizes", None) if found else None
+    elements = round(sum(sizes) / len(sizes)) if sizes else None
     if not problem.times or _are_all(problem):
         return Cover(level, None, problem.at_default, share, elements)
     frames = problem.times

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, TypeAlias
+
+from pxr import Sdf
 
 from usdvol_lint.facts.usd.bringing import (
     FIELDS_OF_ARCS,
@@ -29,10 +31,14 @@ class Opinion(NamedTuple):
 
 
 class _Standing(NamedTuple):
-    """Where an opinion stands: `order` is less for a stronger one; the arcs from the root to it."""
+    """Where an opinion stands: `order` is less for a stronger one; the arcs from the root to it.
+
+    `keys` are the same for the arcs of an instance and for those of the prims below it.
+    """
 
     order: tuple[_Step, ...]
     crossings: tuple[Crossing, ...]
+    keys: tuple[tuple[str, str], ...]
 
 
 def decisive(opinions: Sequence[Opinion]) -> Opinion:
@@ -45,7 +51,7 @@ def decisive(opinions: Sequence[Opinion]) -> Opinion:
     if len(standings) < 2:
         return standings[0][0] if standings else opinions[0]
     strongest, standing = min(standings, key=lambda pair: pair[1].order)
-    shared = _shared([each.crossings for _, each in standings])
+    shared = _shared([each.keys for _, each in standings])
     if shared == len(standing.crossings):
         return strongest
     arc = standing.crossings[shared].spec
@@ -72,7 +78,23 @@ def _standing(opinion: Opinion) -> _Standing | None:
         (_RANKS.get(each.arcType, len(_RANKS)), -each.namespaceDepth, each.siblingNumAtOrigin, 0)
         for each in from_root(node)
     ]
-    return _Standing((*steps, last), tuple(crossings(node)))
+    arcs = tuple(crossings(node))
+    return _Standing((*steps, last), arcs, tuple(_keys(opinion.prim, arcs)))
+
+
+def _keys(prim: Any, arcs: Sequence[Crossing]) -> Iterator[tuple[str, str]]:
+    """What tells arcs apart: those of an instance as that has them which its prototype is made of.
+
+    An instance is composed by itself, and what is below it once for all of them.
+    """
+    own = shared = prim.GetPath()
+    below = prim.GetPrototype().GetAllChildren() if prim.IsInstance() else ()
+    if below:
+        own = prim.GetPrimIndex().rootNode.path
+        shared = below[0].GetPrimIndex().rootNode.path.GetParentPath()
+    for arc in arcs:
+        path, target = arc.key
+        yield str(Sdf.Path(path).ReplacePrefix(own, shared)), target
 
 
 def _node(opinion: Opinion) -> Any | None:
@@ -85,11 +107,11 @@ def _node(opinion: Opinion) -> Any | None:
     return node
 
 
-def _shared(every: Sequence[tuple[Crossing, ...]]) -> int:
+def _shared(every: Sequence[tuple[tuple[str, str], ...]]) -> int:
     """How many arcs all have in common, from the first on."""
     count = 0
-    for arcs in zip(*every, strict=False):
-        if len({each.key for each in arcs}) > 1:
+    for keys in zip(*every, strict=False):
+        if len(set(keys)) > 1:
             break
         count += 1
     return count

@@ -11,7 +11,7 @@ def nodes_of(index: Any) -> Iterator[Any]:
 
     The index lives as long as they are asked for: a node does not keep it alive.
     """
-    waiting = [index.rootNode]
+    waiting = [index.rootNode] if index.IsValid() else []  # the root of a prototype has none
     while waiting:
         node = waiting.pop()
         yield node
