@@ -93,7 +93,7 @@ class Source(NamedTuple):
 class Cover(NamedTuple):
     """How much of what is to blame a finding covers: more than before is worse.
 
-    `frames` are time codes of the layer to blame, of the stage for value clips, in ascending order;
+    `frames` are time codes of the layer to blame, for clips that which names them, ascending;
     None are all that there are, or ever will be.  `at_default` adds the default time.
     `share` is the share of an array's elements that is concerned, and `elements` how many it has
     at one time; None without an array.

@@ -40,7 +40,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{ranges}: {' and '.join(found)}",
             at=attribute,
-            spec=facts.layers.time_range.meeting(attribute, sequence.times[0]),
+            spec=facts.layers.time_range.meeting_samples(attribute, first, last),
             fold=alike and f"{alike} {found}",
             suggestion=sequence.rate_at_fault((start, end)) or advice,
             severity=severity,

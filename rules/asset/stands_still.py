@@ -40,7 +40,7 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
     yield Problem(
         message,
         at=still.affected,
-        spec=held_in and held_in.meeting(still.affected.attribute, still.affected.first.time),
+        spec=held_in and held_in.meeting_value(still.affected),
         fold=facts.files.alike(field),
         suggestion=still.advice,
         severity=None if still.is_certain and not is_staged else INFO,

@@ -302,7 +302,7 @@ class Some(NamedTuple):
     asset: str | None = None
     total: int = 3
     share: float | None = None
-    number: int | None = None
+    sizes: tuple[int, ...] | None = None
 
 
 @pytest.mark.parametrize(
@@ -316,12 +316,12 @@ class Some(NamedTuple):
         ({"times": (104.0,), "total": 1}, Cover(LEVEL, None), 2.0),
         ({"times": (104.0,), "total": 0}, Cover(LEVEL, (2.0,)), 2.0),
         (
-            {"times": (104.0,), "share": 0.5, "number": 8},
+            {"times": (104.0,), "share": 0.5, "sizes": (7, 9)},
             Cover(LEVEL, (2.0,), False, 0.5, 8),
             2.0,
         ),
         (
-            {"times": (), "share": 0.5, "number": 8},
+            {"times": (), "share": 0.5, "sizes": (7, 9)},
             Cover(LEVEL, None, False, 0.5, 8),
             None,
         ),

@@ -11,7 +11,7 @@ from zipfile import ZipFile
 
 import pytest
 from identities import HEAD, Find, refers
-from process import run, write
+from process import ASSETS, run, write
 
 from usdvol_lint.baseline.fingerprint import fingerprint
 from usdvol_lint.model import Source
@@ -58,6 +58,37 @@ def test_references_and_instances_show_one_cause(find: Find, tmp_path: Path) -> 
     assert cause.places[5].finding.message == (
         f"no file at './gone.vdb' in '{tmp_path}/assets' (shown by 3 instances)"
     )
+
+
+BROKEN = {
+    "VOL013": ASSET.replace("./gone.vdb", "./cloud.vdb").replace("(1, 1, 1)", "(0.4, 1, 1)"),
+    "VOL002": ASSET.replace("OpenVDBAsset", "Xform"),
+    "VOL008": ASSET.replace('"density"\n    {', '"density" (\n active = false\n    )\n    {', 1),
+    "SCH009": ASSET.replace("    def Open", '    def Mesh "proxy"\n    {\n    }\n    def Open'),
+}
+
+
+@pytest.mark.parametrize("code", BROKEN)
+def test_instances_of_a_volume_itself_show_one_cause(code: str, find: Find, tmp_path: Path) -> None:
+    """Each is composed by itself, and what is below it once."""
+    write(tmp_path / "assets", tank=BROKEN[code])
+    shutil.copy(ASSETS / "cloud.vdb", tmp_path / "assets")
+    instances = "".join(refers(f"i{number}", meta="instanceable = true") for number in range(3))
+    write(tmp_path / "shots", instances=HEAD + instances)
+    [alone] = find("assets/tank.usda", rules=(code,))
+    [cause] = find("shots/instances.usda", "assets/tank.usda", rules=(code,))
+    assert named([cause]) == named([alone])
+    assert (alone.code, cause.source.layer) == (code, "assets/tank.usda")
+
+
+def test_a_circle_of_arcs_is_one_cause_whatever_leads_into_it(find: Find, tmp_path: Path) -> None:
+    circle = 'def "tank" (\n    references = @./tank.usda@</tank>\n)\n{\n}\n'
+    write(tmp_path / "assets", tank=f'#usda 1.0\n(\n    defaultPrim = "tank"\n)\n{circle}')
+    write(tmp_path / "shots", one=HEAD + refers("a") + refers("b"), two=HEAD + refers("a"))
+    causes = find("assets/tank.usda", "shots/one.usda", "shots/two.usda", rules=("STG002",))
+    assert [(cause.source, len(cause.places)) for cause in causes] == [
+        (Source("assets/tank.usda", "/tank"), 4)
+    ]
 
 
 def test_it_is_the_same_from_every_folder_and_in_every_checkout(

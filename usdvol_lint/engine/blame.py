@@ -92,8 +92,10 @@ class Blaming:
         if node_of(prim, spec) is None and (clips := self._clips_with(prim, spec.layer)):
             path = attribute.GetPath().MakeRelativePath(clips.prim.GetPath())
             clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
-            bearer = clips.spec_with(clips.key)
-            return Blame(bearer, "clips", subject or str(path), None, None, clips.named(clip))
+            bearer, offset = clips.spec_with(clips.key), None
+            for each, to_stage in clips.prim.GetPrimStackWithLayerOffsets():
+                offset = to_stage if each == bearer else offset
+            return Blame(bearer, "clips", subject or str(path), None, offset, clips.named(clip))
         return Blame(spec, attribute.GetName(), subject, offset.GetInverse() * time, offset)
 
     def _clips_with(self, prim: Any, layer: Any) -> ClipSet | None:

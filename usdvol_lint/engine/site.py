@@ -72,7 +72,7 @@ class Sites:
 
 
 def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Cover:
-    """How much a problem covers, in the time of the layer to blame; of value clips the stage's."""
+    """How much a problem covers, in the time of the layer to blame."""
     found = problem.cover
     share = getattr(found, "share", None) if found else None
     sizes = getattr(found, "sizes", None) if found else None

@@ -22,6 +22,8 @@ CLIPS = (
     'asset manifestAssetPath = @./clip.usda@\n}\n}\n)\n{\ndef OpenVDBAsset "density"\n{\n}\n}\n'
 )
 
+RANGE = TimeRange(1001.0, 1003.0)
+
 
 CLIP = f'def "c"\n{{\n{FIELD}}}\n'
 
@@ -112,7 +114,7 @@ def test_what_brings_values_into_the_range(
     stage = Usd.Stage.Open("stage.usda")
     is_clipped = "clip" in layers
     at = stage.GetPrimAtPath("/a/density" if is_clipped else "/density").GetAttribute("filePath")
-    spec = TimeRange(1001.0, 1003.0).meeting(at, time)
+    spec = RANGE.meeting(at, time, lambda other: other == RANGE)
     if is_clipped and time is None:
         assert spec is None  # clips have no default
         return
@@ -123,4 +125,37 @@ def test_what_brings_values_into_the_range(
 def test_what_has_no_value_is_brought_by_nothing() -> None:
     stage = Usd.Stage.CreateInMemory()
     prim = stage.DefinePrim("/density", "OpenVDBAsset")
-    assert TimeRange(1.0, 2.0).meeting(prim.GetAttribute("filePath"), None) is None
+    assert RANGE.meeting(prim.GetAttribute("filePath"), None, lambda other: True) is None
+
+
+SAMPLES = "asset filePath.timeSamples = {\n        1: @./a.vdb@,\n        3: @./a.vdb@,\n    }"
+
+
+@pytest.mark.parametrize(
+    ("own", "shot", "expected"),
+    [
+        ((1, 3), (1001, 1003), "shot /density"),
+        ((1001, 1003), (1001, 1003), None),
+        ((501, 503), (1001, 1003), None),  # far from these too
+        ((1, 9), (1001, 1003), "shot /density"),  # of these a part alone
+        ((1, 9), (1, 20), None),
+        ((1, 3), (1, 20), "shot /density"),
+    ],
+)
+def test_samples_are_at_fault_where_no_range_suits_them(
+    own: tuple[int, int],
+    shot: tuple[int, int],
+    expected: str | None,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    said = "(\n    startTimeCode = {}\n    endTimeCode = {}\n)\n"
+    asset = f'def OpenVDBAsset "density"\n{{\n    {SAMPLES}\n}}\n'
+    refers = 'def "density" (\n    references = @./asset.usda@</density>\n)\n{\n}\n'
+    for name, spoken, text in (("asset", own, asset), ("shot", shot, refers)):
+        Path(f"{name}.usda").write_text(f"#usda 1.0\n{said.format(*spoken)}{text}", "utf-8")
+    stage = Usd.Stage.Open("shot.usda")
+    at = stage.GetPrimAtPath("/density").GetAttribute("filePath")
+    spec = TimeRange(*map(float, shot)).meeting_samples(at, 1.0, 3.0)
+    assert (spec and f"{spec.layer.GetDisplayName()[:-5]} {spec.path}") == expected

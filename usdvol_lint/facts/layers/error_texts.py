@@ -14,6 +14,7 @@ from usdvol_lint.paths import display
 _QUOTED = re.compile(r"@(.+?)@(?:<([^>]*)>)?")
 _INTRODUCED = re.compile(r"introduced by @(.+?)@<([^>]*)>")
 _UNRESOLVED = re.compile(r"Unresolved (reference|payload) prim path @(.+?)@<([^>]*)>")
+_CANNOT = "CANNOT"
 _IN_LAYER = re.compile(r" at (?P<path>/\S*) in @(?P<layer>.+?)@")
 _ABSOLUTE = re.compile(r"(?<=@)/[^@]+(?=@)")
 _ANONYMOUS = re.compile(r"(?:,@)?anon:0x[0-9a-f]+(?::[^@>\s]*)?@?")
@@ -104,6 +105,9 @@ def blamed_spec(text: str) -> Any | None:
     introduced = _INTRODUCED.search(text)
     if introduced:
         return _spec(introduced[1], introduced[2])
+    if _CANNOT in text:  # it ends with the arc that closes a circle, whatever leads into that
+        sites = _QUOTED.findall(_ANONYMOUS.sub("", text.partition(_CANNOT)[0]))
+        return _spec(*sites[-1]) if sites else None
     located = _IN_LAYER.search(text)
     return _spec(located["layer"], located["path"]) if located else None
 

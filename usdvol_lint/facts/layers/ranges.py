@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 
 _KEYS = ("startTimeCode", "endTimeCode")
-_ROUNDING = 1e-6
 
 
 class TimeRange(NamedTuple):
@@ -16,12 +16,18 @@ class TimeRange(NamedTuple):
     start: float
     end: float
 
-    def meeting(self, attribute: Any, time: float | None) -> Any | None:
+    def meeting(
+        self,
+        attribute: Any,
+        time: float | None,
+        is_wrong: Callable[[TimeRange], bool],
+    ) -> Any | None:
         """The spec that brings values of an attribute into this range; None if they lie in one.
 
-        It is that with the first arc to a layer which says the range, or this layer's own top if
-        the arc, or the values, are in a sublayer of it.  What is between, with another range or
-        none, has nothing to do with it.
+        It is that with the first arc to a layer whose range is wrong for the values, or this
+        layer's own top if the arc, or the values, are in a sublayer of it.  What is between, with a
+        range that suits them or none, has nothing to do with it.
+        `is_wrong` is asked of ranges in the time of the stage.
         """
         from usdvol_lint.facts.usd.bringing import (  # costs start-up time; few need it
             crossings,
@@ -29,37 +35,62 @@ class TimeRange(NamedTuple):
             root_layer,
         )
 
-        prim, own = _source(attribute, time)
+        prim, own, offset = _source(attribute, time)
         if own is None:
             return None
+        said = _said_by(own.layer, offset)
+        if said and is_wrong(said):
+            return None
         spec, node = own, node_of(prim, own)
-        if not self._is_said_by(node):
+        if not _is_wrong_in(node, is_wrong):
             for arc in reversed(list(crossings(node))):
                 spec, node = arc.spec or spec, arc.source
-                if self._is_said_by(node):
+                if _is_wrong_in(node, is_wrong):
                     break
         top = root_layer(node)
         if spec.layer != top:
             return top.pseudoRoot
         return None if spec == own else spec
 
-    def _is_said_by(self, node: Any) -> bool:
-        """Whether the layers of a node say this range; what only the stage says, its root does."""
-        info = node.layerStack.identifier.rootLayer.pseudoRoot
-        if not all(map(info.HasInfo, _KEYS)):
-            return bool(node.IsRootNode())
-        said = [node.mapToRoot.timeOffset * info.GetInfo(key) for key in _KEYS]
-        return all(abs(one - other) < _ROUNDING for one, other in zip(said, self, strict=True))
+    def meeting_value(self, held: Any) -> Any | None:
+        """The same for one value, an occurrence, that is held throughout, as in any range."""
+        return self.meeting(held.attribute, held.first.time, lambda other: other.start < other.end)
+
+    def meeting_samples(self, attribute: Any, first: float, last: float) -> Any | None:
+        """The same for samples from one time to another, which leave this range, or part of it."""
+
+        def are_far(other: TimeRange) -> bool:
+            return last < other.start or first > other.end
+
+        def leave_part(other: TimeRange) -> bool:
+            return first > other.start or last < other.end
+
+        return self.meeting(attribute, first, are_far if are_far(self) else leave_part)
 
 
-def _source(attribute: Any, time: float | None) -> tuple[Any, Any | None]:
-    """The prim and its spec that values come from: of those in value clips that with the clips."""
+def _said_by(layer: Any, offset: Any) -> TimeRange | None:
+    """The range that a layer says, in the time of the stage, to which `offset` leads."""
+    info = layer.pseudoRoot
+    if not all(map(info.HasInfo, _KEYS)):
+        return None
+    return TimeRange(*(offset * info.GetInfo(key) for key in _KEYS))
+
+
+def _is_wrong_in(node: Any, is_wrong: Callable[[TimeRange], bool]) -> bool:
+    """Whether the layers of a node say a wrong range; what only the stage says, its root does."""
+    said = _said_by(node.layerStack.identifier.rootLayer, node.mapToRoot.timeOffset)
+    return is_wrong(said) if said else bool(node.IsRootNode())
+
+
+def _source(attribute: Any, time: float | None) -> tuple[Any, Any | None, Any]:
+    """The prim, its spec that values come from, and the offset from that; of clips the same."""
     from usdvol_lint.facts.usd.bringing import node_of
 
     prim = attribute.GetPrim()
     strongest = strongest_opinion(attribute, time)
     if strongest is None or node_of(prim, strongest.spec):
-        return prim, strongest and strongest.spec
+        return (prim, *(strongest or (None, None)))
     while not (prim.IsPseudoRoot() or prim.HasAuthoredMetadata("clips")):
         prim = prim.GetParent()
-    return prim, next((spec for spec in prim.GetPrimStack() if spec.HasInfo("clips")), None)
+    stack = prim.GetPrimStackWithLayerOffsets()
+    return (prim, *next((each for each in stack if each[0].HasInfo("clips")), (None, None)))
