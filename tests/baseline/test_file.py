@@ -242,15 +242,15 @@ BAD = {
     ),
     "another format": (
         replaced('"usdvol_lint_baseline":1', '"usdvol_lint_baseline":2', 0),
-        f"b.jsonl:1: a baseline of format '2', this version reads 1: {ANEW}",
+        f"b.jsonl:1: a baseline of format 2, this version reads 1: {ANEW}",
     ),
     "a format that is no number": (
         replaced('"usdvol_lint_baseline":1', '"usdvol_lint_baseline":true', 0),
-        f"b.jsonl:1: a baseline of format 'True', this version reads 1: {ANEW}",
+        f"b.jsonl:1: a baseline of format True, this version reads 1: {ANEW}",
     ),
     "other fingerprints": (
         replaced('"fingerprint_version":1', '"fingerprint_version":2', 0),
-        f"b.jsonl:1: fingerprints of version '2', this version reads 1: {ANEW}",
+        f"b.jsonl:1: fingerprints of version 2, this version reads 1: {ANEW}",
     ),
     "a root that is none": (
         replaced('"root":"."', '"root":3', 0),
@@ -436,7 +436,7 @@ def test_a_report_without_arguments_covers_nobody_knows_what(tmp_path: Path) -> 
         ),
         (
             {"fingerprint_version": 7},
-            f"r.json: fingerprints of version '7', this version reads 1: {ANEW}",
+            f"r.json: fingerprints of version 7, this version reads 1: {ANEW}",
         ),
         ({"causes": {}}, "r.json: 'causes' must be a list, not {}"),
         ({"causes": [3]}, "r.json: causes[0] must be an object"),

@@ -98,6 +98,11 @@ def test_a_report_is_a_baseline(library: Path) -> None:
             "fog.usda:1: no JSON, as a baseline is: Expecting value (column 1)",
         ),
         (["--write-baseline", "."], "--write-baseline .: this is no file, name one"),
+        (["--baseline", "."], ".: no baseline: it is no file"),
+        (
+            ["--write-baseline", "fog.usda"],
+            "--write-baseline fog.usda: the file that is there is no baseline: name another",
+        ),
         (
             ["--baseline", "fog.usda", "--moved", "a"],
             "--moved a: write it as OLD=NEW, such as assets/smoke=lib/smoke",

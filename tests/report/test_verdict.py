@@ -210,11 +210,17 @@ def many(number: int, severity: Severity = Severity.ERROR) -> tuple[Finding, ...
         (many(21), ("usdvol-lint", "shots", "--jobs", "2"), "shots --jobs 2"),
         (many(21), ("usdvol-lint", "my shots"), f"{MARK}my shots{MARK}"),
         (many(21), ("usdvol-lint", "my \x07"), f"{MARK}my \\x07{MARK}"),
+        (
+            many(21),
+            ("usdvol-lint", "--output", "o.json", "--output-format=json", "--show", "info", "a"),
+            "a",
+        ),
+        (many(21), ("usdvol-lint", *map(str, range(200))), "and the same arguments"),
         (many(20), ("usdvol-lint", "shots"), None),
         (many(21, Severity.INFO), ("usdvol-lint", "shots"), None),
         (many(21), ("usdvol-lint", "--no-baseline", "shots"), None),
     ],
-    ids=["many", "quoted", "printable", "few", "infos", "no-baseline"],
+    ids=["many", "quoted", "printable", "output", "long", "few", "infos", "no-baseline"],
 )
 def test_who_has_many_is_told_how_to_begin(
     findings: tuple[Finding, ...], command: tuple[str, ...], expected: str | None

@@ -360,3 +360,8 @@ def test_clips_that_contradict_are_to_blame_as_clips(find: Find, shots: Path) ->
     [cause] = find("shots/one.usda", rules=("ARR013",))
     assert cause.source == Source("shots/one.usda", "/a", "clips", ".positions")
     assert cause.first.message.endswith("(in the clip './clip.usda')")
+    later = refers("b", "./one.usda").replace(".usda@", ".usda@</a> (offset = 100)")
+    write(shots, later=STAGE + later)
+    [moved] = find("shots/later.usda", rules=("ARR013",))
+    assert (moved.fingerprint, moved.cover) == (cause.fingerprint, cause.cover)
+    assert [place.finding.site.times for place in moved.places] == [(101.0, 102.0)]

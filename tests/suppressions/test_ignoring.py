@@ -102,7 +102,7 @@ def test_reasons(catalog: Catalog) -> None:
         (
             "AST002",
             Sdf.AssetPath("x"),
-            "the reason why AST002 is ignored is of another type, not a text",
+            "the reason why AST002 is ignored is of type AssetPath, not a text",
             "write it as a string",
         ),
         (
@@ -121,6 +121,12 @@ def test_reasons(catalog: Catalog) -> None:
             "AST002",
             "until 1/2/2026: x",
             "AST002 is ignored until '1/2/2026', which is no date: it ignores nothing",
+            "write 'until YYYY-MM-DD: ' and the reason",
+        ),
+        (
+            "AST002",
+            "Until:",
+            "AST002 is ignored until no day",
             "write 'until YYYY-MM-DD: ' and the reason",
         ),
         (

@@ -24,6 +24,9 @@ from usdvol_lint.words import quoted
 
 FORMAT_KEY = "usdvol_lint_baseline"
 FORMAT = 1
+_HEAD = 4096
+_MERGED = (b"<<<<<<<", b'{"fingerprint"')
+"""What a baseline begins with that git could not merge, or whose first line is gone."""
 _CONFLICT = ("<<<<<<<", "|||||||", "=======", ">>>>>>>")
 
 
@@ -95,7 +98,9 @@ def check_version(where: str, table: Mapping[str, Any], key: str, ours: int, wha
     """Raises UsageError for a number that is not ours."""
     theirs = table.get(key)
     if type(theirs) is not int or theirs != ours:
-        shown = quoted(str(theirs)[:40])
+        shown = quoted(theirs[:40]) if isinstance(theirs, str) else str(theirs)[:40]
+        if theirs is None:
+            raise UsageError(f"{where}: {key!r} is missing, this version reads {ours}: {_ANEW}")
         raise UsageError(f"{where}: {what} {shown}, this version reads {ours}: {_ANEW}")
 
 
@@ -151,12 +156,27 @@ def write_baseline(baseline: Baseline) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def check_writable(option: str, file: Path) -> None:
-    """Raises UsageError, before any work, where a file can't be written."""
+def check_writable(option: str, file: Path, replaces: bool = True) -> None:
+    """Raises UsageError, before any work, where a file can't be written.
+
+    Where it `replaces` one that is not read, this has to be a baseline.
+    """
     target = Path(os.path.realpath(file))
     if target.exists() and not target.is_file():
         raise UsageError(f"{option}: this is no file, name one")
+    if replaces and target.exists() and not _may_be_replaced(target):
+        raise UsageError(f"{option}: the file that is there is no baseline: name another")
     if not target.parent.is_dir():
         raise UsageError(f"{option}: there is no folder {file.parent}")
     if not os.access(target.parent, os.W_OK):
         raise UsageError(f"{option}: no permission to write there")
+
+
+def _may_be_replaced(file: Path) -> bool:
+    """Whether a file is a baseline, or nothing yet: a slip must not cost a stage."""
+    try:
+        with file.open("rb") as stream:
+            head = stream.read(_HEAD)
+    except OSError:
+        return True  # which is said where it is read, or written
+    return not head.strip() or FORMAT_KEY.encode() in head or head.lstrip().startswith(_MERGED)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,8 @@ def read_baseline(file: str) -> Baseline:
 
 def _text(file: str) -> str:
     try:
+        if os.path.exists(file) and not os.path.isfile(file):  # a pipe may never end
+            raise UsageError(f"{file}: no baseline: it is no file")
         data = Path(file).read_bytes()
     except FileNotFoundError:
         hint = f"--write-baseline {file} writes one"

@@ -94,7 +94,7 @@ class Prepared(NamedTuple):
 def prepare(use: Use) -> Prepared:
     """Reads the baseline; raises UsageError for all that can be known to fail before the run."""
     if use.target:
-        check_writable(use.option, Path(use.target))
+        check_writable(use.option, Path(use.target), replaces=use.write is not None)
     if use.read is None or _is_first_write(use):
         return Prepared(use, None)
     baseline = read_baseline(use.read)

@@ -113,6 +113,8 @@ def _no_reason(code: str, value: Any, today: str | None) -> _Wrong | None:
     if not isinstance(value, str):
         found = _kind(value)
         return f"the reason why {code} is ignored is {found}, not a text", "write it as a string"
+    if value.strip().lower().rstrip(":") == "until":
+        return f"{code} is ignored until no day", "write 'until YYYY-MM-DD: ' and the reason"
     dated = _DATED.match(value.strip())
     if not dated:
         return None
@@ -132,4 +134,4 @@ def _no_reason(code: str, value: Any, today: str | None) -> _Wrong | None:
 
 def _kind(value: Any) -> str:
     names = (name for kind, name in _KINDS if isinstance(value, kind))
-    return next(names, "a list" if hasattr(value, "__len__") else "of another type")
+    return next(names, "a list" if hasattr(value, "__len__") else f"of type {type(value).__name__}")

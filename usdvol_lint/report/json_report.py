@@ -13,6 +13,7 @@ from pathlib import PurePath
 from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
+from usdvol_lint.paths import below
 from usdvol_lint.report import Options
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
 
@@ -39,6 +40,7 @@ class _Shared(NamedTuple):
 
     cover: Callable[[Cover], Mapping[str, object]]
     times: Callable[[tuple[float, ...], bool], Times]
+    root: str | None
 
 
 def render(report: Report, options: Options) -> str:
@@ -65,7 +67,7 @@ def _report(report: Report) -> dict[str, object]:
     from usdvol_lint.baseline.cover import cover_as_json
     from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 
-    shared = _Shared(cache(cover_as_json), cache(_times))
+    shared = _Shared(cache(cover_as_json), cache(_times), report.root)
     return {
         "schema_version": SCHEMA_VERSION,
         "fingerprint_version": FINGERPRINT_VERSION,
@@ -170,17 +172,20 @@ def _cause(cause: Cause, shared: _Shared) -> dict[str, object]:
         "help": first.help,
         "cover": shared.cover(cause.cover),
         "fold": first.fold,
-        "source": _source(cause.source, site),
+        "source": _source(cause.source, first, shared.root),
         "excerpt": _excerpt(site),
         "count": cause.count,
         "places": [_place(place, first, shared) for place in cause.places],
     }
 
 
-def _source(source: Source, site: Site) -> dict[str, object]:
+def _source(source: Source, first: Finding, root: str | None) -> dict[str, object]:
+    """What is to blame; `file` is the layer at the first place, where versions are folded."""
+    site, layer = first.site, first.source.layer
     is_of_a_layer = source.layer is not None
     return {
         "layer": source.layer,
+        "file": None if layer is None else below(layer, root),
         "path": source.path,
         "property": source.property,
         "subject": source.subject,

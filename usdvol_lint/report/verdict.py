@@ -14,6 +14,8 @@ from usdvol_lint.words import printable
 _MANY_CAUSES = 20
 _MANY_PAIRS = 5
 _BASELINE = "usdvol-lint-baseline.jsonl"
+_LONGEST_COMMAND = 300
+_OF_OUTPUT = frozenset({"--output", "--output-format", "--show", "--color", "--max-places"})
 
 
 def verdict(report: Report, options: Options) -> str:
@@ -106,8 +108,21 @@ def advice(report: Report, verbose: bool) -> Iterator[str]:
         if verbose:
             yield from _gone(report.baseline)
     elif _may_adopt(report):
-        arguments = ("usdvol-lint", "--write-baseline", _BASELINE, *report.run.command[1:])
-        yield f"adopt them with: {_typed(arguments)}"
+        said = _typed(("usdvol-lint", "--write-baseline", _BASELINE, *_kept(report.run.command)))
+        if len(said) > _LONGEST_COMMAND:
+            said = f"usdvol-lint --write-baseline {_BASELINE} and the same arguments"
+        yield f"adopt them with: {said}"
+
+
+def _kept(command: Sequence[str]) -> Iterator[str]:
+    """The arguments of a command without those that say how a report is written."""
+    arguments = iter(command[1:])
+    for each in arguments:
+        name, equals, _ = each.partition("=")
+        if name not in _OF_OUTPUT:
+            yield each
+        elif not equals:
+            next(arguments, None)
 
 
 def _moved(pairs: Sequence[tuple[str, str]], verbose: bool) -> Iterator[str]:
