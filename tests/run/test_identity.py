@@ -91,6 +91,16 @@ def test_a_circle_of_arcs_is_one_cause_whatever_leads_into_it(find: Find, tmp_pa
     ]
 
 
+def test_a_circle_in_a_sublayer_is_not_that_of_the_layer_above(find: Find, tmp_path: Path) -> None:
+    arcs = "".join(
+        f'def "{one}" (\n    references = </{other}>\n)\n{{\n}}\n' for one, other in ("ab", "ba")
+    )
+    top = '(\n    subLayers = [@./sub.usda@]\n)\ndef Xform "a"\n{\n}\ndef Xform "b"\n{\n}\n'
+    write(tmp_path, sub=HEAD + arcs, top=HEAD + top)
+    causes = find("sub.usda", "top.usda", rules=("STG002",))
+    assert {cause.source.layer for cause in causes} == {"sub.usda"}
+
+
 def test_it_is_the_same_from_every_folder_and_in_every_checkout(
     find: Find, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -134,8 +134,8 @@ SAMPLES = "asset filePath.timeSamples = {\n        1: @./a.vdb@,\n        3: @./
 @pytest.mark.parametrize(
     ("own", "shot", "expected"),
     [
-        ((1, 3), (1001, 1003), "shot /density"),
         ((1001, 1003), (1001, 1003), None),
+        ((1, 3), (1001, 1003), "shot /density"),
         ((501, 503), (1001, 1003), None),  # far from these too
         ((1, 9), (1001, 1003), "shot /density"),  # of these a part alone
         ((1, 9), (1, 20), None),
@@ -155,6 +155,12 @@ def test_samples_are_at_fault_where_no_range_suits_them(
     refers = 'def "density" (\n    references = @./asset.usda@</density>\n)\n{\n}\n'
     for name, spoken, text in (("asset", own, asset), ("shot", shot, refers)):
         Path(f"{name}.usda").write_text(f"#usda 1.0\n{said.format(*spoken)}{text}", "utf-8")
+    sub = said.format(*shot).replace(")", "    subLayers = [@./asset.usda@]\n)")
+    Path("sub.usda").write_text(f"#usda 1.0\n{sub}", "utf-8")
+    with_sublayer = Usd.Stage.Open("sub.usda")
+    at = with_sublayer.GetPrimAtPath("/density").GetAttribute("filePath")
+    brought = TimeRange(*map(float, shot)).meeting_samples(at, 1.0, 3.0)
+    assert (brought and str(brought.path)) == (expected and "/")
     stage = Usd.Stage.Open("shot.usda")
     at = stage.GetPrimAtPath("/density").GetAttribute("filePath")
     spec = TimeRange(*map(float, shot)).meeting_samples(at, 1.0, 3.0)

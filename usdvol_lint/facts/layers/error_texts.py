@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from pxr import Sdf
 
 from usdvol_lint.facts.layers.composition import ARCS
+from usdvol_lint.facts.usd.calls import ARCS as FIELDS
 from usdvol_lint.paths import display
 
 _QUOTED = re.compile(r"@(.+?)@(?:<([^>]*)>)?")
@@ -107,7 +108,7 @@ def blamed_spec(text: str) -> Any | None:
         return _spec(introduced[1], introduced[2])
     if _CANNOT in text:  # it ends with the arc that closes a circle, whatever leads into that
         sites = _QUOTED.findall(_ANONYMOUS.sub("", text.partition(_CANNOT)[0]))
-        return _spec(*sites[-1]) if sites else None
+        return _spec_with_arcs(Sdf.Layer.Find(sites[-1][0]), sites[-1][1]) if sites else None
     located = _IN_LAYER.search(text)
     return _spec(located["layer"], located["path"]) if located else None
 
@@ -120,6 +121,15 @@ def _one_line(text: str) -> str:
 def _spec(identifier: str, path: str) -> Any | None:
     layer = Sdf.Layer.Find(identifier)
     return layer.GetObjectAtPath(path or "/") if layer else None
+
+
+def _spec_with_arcs(layer: Any | None, path: str) -> Any | None:
+    """The strongest spec with arcs at a path of a layer and its sublayers."""
+    spec = layer and layer.GetPrimAtPath(path)
+    if layer is None or (spec and any(map(spec.HasInfo, FIELDS))):
+        return spec
+    below = (Sdf.Layer.FindRelativeToLayer(layer, each) for each in layer.subLayerPaths)
+    return next(filter(None, (_spec_with_arcs(each, path) for each in below)), None)
 
 
 def _authored(spec: Any, resolved: str) -> str:
