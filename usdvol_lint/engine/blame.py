@@ -92,9 +92,7 @@ class Blaming:
         if node_of(prim, spec) is None and (clips := self._clips_with(prim, spec.layer)):
             path = attribute.GetPath().MakeRelativePath(clips.prim.GetPath())
             clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
-            bearer, offset = clips.spec_with(clips.key), None
-            for each, to_stage in clips.prim.GetPrimStackWithLayerOffsets():
-                offset = to_stage if each == bearer else offset
+            bearer, offset = clips.opinion_with(clips.key)
             return Blame(bearer, "clips", subject or str(path), None, offset, clips.named(clip))
         return Blame(spec, attribute.GetName(), subject, offset.GetInverse() * time, offset)
 

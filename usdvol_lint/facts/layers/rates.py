@@ -111,10 +111,8 @@ def _source(attribute: Any, time: float, clips: Clips) -> tuple[Any | None, Any]
         opinion = strongest_opinion(attribute, time)
         return (opinion.spec.layer, opinion.offset) if opinion else (None, None)
     for clip_set in clips.reaching(attribute.GetPrim()):
-        named = clip_set.spec_with("templateAssetPath" if clip_set.template else "times")
-        for spec, offset in clip_set.prim.GetPrimStackWithLayerOffsets():
-            if spec == named:
-                return spec.layer, offset
+        spec, offset = clip_set.opinion_with(clip_set.key if clip_set.template else "times")
+        return spec.layer, offset
     return None, None
 
 

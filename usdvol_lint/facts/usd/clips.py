@@ -93,10 +93,14 @@ class ClipSet(NamedTuple):
 
     def spec_with(self, key: str) -> Any:
         """The strongest spec of the prim that authors a key of the clip set, or the strongest."""
-        stack = self.prim.GetPrimStack()
+        return self.opinion_with(key)[0]
+
+    def opinion_with(self, key: str) -> tuple[Any, Any]:
+        """The same spec, and the offset from its times to those of the stage."""
+        stack = self.prim.GetPrimStackWithLayerOffsets()
         authors = (
-            spec
-            for spec in stack
+            (spec, offset)
+            for spec, offset in stack
             if spec.HasInfo("clips") and key in spec.GetInfo("clips").get(self.name, {})
         )
         return next(authors, stack[0])
