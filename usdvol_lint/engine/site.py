@@ -36,33 +36,27 @@ class Sites:
         """The site of a problem, what is to blame for it, and how many instances show it."""
         prim = problem.at.GetPrim()
         on_stage = shown(prim)
-        site = Site(
-            layer="",
-            prim=None if prim.IsPseudoRoot() else on_stage.path,
-            property=problem.at.GetName() if isinstance(problem.at, Usd.Property) else None,
-            times=problem.times,
-            at_default=problem.at_default,
-        )
         blame = self._blaming.blame(problem)
         spec = blame.spec
         layer = spec.layer if spec else prim.GetStage().GetRootLayer()
         path = str(spec.path) if spec else "/"
         position = self._find(layer, path, blame, problem.asset)
-        source = Source(
-            self._names.real(layer),
-            str(path_of_prim(spec)) if spec else None,
-            blame.property,
-            blame.subject,
-        )
-        if problem.machine is not None:
-            source = Source(None, subject=problem.machine)
-        site = site._replace(
+        site = Site(
             layer=self._names.shown(layer),
             variant=_variants(spec.path) if spec and "{" in path else None,
+            prim=None if prim.IsPseudoRoot() else on_stage.path,
+            property=problem.at.GetName() if isinstance(problem.at, Usd.Property) else None,
+            times=problem.times,
+            at_default=problem.at_default,
             line=position.line if position else None,
             column=position.column if position else None,
             excerpt=position.excerpt if position else None,
         )
+        if problem.machine is not None:
+            source = Source(None, subject=problem.machine)
+        else:
+            prim_path = str(path_of_prim(spec)) if spec else None
+            source = Source(self._names.real(layer), prim_path, blame.property, blame.subject)
         return Located(site, source, blame, on_stage.instances)
 
     def _find(self, layer: Any, path: str, blame: Blame, asset: str | None) -> Any | None:
