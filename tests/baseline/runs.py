@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from usdvol_lint.baseline.fingerprint import fingerprint
 from usdvol_lint.baseline.use import Prepared, Use, prepare
-from usdvol_lint.model import Cover, Finding, Severity, Site, Source, Status
+from usdvol_lint.model import Cover, Finding, Severity, Site, Source, Status, UsageError
 from usdvol_lint.results import Cause, Place, Report, RunInfo, StageResult, State
 
+ANEW = "write the baseline anew"
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 SETTINGS = {
     "rules": {"AST001": "error", "AST002": "error", "LNT001": "error", "LNT002": "error"},
@@ -94,3 +98,14 @@ def states(made: Report) -> list[str]:
 def held(file: Path) -> list[str]:
     """The entries of a baseline, in words."""
     return sorted(str(entry) for entry in using(file).baseline.entries.values())  # type: ignore[union-attr]
+
+
+def said(file: Path, call: Callable[[Path], object] = using) -> str:
+    """What is said of a file that can't be used, without the folder that it is in."""
+    with pytest.raises(UsageError) as caught:
+        call(file)
+    words = str(caught.value)
+    for folder in (str(file.parent), file.parent.resolve().as_posix()):
+        words = words.replace(f"{folder}{os.sep}", "").replace(f"{folder}/", "")
+    assert "\n" not in words
+    return words

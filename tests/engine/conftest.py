@@ -1,10 +1,12 @@
-"""What tests of variant selections share: a lint that composes them."""
+"""What tests of the engine share: a lint that composes variants, and stages of layers as text."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
+from blamings import Open
+from pxr import Usd
 from varianttexts import LIMIT, RULES, Lint, write
 
 from usdvol_lint.config import Config, Depth
@@ -26,5 +28,17 @@ def lint(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> L
         report = engine.lint(f"{next(iter(layers))}.usda")
         assert report.status == "checked"
         return report
+
+    return call
+
+
+@pytest.fixture
+def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Open:
+    monkeypatch.chdir(tmp_path)
+
+    def call(**layers: str) -> Usd.Stage:
+        for name, text in layers.items():
+            Path(f"{name}.usda").write_text(f"#usda 1.0\n{text}", encoding="utf-8")
+        return Usd.Stage.Open(f"{next(iter(layers))}.usda")
 
     return call

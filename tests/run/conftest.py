@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+import vdbwriter
 from identities import Find, finder
 from partlayers import Files, Judge, told, write
+from process import ASSETS
 
 from usdvol_lint.config import Config
 from usdvol_lint.engine.engine import Engine
@@ -35,3 +38,17 @@ def find(catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> F
     """The causes of a run over stages below a temporary folder, which is the root too."""
     monkeypatch.chdir(tmp_path)
     return finder(catalog, tmp_path)
+
+
+@pytest.fixture
+def shots(tmp_path: Path) -> Path:
+    """A folder for shots beside one with the files of assets."""
+    assets = Path(shutil.copytree(ASSETS, tmp_path / "assets"))
+    said = {"class": vdbwriter.string("fog volume"), **vdbwriter.bounds((0, 0, 0), (1, 1, 1))}
+    kinds = {"density": "Tree_float_5_4_3", "velocity": "Tree_vec3s_5_4_3"}
+    grids = [
+        vdbwriter.Grid(name, kind, metadata={**said, "name": vdbwriter.string(name)})
+        for name, kind in kinds.items()
+    ]
+    (assets / "two_grids.vdb").write_bytes(vdbwriter.vdb(*grids))
+    return tmp_path / "shots"

@@ -17,6 +17,35 @@ Find = Callable[..., list[Cause]]
 
 FILE = ("AST002",)
 HEAD = "#usda 1.0\n"
+META = 'upAxis = "Y"\nmetersPerUnit = 1\ntimeCodesPerSecond = 24\n'
+LAYER = f'#usda 1.0\n(\ndefaultPrim = "tank"\n{META})\n'
+STAGE = f"#usda 1.0\n(\n{META})\n"
+CLEAN = """
+def Volume "tank"
+{
+    float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]
+    rel field:density = </tank/density>
+    def OpenVDBAsset "density"
+    {
+        asset filePath = @./cloud.vdb@
+        token fieldName = "density"
+        token fieldDataType = "float"
+        token fieldClass = "fogVolume"
+    }
+}
+"""
+SPLATS = """
+def ParticleField3DGaussianSplat "tank"
+{
+    float3[] extent = [(0, 0, 0), (1, 1, 1)]
+    point3f[] positions = [(0.2, 0.2, 0.2), (0.8, 0.8, 0.8)]
+    quatf[] orientations = [(1, 0, 0, 0), (1, 0, 0, 0)]
+    float3[] scales = [(0.01, 0.01, 0.01), (0.01, 0.01, 0.01)]
+    float[] opacities = [1, 1]
+    uniform int radiance:sphericalHarmonicsDegree = 0
+    float3[] radiance:sphericalHarmonicsCoefficients = [(1, 1, 1), (0.5, 0.5, 0.5)]
+}
+"""
 
 
 def refers(name: str, path: str = "../assets/tank.usda", meta: str = "", inside: str = "") -> str:

@@ -2,34 +2,15 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import pytest
-import vdbwriter
-from identities import FILE, HEAD, Find, refers
-from process import ASSETS, write
+from identities import CLEAN, LAYER, SPLATS, STAGE, Find, refers
+from process import write
 
-from usdvol_lint.model import Severity, Source
+from usdvol_lint.model import Severity
 
 ALL = ("ALL",)
-META = 'upAxis = "Y"\nmetersPerUnit = 1\ntimeCodesPerSecond = 24\n'
-LAYER = f'#usda 1.0\n(\ndefaultPrim = "tank"\n{META})\n'
-STAGE = f"#usda 1.0\n(\n{META})\n"
-CLEAN = """
-def Volume "tank"
-{
-    float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]
-    rel field:density = </tank/density>
-    def OpenVDBAsset "density"
-    {
-        asset filePath = @./cloud.vdb@
-        token fieldName = "density"
-        token fieldDataType = "float"
-        token fieldClass = "fogVolume"
-    }
-}
-"""
 TWO_GRIDS = CLEAN.replace("cloud.vdb", "two_grids.vdb").replace("0.15", "-9").replace("0.65", "9")
 TWO = """
 def Xform "tank"
@@ -60,32 +41,6 @@ def Xform "tank"
     }
 }
 """
-SPLATS = """
-def ParticleField3DGaussianSplat "tank"
-{
-    float3[] extent = [(0, 0, 0), (1, 1, 1)]
-    point3f[] positions = [(0.2, 0.2, 0.2), (0.8, 0.8, 0.8)]
-    quatf[] orientations = [(1, 0, 0, 0), (1, 0, 0, 0)]
-    float3[] scales = [(0.01, 0.01, 0.01), (0.01, 0.01, 0.01)]
-    float[] opacities = [1, 1]
-    uniform int radiance:sphericalHarmonicsDegree = 0
-    float3[] radiance:sphericalHarmonicsCoefficients = [(1, 1, 1), (0.5, 0.5, 0.5)]
-}
-"""
-
-
-@pytest.fixture
-def shots(tmp_path: Path) -> Path:
-    """A folder for shots beside one with the files of assets."""
-    assets = Path(shutil.copytree(ASSETS, tmp_path / "assets"))
-    said = {"class": vdbwriter.string("fog volume"), **vdbwriter.bounds((0, 0, 0), (1, 1, 1))}
-    kinds = {"density": "Tree_float_5_4_3", "velocity": "Tree_vec3s_5_4_3"}
-    grids = [
-        vdbwriter.Grid(name, kind, metadata={**said, "name": vdbwriter.string(name)})
-        for name, kind in kinds.items()
-    ]
-    (assets / "two_grids.vdb").write_bytes(vdbwriter.vdb(*grids))
-    return tmp_path / "shots"
 
 
 @pytest.mark.parametrize(
@@ -240,128 +195,3 @@ def test_an_edit_that_mends_nothing_moves_no_blame(edit: str, find: Find, shots:
     assert {"AST002", "AST001", "VOL001", "SCH007", "FLD001", "FLD002"} <= set(alone.values())
     edited = find("shots/one.usda", rules=ALL)
     assert {cause.fingerprint: cause.code for cause in edited} == alone
-
-
-# --- value clips and values of several layers ---
-
-CLIPPED = """
-def OpenVDBAsset "tank" (
-    clips = {
-        dictionary default = {
-            asset[] assetPaths = [%s]
-            string primPath = "/tank"
-            double2[] active = [%s]
-            double2[] times = [(1, 1), (4, 4)]
-            asset manifestAssetPath = @./manifest.usda@
-        }
-    }
-)
-{
-}
-"""
-CLIP = 'over "tank"\n{\nasset filePath.timeSamples = {\n%s\n}\n}\n'
-BEARER = Source("assets/tank.usda", "/tank", "clips", ".filePath")
-
-
-def test_a_sequence_of_clips_of_which_half_is_mended_is_no_new_cause(
-    find: Find, shots: Path
-) -> None:
-    assets, frames = shots.parent / "assets", range(1, 5)
-    paths = ", ".join(f"@./clip.{frame}.usda@" for frame in frames)
-    active = ", ".join(f"({frame}, {frame - 1})" for frame in frames)
-    clips = {f"clip.{n}": HEAD + CLIP % f"{n}: @./smoke.{n}.vdb@" for n in frames}
-    manifest = HEAD + 'over "tank"\n{\nasset filePath\n}\n'
-    write(assets, tank=LAYER + CLIPPED % (paths, active), manifest=manifest, **clips)
-    write(shots, one=STAGE + refers("a"))
-    [whole] = find("assets/tank.usda")
-    assert (whole.source, whole.cover.frames) == (BEARER, None)
-    for frame in (1, 2):
-        shutil.copy(ASSETS / "cloud.vdb", assets / f"smoke.{frame}.vdb")
-    [half] = find("assets/tank.usda")
-    [shown] = find("shots/one.usda")
-    assert half.fingerprint == whole.fingerprint == shown.fingerprint
-    assert (half.cover.frames, half.first.site.layer) == ((3.0, 4.0), "assets/tank.usda")
-
-
-def test_the_default_of_one_layer_and_the_samples_of_another_are_two(
-    find: Find, shots: Path
-) -> None:
-    assets = shots.parent / "assets"
-    field = 'def OpenVDBAsset "tank"\n{\nasset filePath = @./gone.vdb@\n}\n'
-    write(assets, tank=LAYER + field)
-    samples = "asset filePath.timeSamples = {\n1: @./gone.1.vdb@,\n2: @./gone.2.vdb@\n}"
-    write(shots, one=STAGE + refers("a", inside=samples))
-    causes = find("shots/one.usda", "assets/tank.usda")
-    assert [
-        (cause.source, cause.count, cause.cover.frames, cause.cover.at_default) for cause in causes
-    ] == [
-        (Source("assets/tank.usda", "/tank", "filePath"), 2, None, True),
-        (Source("shots/one.usda", "/a", "filePath"), 1, None, False),
-    ]
-    one = STAGE + f'def OpenVDBAsset "a"\n{{\nasset filePath = @./x.vdb@\n{samples}\n}}\n'
-    write(shots, both=one)
-    [both] = find("shots/both.usda")
-    assert (both.source.path, both.cover.frames, both.cover.at_default) == ("/a", None, True)
-
-
-def test_frames_are_those_of_the_layer_to_blame(find: Find, shots: Path) -> None:
-    """Whatever offset and scale a shot has it under."""
-    frames = "".join(f"{frame}: @./smoke.{frame}.vdb@,\n" for frame in (1, 2, 3, 4))
-    field = f'def OpenVDBAsset "tank"\n{{\nasset filePath.timeSamples = {{\n{frames}}}\n}}\n'
-    write(shots.parent / "assets", tank=LAYER + field)
-    for frame in (1, 3):
-        shutil.copy(ASSETS / "cloud.vdb", shots.parent / "assets" / f"smoke.{frame}.vdb")
-    moved = refers("a").replace(".usda@", ".usda@ (offset = 1000; scale = 2)")
-    write(shots, one=STAGE + moved)
-    [cause] = find("shots/one.usda", "assets/tank.usda", rules=FILE)
-    assert (cause.count, cause.cover.frames) == (2, (2.0, 4.0))
-    assert [place.finding.site.times for place in cause.places] == [(1004.0, 1008.0), (2.0, 4.0)]
-    missing = field.replace("asset filePath.", "asset filePath = @./smoke.5.vdb@\n asset filePath.")
-    write(shots.parent / "assets", tank=LAYER + missing)
-    [cause] = find("shots/one.usda", "assets/tank.usda", rules=FILE)
-    assert (cause.count, cause.cover.frames, cause.cover.at_default) == (2, (2.0, 4.0), True)
-
-
-INSIDE, OUTSIDE = "[(0.2, 0.2, 0.2), (0.8, 0.8, 0.8)]", "[(0.2, 0.2, 0.2), (3, 3, 3)]"
-
-
-def test_frames_of_what_contradicts_are_those_of_the_layer_to_blame(
-    find: Find, shots: Path
-) -> None:
-    """Here positions of an animation, which reach out of the extent of an asset."""
-    write(shots.parent / "assets", tank=LAYER + SPLATS)
-    samples = f"point3f[] positions.timeSamples = {{\n1: {INSIDE},\n2: {OUTSIDE},\n}}\n"
-    write(shots, animation=STAGE + f'over "a"\n{{\n{samples}}}\n')
-    moved = f"{META}subLayers = [@./animation.usda@ (offset = 100)]\n"
-    write(shots, one=STAGE.replace(META, moved) + refers("a"))
-    [cause] = find("shots/one.usda", rules=("ARR013",))
-    assert cause.source == Source("shots/animation.usda", "/a", "positions")
-    [place] = cause.places
-    assert (cause.cover.frames, place.finding.site.times) == ((2.0,), (102.0,))
-    assert (place.finding.site.layer, place.finding.site.line) == ("shots/animation.usda", 11)
-
-
-def test_clips_that_contradict_are_to_blame_as_clips(find: Find, shots: Path) -> None:
-    clip = 'over "clip"\n{\npoint3f[] positions.timeSamples = {\n1: %s,\n2: %s,\n}\n}\n'
-    write(shots, clip=HEAD + clip % (OUTSIDE, OUTSIDE))
-    write(shots, manifest=HEAD + 'over "clip"\n{\npoint3f[] positions\n}\n')
-    keys = (
-        "asset[] assetPaths = [@./clip.usda@]",
-        "asset manifestAssetPath = @./manifest.usda@",
-        'string primPath = "/clip"',
-        "double2[] active = [(1, 0)]",
-        "double2[] times = [(1, 1), (2, 2)]",
-    )
-    meta = "clips = {{\ndictionary default = {{\n{}\n}}\n}}".format("\n".join(keys))
-    write(shots, one=STAGE + refers("a", meta=meta))
-    write(
-        shots.parent / "assets", tank=LAYER + SPLATS.replace(f"positions = {INSIDE}", "positions")
-    )
-    [cause] = find("shots/one.usda", rules=("ARR013",))
-    assert cause.source == Source("shots/one.usda", "/a", "clips", ".positions")
-    assert cause.first.message.endswith("(in the clip './clip.usda')")
-    later = refers("b", "./one.usda").replace(".usda@", ".usda@</a> (offset = 100)")
-    write(shots, later=STAGE + later)
-    [moved] = find("shots/later.usda", rules=("ARR013",))
-    assert (moved.fingerprint, moved.cover) == (cause.fingerprint, cause.cover)
-    assert [place.finding.site.times for place in moved.places] == [(101.0, 102.0)]

@@ -46,6 +46,14 @@ DEFAULT = 'defaultPrim = "Smoke"'
 ASSET = f"({DEFAULT})\n{smoke()}"
 REFERENCE = "references = @./asset.usda@"
 INSTANCE = f"{REFERENCE}\ninstanceable = true"
+GONE = "no file at './gone.vdb'"
+
+
+def inherited(inside: str) -> str:
+    """Two instances of a class in the stage itself."""
+    return prim("Rig", inside=inside, kind="class") + "".join(
+        prim(name, "inherits = </Rig>\ninstanceable = true", kind="def") for name in "AB"
+    )
 
 
 def found(findings: Iterable[Finding]) -> list[tuple[str, str | None, str | None]]:
@@ -56,3 +64,8 @@ def found(findings: Iterable[Finding]) -> list[tuple[str, str | None, str | None
 def told(findings: Iterable[Finding]) -> list[str]:
     """What is said of suppressions."""
     return [each.message for each in findings if each.code == "LNT003"]
+
+
+def messages(findings: Iterable[Finding]) -> list[tuple[str | None, str | None, str]]:
+    """Prim, the reason why it is ignored, and what is said."""
+    return [(each.site.prim, each.ignored, each.message) for each in findings]
