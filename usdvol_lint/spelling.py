@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 from usdvol_lint.nearest import CLOSE, closest_match, is_one_slip_from
 from usdvol_lint.schema import API_ATTRIBUTES, API_INCLUDES, CONCRETE_TYPES, POSITION_BASE
@@ -167,6 +168,7 @@ def misspelt_token(attribute: str, token: str, allowed: tuple[str, ...]) -> str 
     return guess if guess in allowed else closest_name(folded, frozenset(allowed), cutoff=0.8)
 
 
+@lru_cache(maxsize=1024)
 def closest_name(
     name: str, candidates: tuple[str, ...] | frozenset[str], cutoff: float = CLOSE
 ) -> str | None:

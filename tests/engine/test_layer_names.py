@@ -8,7 +8,7 @@ from zipfile import ZipFile
 import pytest
 from pxr import Sdf
 
-from usdvol_lint.engine.layer_names import LayerNames
+from usdvol_lint.engine.layer_names import real_name, shown_name
 from usdvol_lint.paths import canonical
 
 TEXT = '#usda 1.0\ndef "a"\n{\n}\n'
@@ -46,11 +46,9 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     ],
 )
 def test_names_of_layers(path: str, real: str, shown: str, here: str) -> None:
-    names = LayerNames()
     layer = Sdf.Layer.FindOrOpen(f"{here}/{path}")
     assert layer
-    for _ in range(2):
-        assert (names.real(layer), names.shown(layer)) == (f"{here}/{real}", shown)
+    assert (real_name(layer), shown_name(layer)) == (f"{here}/{real}", shown)
 
 
 def test_a_package_in_a_folder_with_brackets(here: str) -> None:
@@ -62,14 +60,12 @@ def test_a_package_in_a_folder_with_brackets(here: str) -> None:
         def __init__(self, path: str) -> None:
             self.identifier = self.realPath = path
 
-    names = LayerNames()
     for inner, real in (("first.usda", ""), ("deep/first.usda", "[deep/first.usda]")):
         layer = Layer(f"{here}/[1]/p.usdz[{inner}]")
-        assert names.real(layer) == f"{here}/[1]/p.usdz{real}"
+        assert real_name(layer) == f"{here}/[1]/p.usdz{real}"
 
 
 def test_layers_without_a_file() -> None:
-    names = LayerNames()
     layer = Sdf.Layer.CreateAnonymous("made.usda")
-    assert names.real(layer) == layer.identifier
-    assert names.shown(layer).startswith("anon:")
+    assert real_name(layer) == layer.identifier
+    assert shown_name(layer).startswith("anon:")

@@ -9,29 +9,13 @@ from usdvol_lint.paths import canonical, display, split_package
 ANONYMOUS = "anon:"
 
 
-class LayerNames:
-    """The names of layers, each found once."""
-
-    def __init__(self) -> None:
-        self._real: dict[Any, str] = {}
-        self._shown: dict[Any, str] = {}
-
-    def shown(self, layer: Any) -> str:
-        """The path relative to the working directory; the identifier of a layer without a file."""
-        key = layer.identifier
-        if key not in self._shown:
-            self._shown[key] = display(layer.realPath or key)
-        return self._shown[key]
-
-    def real(self, layer: Any) -> str:
-        """The file that a layer is; the first layer of a package is the package."""
-        key = layer.identifier
-        if key not in self._real:
-            self._real[key] = _real(layer)
-        return self._real[key]
+def shown_name(layer: Any) -> str:
+    """The path relative to the working directory; the identifier of a layer without a file."""
+    return display(layer.realPath or layer.identifier)
 
 
-def _real(layer: Any) -> str:
+def real_name(layer: Any) -> str:
+    """The file that a layer is; the first layer of a package is the package."""
     path = layer.realPath
     if not path or layer.anonymous:
         return str(layer.identifier)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Usd
 
 from usdvol_lint.engine.blame import Blame, Blaming
-from usdvol_lint.engine.layer_names import LayerNames
+from usdvol_lint.engine.layer_names import real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.layertext.source import LayerTexts
 from usdvol_lint.model import Cover, Severity, Site, Source
 from usdvol_lint.rule import NotChecked, Problem
+
+if TYPE_CHECKING:
+    from usdvol_lint.layertext.lines import TextLayer
 
 
 class Located(NamedTuple):
@@ -24,12 +27,20 @@ class Located(NamedTuple):
     instances: int
 
 
+class _Layer(NamedTuple):
+    """What is found once of a layer with a problem: its names, and its text if it has one."""
+
+    shown: str
+    real: str
+    text: TextLayer | None
+
+
 class Sites:
     """Finds the sites of problems; a text layer is read once, and only if a problem is in it."""
 
     def __init__(self) -> None:
         self._texts = LayerTexts()
-        self._names = LayerNames()
+        self._layers: dict[str, _Layer] = {}
         self._blaming = Blaming()
 
     def locate(self, problem: Problem | NotChecked) -> Located:
@@ -38,11 +49,12 @@ class Sites:
         on_stage = shown(prim)
         blame = self._blaming.blame(problem)
         spec = blame.spec
-        layer = spec.layer if spec else prim.GetStage().GetRootLayer()
+        layer = self._layer(spec.layer if spec else prim.GetStage().GetRootLayer())
         path = str(spec.path) if spec else "/"
-        position = self._find(layer, path, blame, problem.asset)
+        asset = blame.clip or blame.asset or problem.asset
+        position = layer.text.find(path, time=blame.time, asset=asset) if layer.text else None
         site = Site(
-            layer=self._names.shown(layer),
+            layer=layer.shown,
             variant=_variants(spec.path) if spec and "{" in path else None,
             prim=None if prim.IsPseudoRoot() else on_stage.path,
             property=problem.at.GetName() if isinstance(problem.at, Usd.Property) else None,
@@ -55,14 +67,21 @@ class Sites:
         if problem.machine is not None:
             source = Source(None, subject=problem.machine)
         else:
-            prim_path = str(path_of_prim(spec)) if spec else None
-            source = Source(self._names.real(layer), prim_path, blame.property, blame.subject)
+            prim_path = _path_of_prim(spec, path) if spec else None
+            source = Source(layer.real, prim_path, blame.property, blame.subject)
         return Located(site, source, blame, on_stage.instances)
 
-    def _find(self, layer: Any, path: str, blame: Blame, asset: str | None) -> Any | None:
-        text = self._texts.of(layer)
-        named = blame.clip or blame.asset or asset
-        return text.find(path, time=blame.time, asset=named) if text else None
+    def _layer(self, layer: Any) -> _Layer:
+        key = layer.identifier
+        if key not in self._layers:
+            text = self._texts.of(layer)
+            self._layers[key] = _Layer(shown_name(layer), real_name(layer), text)
+        return self._layers[key]
+
+
+def _path_of_prim(spec: Any, path: str) -> str:
+    """The path of a spec's prim; USD need not be asked for it where there is no variant."""
+    return str(path_of_prim(spec)) if "{" in path else path.partition(".")[0]
 
 
 def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Cover:

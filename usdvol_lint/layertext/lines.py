@@ -92,7 +92,7 @@ _SAMPLE = re.compile(
     + b"*+,?+"
     + _PADDING
 )
-_ELEMENT = re.compile(r"\{[^{}]*\}|\..*|[^/{}.]+")
+_ELEMENT = re.compile(r"\{[^{}]*\}|[^/{}]+")
 _BLOCK_SIZE = 1 << 12
 
 
@@ -125,6 +125,7 @@ class TextLayer:
     def __init__(self, data: bytes) -> None:
         self._data = data
         self._scopes: dict[int, _Scope] = {}
+        self._enclosing: dict[str, _Scope | None] = {}
         self._lines_before_block = [0]
 
     def find(
@@ -157,12 +158,21 @@ class TextLayer:
         return self._data[spec.start : spec.body - 1] if isinstance(spec, _Scope) else b""
 
     def _spec(self, path: str) -> _Scope | _Property | None:
+        path = path.partition("[")[0]
+        enclosing, _, name = path.rpartition(".")
+        if not enclosing or "}" in name:  # the point is one in the name of a variant
+            enclosing, name = path, ""
+        if enclosing not in self._enclosing:
+            self._enclosing[enclosing] = self._scope_at(enclosing)
+        scope = self._enclosing[enclosing]
+        return scope.properties.get(name) if scope and name else scope
+
+    def _scope_at(self, path: str) -> _Scope | None:
+        """The scope at the path of a prim or variant, or of the layer."""
         if not path.startswith("/"):
             return None
         scope = self._scope(0)
-        for element in _ELEMENT.findall(path.partition("[")[0]):
-            if element.startswith("."):
-                return scope.properties.get(element[1:])
+        for element in _ELEMENT.findall(path):
             child = scope.children.get(element)
             if child is None:
                 return None

@@ -28,7 +28,7 @@ def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
     code = Usd.TimeCode.Default() if time is None else time
     keys = ("default",) if time is None else ("timeSamples", "default", "spline")
     for spec, offset in _stack(attribute, code):
-        if any(spec.HasInfo(key) for key in keys):
+        if any(map(spec.HasInfo, keys)):
             return Opinion(spec, offset)
     return None
 
