@@ -10,7 +10,8 @@ import pytest
 from process import ROUGH, STUDIO, Ran, run, settings, volume, write
 
 from usdvol_lint import __version__
-from usdvol_lint.config import CHECKS, Config
+from usdvol_lint.config import Config
+from usdvol_lint.config.values import CHECKS
 
 
 def test_every_setting_has_a_check() -> None:

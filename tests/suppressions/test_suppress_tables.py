@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from usdvol_lint.config import Config, read_config
+from usdvol_lint.config import Config
+from usdvol_lint.config.files import read_config
 from usdvol_lint.model import Cover, Finding, Severity, Site, Source, UsageError
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.run.suppressing import expired, in_stages, reasons

@@ -7,7 +7,9 @@ from typing import Any
 
 import click
 
-from usdvol_lint.config import CHECKS, Config, find_config_file, level, read_config, shown
+from usdvol_lint.config import Config
+from usdvol_lint.config.files import find_config_file, read_config
+from usdvol_lint.config.values import CHECKS, level, shown
 from usdvol_lint.model import UsageError
 
 _REPLACING = (

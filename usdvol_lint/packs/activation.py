@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from usdvol_lint.config import Config, strings
+from usdvol_lint.config import Config
+from usdvol_lint.config.values import strings
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.packs.catalog import NOT_IGNORABLE, Catalog, length

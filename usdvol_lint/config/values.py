@@ -1,0 +1,166 @@
+"""What each key of the configuration may be: every value is checked where it is given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from usdvol_lint.config import (
+    CONTENTS,
+    FAIL_ON,
+    LEVELS,
+    LOADS,
+    OUTPUT_FORMATS,
+    SHOWABLE,
+    SUPPRESSIONS,
+    TIMES,
+    VARIANTS,
+)
+from usdvol_lint.model import UsageError
+from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.releases import release, required_version
+
+if TYPE_CHECKING:
+    from usdvol_lint.suppressions import Suppression
+
+LONGEST_TIMEOUT = 1_000_000
+
+
+def strings(where: str, value: Any) -> list[str]:
+    """The value, if it is a list of strings."""
+    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
+        raise UsageError(f"{where} must be a list of strings, not {value!r}")
+    return value
+
+
+def one_of(where: str, value: Any, allowed: tuple[str, ...]) -> str:
+    """The value, if it is one of those allowed."""
+    if value in allowed:
+        return str(value)
+    hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
+    raise UsageError(f"{where} must be one of {', '.join(allowed)}, not {value!r}{hint}")
+
+
+def level(where: str, value: Any) -> str:
+    """The value, if it is the name of a severity."""
+    return one_of(where, value, LEVELS)
+
+
+def _strings(where: str, value: Any) -> tuple[str, ...]:
+    return tuple(strings(where, value))
+
+
+def shown(where: str, value: Any) -> tuple[str, ...]:
+    """The value, if it is a list of what reports for people can show."""
+    return tuple(one_of(where, word, SHOWABLE) for word in strings(where, value))
+
+
+def table(where: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise UsageError(f"{where} must be a table, not {value!r}")
+    return value
+
+
+def _levels(where: str, value: Any) -> dict[str, str]:
+    return {code: level(f"{where}.{code}", name) for code, name in table(where, value).items()}
+
+
+def _tables(where: str, value: Any) -> dict[str, dict[str, Any]]:
+    return {
+        rule: table(f"{where}.{rule}", options) for rule, options in table(where, value).items()
+    }
+
+
+def _boolean(where: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise UsageError(f"{where} must be true or false, not {value!r}")
+    return value
+
+
+def _text(where: str, value: Any) -> str:
+    if not isinstance(value, str) or not value:
+        raise UsageError(f"{where} must be a text, not {value!r}")
+    return value
+
+
+def _pattern(where: str, value: Any) -> str:
+    """The value, if it is a regular expression."""
+    import re  # few configurations have one
+
+    try:
+        re.compile(_text(where, value))
+    except re.error as error:
+        raise UsageError(f"{where}: {value!r} is no regular expression: {error}") from error
+    return str(value)
+
+
+def _suppress(where: str, value: Any) -> tuple[Suppression, ...]:
+    from usdvol_lint.suppressions import read_tables  # few configurations have one
+
+    return read_tables(where, value)
+
+
+def _day(where: str, value: Any) -> str:
+    from usdvol_lint.suppressions import date_of
+
+    return date_of(where, value)
+
+
+def _whole_number(where: str, value: Any, least: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise UsageError(f"{where} must be a whole number from {least}, not {value!r}")
+    return value
+
+
+def _timeout(where: str, value: Any) -> float:
+    """The value, if it is a time limit, in seconds, that a timer takes."""
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not is_number or not 0 < value <= LONGEST_TIMEOUT:
+        wanted = f"a number of seconds above 0, at most {LONGEST_TIMEOUT:,}"
+        raise UsageError(f"{where} must be {wanted}, not {value!r}")
+    return float(value)
+
+
+def _times(where: str, value: Any) -> str | int:
+    """The value, if it says which time samples of particles are read."""
+    if isinstance(value, str) and value.isascii() and value.isdigit():
+        value = int(value)
+    is_number = isinstance(value, int) and not isinstance(value, bool) and value > 0
+    if value not in TIMES and not is_number:
+        wanted = f"{', '.join(TIMES)} or a whole number from 1"
+        raise UsageError(f"{where} must be {wanted}, not {value!r}")
+    return value  # type: ignore[no-any-return]
+
+
+CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
+    "select": _strings,
+    "ignore": _strings,
+    "severity": _levels,
+    "options": _tables,
+    "packs": _strings,
+    "fail-on": partial(one_of, allowed=FAIL_ON),
+    "output-format": partial(one_of, allowed=OUTPUT_FORMATS),
+    "show": shown,
+    "jobs": partial(_whole_number, least=0),
+    "timeout": _timeout,
+    "load": partial(one_of, allowed=LOADS),
+    "content": partial(one_of, allowed=CONTENTS),
+    "variants": partial(one_of, allowed=VARIANTS),
+    "variant-limit": partial(_whole_number, least=1),
+    "times": _times,
+    "statistics": _boolean,
+    "max-places": partial(_whole_number, least=1),
+    "root": _text,
+    "version-pattern": _pattern,
+    "baseline": _text,
+    "required-version": required_version,
+    "rules-as-of": release,
+    "suppressions": partial(one_of, allowed=SUPPRESSIONS),
+    "suppress": _suppress,
+    "today": _day,
+}
+"""For each key of the configuration a function that returns the value for the `Config`.
+
+It is called with where the value was given, which begins its UsageError, and the value.
+"""
