@@ -54,6 +54,8 @@ class Site(NamedTuple):
     under another selection than the authored one, that selection: `/model{look=thin}`.
     `line` and `column` count from 1 and are None in binary layers.
     `times` are time codes of the stage, ascending; `at_default` adds USD's default time.
+    `entry` are line and column in the stage's own file through which a layer comes in that a code
+    host does not have, where that was asked for.
     """
 
     layer: str
@@ -65,6 +67,7 @@ class Site(NamedTuple):
     times: tuple[float, ...] = ()
     at_default: bool = False
     excerpt: Excerpt | None = None
+    entry: tuple[int, int] | None = None
 
     @builtins.property
     def frames(self) -> str | None:

@@ -158,6 +158,8 @@ class Report(NamedTuple):
 
     `root` is the folder that layers go by in fingerprints; None where they go by absolute path.
     `arguments` are the files and folders that the run was asked to check, named as layers are.
+    `failure` says why the run could not do its job, where that is no finding: then a report has
+    what was found until then, most often nothing.
     """
 
     version: str
@@ -169,6 +171,7 @@ class Report(NamedTuple):
     run: RunInfo
     baseline: BaselineUse | None = None
     arguments: tuple[str, ...] = ()
+    failure: str = ""
 
     def with_causes(self, causes: Sequence[Cause]) -> Report:
         """The same with other states of its causes, whose number and order stay."""

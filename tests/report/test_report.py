@@ -97,7 +97,7 @@ def test_json_has_a_line_for_each_stage_and_each_cause() -> None:
     lines = render(BY_CAUSE, "json", Options()).splitlines()
     items = [json.loads(line.rstrip(",")) for line in lines if line.startswith("    {")]
     written = json.loads("\n".join(lines))
-    assert items == written["stages"] + written["causes"]
+    assert items == written["causes"] + written["stages"]
     assert len(lines) - len(items) == 2 + 2 + len(written)
 
 

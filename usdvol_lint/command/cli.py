@@ -51,9 +51,12 @@ def _complete_from(constant: str) -> Any:
               help="Exit with 1 from this level on: error (default), warning, info, never.")
 @click.option("--output-format", multiple=True, metavar="FORMAT",
               shell_complete=_complete_from("OUTPUT_FORMATS"),
-              help="full (default), concise or json; may be repeated, each with its --output.")
+              help="full (default), concise, json, jsonl, sarif, github, gitlab, junit, markdown; "
+                   "may be repeated, each with its --output.")
 @click.option("--output", multiple=True, type=click.Path(), metavar="FILE",
               help="Write the report to a file instead of standard output.")
+@click.option("--category", metavar="NAME",
+              help="What tells this upload of a SARIF report from others of the same commit.")
 @click.option("--show", multiple=True, metavar="WHAT",
               shell_complete=_complete_from("SHOWABLE"),
               help="Show more: info, known, suppressed, unused (suppressions); may be repeated.")
@@ -173,7 +176,7 @@ def _explain(given: dict[str, Any]) -> int:
 
     options = output.options_of(given)
     page = about.explain(_catalog(given), given["explain"])
-    output.print_text(about.render_page(page, options.color, options.width))
+    output.print_text([about.render_page(page, options.color, options.width)])
     return CLEAN
 
 
@@ -182,9 +185,9 @@ def _list_rules(given: dict[str, Any]) -> int:
 
     catalog = _catalog(given)
     if "json" in given["output_format"]:
-        output.print_text(about.list_rules_as_json(catalog))
+        output.print_text([about.list_rules_as_json(catalog)])
     else:
-        output.print_text(about.list_rules(catalog, output.options_of(given).color))
+        output.print_text([about.list_rules(catalog, output.options_of(given).color)])
     return CLEAN
 
 
@@ -193,7 +196,7 @@ def _test(given: dict[str, Any]) -> int:
     from usdvol_lint.run import testing
 
     failures, verdict = testing.check_pack(given["test"], given["pack"])
-    output.print_text("".join(f"{line}\n" for line in (*failures, verdict)))
+    output.print_text(f"{line}\n" for line in (*failures, verdict))
     return FINDINGS if failures else CLEAN
 
 
@@ -209,7 +212,7 @@ def _show_settings(given: dict[str, Any]) -> int:
     catalog = load(config.packs)
     settings = settings_of(config, activate(config, catalog))
     reasons(config, catalog, root=None)  # which says where a table names no rule
-    output.print_text(about.show_settings(settings, str(file) if file else None))
+    output.print_text([about.show_settings(settings, str(file) if file else None)])
     return CLEAN
 
 

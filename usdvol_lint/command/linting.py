@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from usdvol_lint import __version__
 from usdvol_lint.command import output
 from usdvol_lint.command.codes import CLEAN, exit_code
 from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.settings import read_settings
+from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
+from usdvol_lint.packs.catalog import load
+from usdvol_lint.report import FOR_HOSTS
+from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import versions_in
 from usdvol_lint.run.lint import Naming, lint
-from usdvol_lint.run.roots import root_of
+from usdvol_lint.run.roots import checkout_of, root_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,8 +28,7 @@ if TYPE_CHECKING:
 
     from usdvol_lint.baseline.use import Prepared
     from usdvol_lint.command.output import Destination
-    from usdvol_lint.config import Config
-    from usdvol_lint.results import Report, RunInfo
+    from usdvol_lint.report import Options
 
 
 def lint_stages(
@@ -33,37 +38,90 @@ def lint_stages(
 
     `given` are the options by their names in Python; `child` is the first worker process.
     """
-    settled: list[tuple[Config, Path | None, list[Destination], Prepared | None]] = []
-
-    def settle() -> Config:
-        config, file = read_settings(given)
-        destinations = output.pair(given["output_format"], given["output"], config.output_format)
-        output.check_writable(destinations)
-        settled.append((config, file, destinations, _prepared(given, config)))
-        return config
-
-    def naming(config: Config) -> Naming:
-        _, file, _, prepared = settled[0]
-        of_baseline = prepared.root if prepared else None
-        folder = str(file.parent) if file else None
-        root = root_of(paths, given["root"], of_baseline, config.root, folder)
-        if prepared:
-            prepared.check_root(root)
-        return Naming(root, versions_in(config.version_pattern))
-
-    with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
-        report = lint(paths, settle, progress, child, naming)
-    config, file, destinations, prepared = settled[0]
-    report = report._replace(run=_run_info(report, file))
-    report, failure = prepared.apply(report) if prepared else (report, "")
-    output.write(report, destinations, output.options_of(given, config))
-    if config.suppress and not given["quiet"]:
-        _tell_expired(config)
+    job = _Job(paths, given)
+    try:
+        with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
+            report = lint(paths, job.settle, progress, child, job.naming)
+    except Exception as error:
+        job.write_failure(error)
+        raise
+    report = report._replace(run=_run_info(report.run, job.file))
+    report, failure = job.prepared.apply(report) if job.prepared else (report, "")
+    output.write(report, job.destinations, job.options())
+    if job.config.suppress and not given["quiet"]:
+        _tell_expired(job.config)
     if failure:
         raise UsageError(failure)
     if given["write_baseline"] is not None:
         return CLEAN
-    return exit_code(report, config.fail_on, given["fail_on_unpruned"])
+    return exit_code(report, job.config.fail_on, given["fail_on_unpruned"])
+
+
+class _Job:
+    """What the options and the configuration ask for; it is settled while a worker imports USD."""
+
+    config = Config()
+    file: Path | None = None
+    destinations: Sequence[Destination] = ()
+    prepared: Prepared | None = None
+    repository: str | None = None
+
+    def __init__(self, paths: tuple[str, ...], given: dict[str, Any]) -> None:
+        self._paths = paths
+        self._given = given
+
+    def settle(self) -> Config:
+        given = self._given
+        self.config, self.file = read_settings(given)
+        destinations = output.pair(
+            given["output_format"], given["output"], self.config.output_format
+        )
+        output.check_writable(destinations)
+        self.destinations = destinations
+        if any(each.format in FOR_HOSTS for each in destinations):
+            self.repository = checkout_of(self._paths)
+        self.prepared = _prepared(given, self.config)
+        return self.config
+
+    def naming(self, config: Config) -> Naming:
+        of_baseline = self.prepared.root if self.prepared else None
+        folder = str(self.file.parent) if self.file else None
+        root = root_of(self._paths, self._given["root"], of_baseline, config.root, folder)
+        if self.prepared:
+            self.prepared.check_root(root)
+        return Naming(root, versions_in(config.version_pattern), self.repository)
+
+    def options(self) -> Options:
+        return output.options_of(self._given, self.config)._replace(
+            category=self._given["category"] or "",
+            repository=self.repository,
+            page_of=lambda code: load(self.config.packs).page(code),
+        )
+
+    def write_failure(self, error: Exception) -> None:
+        """Writes the reports for programs that were asked for: a missing one would seem clean."""
+        asked = self.destinations or output.named_by(self._given)
+        destinations = [each for each in asked if each.format in output.MACHINE_FORMATS]
+        if not destinations:
+            return
+        self.repository = self.repository or checkout_of(self._paths)
+        output.write(_failed(self._paths, error), destinations, self.options())
+
+
+def _failed(paths: tuple[str, ...], error: Exception) -> Report:
+    """The report on a run that could not begin."""
+    words = error.format_message() if isinstance(error, click.ClickException) else str(error)
+    return Report(
+        version=__version__,
+        usd_version=None,
+        settings={},
+        root=None,
+        stages=(),
+        causes=(),
+        run=_run_info(RunInfo(), None),
+        arguments=paths,
+        failure=" ".join(words.split()),
+    )
 
 
 def _prepared(given: dict[str, Any], config: Config) -> Prepared | None:
@@ -84,10 +142,10 @@ def _tell_expired(config: Config) -> None:
         click.echo(f"usdvol-lint: {line}", err=True)
 
 
-def _run_info(report: Report, file: Path | None) -> RunInfo:
+def _run_info(run: RunInfo, file: Path | None) -> RunInfo:
     from datetime import UTC, datetime
 
-    return report.run._replace(
+    return run._replace(
         date=datetime.now(UTC).isoformat(timespec="seconds"),
         command=("usdvol-lint", *sys.argv[1:]),
         config_file=str(file) if file else None,

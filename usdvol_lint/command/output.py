@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 from usdvol_lint.config import Config
-from usdvol_lint.model import UsageError
-from usdvol_lint.report import FORMATS, Options, render
+from usdvol_lint.model import Severity, UsageError
+from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
 
 MACHINE_FORMATS = frozenset(FORMATS) - {"full", "concise"}
@@ -49,6 +49,23 @@ def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Des
     return destinations
 
 
+def named_by(given: dict[str, Any]) -> list[Destination]:
+    """The reports that the command line asks for, if they can be written whatever else is wrong."""
+    try:
+        destinations = pair(given["output_format"], given["output"], "full")
+    except UsageError:
+        return []
+    return [each for each in destinations if each.format in FORMATS and _is_writable(each)]
+
+
+def _is_writable(destination: Destination) -> bool:
+    try:
+        check_writable([destination])
+    except UsageError:
+        return False
+    return True
+
+
 def _times(number: int) -> str:
     return {0: "never", 1: "once", 2: "twice"}.get(number, f"{number} times")
 
@@ -74,18 +91,16 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
     UsageError names these files.
     """
     failures = []
-    for destination in destinations:
-        if destination.file is None:
-            print_text(render(report, destination.format, options))
+    for format, file in destinations:
+        if file is None:
+            print_text(written(report, format, options))
             continue
-        text = render(
-            report, destination.format, options._replace(color=False, width=80, quiet=False)
-        )
+        plain = options._replace(color=False, width=80, quiet=False)
         try:
-            _replace(Path(destination.file), text)
+            _replace(Path(file), written(report, format, plain))
         except OSError as error:
-            failures.append(f"--output {destination.file}: {error.strerror}")
-            print_text(text)
+            failures.append(f"--output {file}: {error.strerror}")
+            print_text(written(report, format, plain))
     if failures:
         raise UsageError("; ".join(failures))
 
@@ -95,7 +110,8 @@ def options_of(given: dict[str, Any], config: Config | None = None) -> Options:
     options = options_for(given["color"], given["quiet"], given["verbose"])
     if config is None:
         return options
-    return options._replace(least=config.least_shown, show=frozenset(config.show))
+    fail_on = None if config.fail_on == "never" else Severity[config.fail_on.upper()]
+    return options._replace(least=config.least_shown, show=frozenset(config.show), fail_on=fail_on)
 
 
 def options_for(color: str, quiet: bool, verbose: bool) -> Options:
@@ -114,13 +130,13 @@ def _terminal_wants_color() -> bool:
     return sys.stdout is not None and sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
 
 
-def print_text(text: str) -> None:
+def print_text(parts: Iterable[str]) -> None:
     """Writes text as UTF-8 whatever the locale, which may lack characters of a stage's names."""
     if sys.stdout is None:
         raise UsageError("there is no standard output to print to")
     try:
         sys.stdout.flush()
-        sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
+        _write(sys.stdout.buffer, parts)
         sys.stdout.buffer.flush()
     except OSError as error:
         # What is left in the buffer must not fail again when Python exits.
@@ -130,18 +146,23 @@ def print_text(text: str) -> None:
             raise UsageError(f"can't write to standard output: {error.strerror}") from error
 
 
-def _replace(file: Path, text: str) -> None:
-    contents = text.encode("utf-8", "backslashreplace")
+def _replace(file: Path, parts: Iterable[str]) -> None:
     if _is_device(file):
-        file.write_bytes(contents)
+        with open(file, "wb") as device:
+            _write(device, parts)
         return
     target = Path(os.path.realpath(file))
     temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
-        temporary.write_bytes(contents)
+        with open(temporary, "wb") as beside:
+            _write(beside, parts)
         temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _write(file: BinaryIO, parts: Iterable[str]) -> None:
+    file.writelines(part.encode("utf-8", "backslashreplace") for part in parts)
 
 
 def _is_device(file: Path) -> bool:

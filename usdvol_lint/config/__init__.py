@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from usdvol_lint.suppressions import Suppression
 
 FAIL_ON = ("error", "warning", "info", "never")
-OUTPUT_FORMATS = ("full", "concise", "json")
+OUTPUT_FORMATS = (
+    *("full", "concise", "json", "jsonl"),
+    *("sarif", "github", "gitlab", "junit", "markdown"),
+)
 SHOWABLE = ("info", "known", "suppressed", "unused")
 SUPPRESSIONS = ("all", "configuration", "none")
 LOADS = ("all", "none")

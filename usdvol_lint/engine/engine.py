@@ -41,6 +41,7 @@ class Engine:
     `advance` is called with the number of samples of a long sequence that were read since the last
     call, `send` with new findings, so that they are not lost if the process dies.
     `is_alone` says that there is but one stage, which no other may complete.
+    `repository` is a folder whose host is to show findings: see `Sites`.
     USD's own warnings go to standard error, which in a worker process is a pipe to its parent.
     """
 
@@ -53,6 +54,7 @@ class Engine:
         send: Callable[[list[Finding]], None] = _ignore,
         is_alone: bool = False,
         suppressions: InStages | None = None,
+        repository: str | None = None,
     ) -> None:
         self._known = rules
         self._suppressions = suppressions or InStages()
@@ -62,6 +64,7 @@ class Engine:
         self._advance = advance
         self._send = send
         self._is_alone = is_alone
+        self._repository = repository
         self._volume_files = VolumeFiles()
         self._folders = Folders()
 
@@ -98,7 +101,12 @@ class Engine:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
         stamp = Stamp(
-            self._active, depth.selections > 0, self._known, self._suppressions, self._is_alone
+            self._active,
+            depth.selections > 0,
+            self._known,
+            self._suppressions,
+            self._is_alone,
+            self._repository,
         )
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()

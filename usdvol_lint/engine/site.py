@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from pxr import Usd
 
 from usdvol_lint.engine.blame import Blame, Blaming
+from usdvol_lint.engine.entries import Entries
 from usdvol_lint.engine.layer_names import real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.instances import shown
@@ -36,10 +37,14 @@ class _Layer(NamedTuple):
 
 
 class Sites:
-    """Finds the sites of problems; a text layer is read once, and only if a problem is in it."""
+    """Finds the sites of problems; a text layer is read once, and only if a problem is in it.
 
-    def __init__(self) -> None:
+    With a `repository`, sites in layers outside it say where the stage's own file brings these in.
+    """
+
+    def __init__(self, repository: str | None = None) -> None:
         self._texts = LayerTexts()
+        self._entries = Entries(repository, self._texts) if repository else None
         self._layers: dict[str, _Layer] = {}
         self._blaming = Blaming()
 
@@ -63,6 +68,7 @@ class Sites:
             line=position.line if position else None,
             column=position.column if position else None,
             excerpt=position.excerpt if position else None,
+            entry=self._entries.of(prim, spec, layer.real) if self._entries and spec else None,
         )
         if problem.machine is not None:
             source = Source(None, subject=problem.machine)

@@ -37,6 +37,7 @@ class Stamp:
     `several_selections` says whether findings need an identity, because more than one variant
     selection is checked; `is_alone` whether no other stage may complete this one.
     `rules` are all there are, by code, and `asked` how suppressions in the stage are taken.
+    `repository` is as for `Sites`.
     """
 
     def __init__(
@@ -46,8 +47,9 @@ class Stamp:
         rules: Mapping[str, Rule],
         asked: InStages,
         is_alone: bool = False,
+        repository: str | None = None,
     ) -> None:
-        self.sites = Sites()
+        self.sites = Sites(repository)
         self._active = active
         self._several_selections = several_selections
         self._rules = rules

@@ -70,7 +70,7 @@ def path_beside(prim: Any, spec: Any) -> str:
 
 
 def _standing(opinion: Opinion) -> _Standing | None:
-    node = _node(opinion)
+    node = node_with(opinion)
     if node is None:
         return None
     last = (_LOCAL, 0, 0, node.layerStack.layers.index(opinion.spec.layer))
@@ -97,7 +97,7 @@ def _keys(prim: Any, arcs: Sequence[Crossing]) -> Iterator[tuple[str, str]]:
         yield str(Sdf.Path(path).ReplacePrefix(own, shared)), target
 
 
-def _node(opinion: Opinion) -> Any | None:
+def node_with(opinion: Opinion) -> Any | None:
     """The node of the spec, or the one above it that it would be below if USD composed it."""
     prim, spec = opinion
     node = node_of(prim, spec)

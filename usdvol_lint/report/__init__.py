@@ -1,22 +1,36 @@
-"""The output formats: each is a module with `render(report, options)`, imported when used."""
+"""The output formats: each is a module with a `Writer`, imported when used."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from usdvol_lint.model import Severity
 
 if TYPE_CHECKING:
-    from usdvol_lint.results import Cause, Report
+    from usdvol_lint.packs.page import Page
+    from usdvol_lint.results import Cause, Place, Report
 
 FORMATS: Final[Mapping[str, str]] = {
-    "full": "usdvol_lint.report.text",
-    "concise": "usdvol_lint.report.concise",
-    "json": "usdvol_lint.report.json_report",
+    "full": "text.Full",
+    "concise": "concise.Concise",
+    "json": "json_report.Json",
+    "jsonl": "json_lines.JsonLines",
+    "sarif": "sarif.Sarif",
+    "github": "github.GitHub",
+    "gitlab": "gitlab.GitLab",
+    "junit": "junit.JUnit",
+    "markdown": "markdown.Markdown",
 }
-"""The module that writes each format, by the format's name."""
+"""By the name of each format the module of this package, and the `Writer` in it."""
+FOR_HOSTS: Final = frozenset({"sarif", "github", "gitlab"})
+"""Those that name files by the repository of a code host."""
+
+
+def no_page(code: str) -> Page | None:
+    """The page of a rule where nobody has any."""
+    return None
 
 
 class Options(NamedTuple):
@@ -25,6 +39,9 @@ class Options(NamedTuple):
     `width` is that of the terminal in cells: with `color`, the text report is wrapped to it.
     Reports for people have causes from the severity `least` on; `verbose` shows all of them.
     What is `known` or `suppressed` is there only where `show` names it, and then all of it.
+    From `fail_on` on a cause fails the run, from no level on where it is None.
+    Reports for code hosts name files in relation to `repository`, a canonical folder, and keep the
+    uploads of one run apart by `category`; `page_of` gives the page of a rule by its code.
     """
 
     color: bool = False
@@ -33,6 +50,10 @@ class Options(NamedTuple):
     verbose: bool = False
     least: Severity = Severity.WARNING
     show: frozenset[str] = frozenset()
+    fail_on: Severity | None = Severity.ERROR
+    repository: str | None = None
+    category: str = ""
+    page_of: Callable[[str], Page | None] = no_page
 
     @property
     def threshold(self) -> Severity:
@@ -45,8 +66,51 @@ class Options(NamedTuple):
             return cause.state in self.show
         return cause.severity >= self.threshold
 
+    def fails(self, cause: Cause) -> bool:
+        """Whether this cause fails the run."""
+        return self.fail_on is not None and cause.state.counts and cause.severity >= self.fail_on
+
+
+class Writer:
+    """Writes a report in one format: the text of each part follows that of the one before.
+
+    What a run came to is told in this order: `begin` once, `cause` for each cause with its first
+    place, `place` for each other place that it carries, `end` once.
+    A format that needs the whole report for its first line writes all of it at the end.
+    """
+
+    def __init__(self, options: Options) -> None:
+        self.options = options
+
+    def begin(self, report: Report) -> Iterable[str]:
+        """What stands before the first cause; the report has neither stages nor causes yet."""
+        return ()
+
+    def cause(self, number: int, cause: Cause) -> Iterable[str]:
+        """A cause, with its number in the run."""
+        return ()
+
+    def place(self, number: int, place: Place) -> Iterable[str]:
+        """Another place of the cause with that number."""
+        return ()
+
+    def end(self, report: Report) -> Iterable[str]:
+        """What stands after the last cause."""
+        return ()
+
+
+def written(report: Report, format: str, options: Options) -> Iterator[str]:
+    """The parts of a report in one of FORMATS: none, or with a newline at the end of the last."""
+    module, _, name = FORMATS[format].partition(".")
+    writer: Writer = getattr(import_module(f"{__name__}.{module}"), name)(options)
+    yield from writer.begin(report._replace(stages=(), causes=()))
+    for number, cause in enumerate(report.causes):
+        yield from writer.cause(number, cause)
+        for place in cause.places[1:]:
+            yield from writer.place(number, place)
+    yield from writer.end(report)
+
 
 def render(report: Report, format: str, options: Options) -> str:
-    """The report in one of FORMATS: empty, or with a newline at its end."""
-    text: str = import_module(FORMATS[format]).render(report, options)
-    return text
+    """The whole report in one of FORMATS."""
+    return "".join(written(report, format, options))

@@ -11,7 +11,7 @@ from os.path import normpath
 from pathlib import Path
 
 from usdvol_lint.model import Site
-from usdvol_lint.report import Options
+from usdvol_lint.report import Options, Writer
 from usdvol_lint.report.numbers import count
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
 from usdvol_lint.report.telling import Told, message, remarks, told
@@ -20,14 +20,15 @@ from usdvol_lint.results import Report
 from usdvol_lint.words import printable
 
 
-def render(report: Report, options: Options) -> str:
-    absolute = cache(_absolute)
-    by_stage = told(report, options)
-    return "".join(
-        " ".join(_parts(one, stage.path, options, absolute)) + "\n"
-        for number, stage in enumerate(report.stages)
-        for one in by_stage.get(number, ())
-    )
+class Concise(Writer):
+    """A line for each cause; what is told of one depends on all of its places."""
+
+    def end(self, report: Report) -> Iterator[str]:
+        absolute = cache(_absolute)
+        by_stage = told(report, self.options)
+        for number, stage in enumerate(report.stages):
+            for one in by_stage.get(number, ()):
+                yield " ".join(_parts(one, stage.path, self.options, absolute)) + "\n"
 
 
 def _parts(

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
 from usdvol_lint.paths import below
-from usdvol_lint.report import Options
+from usdvol_lint.report import Writer
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
 
 SCHEMA_VERSION = "2.0"
@@ -42,10 +42,35 @@ class _Shared(NamedTuple):
     times: Callable[[tuple[float, ...], bool], Times]
     root: str | None
 
+    @classmethod
+    def of(cls, report: Report) -> _Shared:
+        from usdvol_lint.baseline.cover import cover_as_json
 
-def render(report: Report, options: Options) -> str:
-    lines = ",\n".join(f"  {_line(key)}: {_value(value)}" for key, value in _report(report).items())
-    return f"{{\n{lines}\n}}\n"
+        return cls(cache(cover_as_json), cache(_times), report.root)
+
+
+class Json(Writer):
+    """One object; what is known before the first cause stands first."""
+
+    _shared: _Shared
+    _before = "[\n"
+
+    def begin(self, report: Report) -> Iterator[str]:
+        self._shared = _Shared.of(report)
+        yield "{\n"
+        for key, value in _head(report).items():
+            yield f"  {_line(key)}: {_line(value)},\n"
+        yield '  "causes": '
+
+    def cause(self, number: int, cause: Cause) -> Iterator[str]:
+        yield f"{self._before}    {_line(_cause(cause, self._shared))}"
+        self._before = ",\n"
+
+    def end(self, report: Report) -> Iterator[str]:
+        yield "[]" if self._before == "[\n" else "\n  ]"
+        for key, value in _rest(report).items():
+            yield f",\n  {_line(key)}: {_value(value)}"
+        yield "\n}\n"
 
 
 def _value(value: object) -> str:
@@ -63,11 +88,9 @@ def _line(value: object) -> str:
     return _TO_ESCAPE.sub(lambda match: f"\\u{ord(match.group()):04x}", text)
 
 
-def _report(report: Report) -> dict[str, object]:
-    from usdvol_lint.baseline.cover import cover_as_json
+def _head(report: Report) -> dict[str, object]:
     from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 
-    shared = _Shared(cache(cover_as_json), cache(_times), report.root)
     return {
         "schema_version": SCHEMA_VERSION,
         "fingerprint_version": FINGERPRINT_VERSION,
@@ -79,11 +102,16 @@ def _report(report: Report) -> dict[str, object]:
         "settings": _setting(report.settings),
         "root": report.root,
         "arguments": report.arguments,
+    }
+
+
+def _rest(report: Report) -> dict[str, object]:
+    return {
         "partial": False,
+        "failure": report.failure or None,
         "summary": _summary(report.summary),
         "baseline": report.baseline and _baseline(report.baseline),
         "stages": list(map(_stage, report.stages)),
-        "causes": [_cause(cause, shared) for cause in report.causes],
         "run": _run(report.run, report.stages),
     }
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
 from usdvol_lint.model import Finding, ParticleFieldStats, Severity, Site, Status
-from usdvol_lint.report import Options
+from usdvol_lint.report import Options, Writer
 from usdvol_lint.report.figures import figures
 from usdvol_lint.report.numbers import counts
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
@@ -23,7 +23,14 @@ _LONGEST_SUGGESTION = 400
 _WORD = re.compile(r"""(?<!\S)\(?(['"@]).*?\1\S*|\S+""")
 
 
-def render(report: Report, options: Options) -> str:
+class Full(Writer):
+    """By stage and prim; what is told of a cause depends on all of its places."""
+
+    def end(self, report: Report) -> Iterator[str]:
+        yield "\n".join(_blocks(report, self.options))
+
+
+def _blocks(report: Report, options: Options) -> list[str]:
     by_stage = told(report, options)
     blocks = [
         _stage(number, by_stage.get(number, ()), report, options)
@@ -35,7 +42,7 @@ def render(report: Report, options: Options) -> str:
         last = paint(verdict(report, options), style, options.color)
         lines = (last, *advice(report, options.verbose))
         blocks.append("".join(f"{line}\n" for line in lines))
-    return "\n".join(blocks)
+    return blocks
 
 
 def _verdict_style(report: Report, telling: Iterable[Sequence[Told]]) -> str:

@@ -48,10 +48,11 @@ class _Silent:
 
 
 class Naming(NamedTuple):
-    """How layers are named in fingerprints: see `Causes`."""
+    """How layers are named in fingerprints: see `Causes`; and for a code host: see `Setup`."""
 
     root: str | None = None
     versions: re.Pattern[str] | None = None
+    repository: str | None = None
 
 
 def lint(
@@ -72,15 +73,14 @@ def lint(
     pool = Pool(child)
     try:
         settled = config() if callable(config) else config or Config()
-        root, versions = naming(settled) if naming else Naming()
+        root, versions, repository = naming(settled) if naming else Naming()
         catalog = load(settled.packs)
         active = activate(settled, catalog)
         jobs = settled.jobs or os.cpu_count() or 1
         causes = Causes(root, versions, settled.max_places, reasons(settled, catalog, root))
         named = tuple(paths)
-        stages, found = _folded(
-            causes, stage_reports(pool, discover(named), settled, active, jobs, progress)
-        )
+        reports = stage_reports(pool, discover(named), settled, active, jobs, progress, repository)
+        stages, found = _folded(causes, reports)
         report = Report(
             version=__version__,
             usd_version=pool.usd_version,
@@ -103,6 +103,7 @@ def stage_reports(
     active: ActiveRules,
     jobs: int,
     progress: Progress | None = None,
+    repository: str | None = None,
 ) -> Iterator[StageReport]:
     """The reports on stages, in their order, each as soon as it is there."""
     shown = progress or _Silent()
@@ -111,7 +112,7 @@ def stage_reports(
         future.add_done_callback(lambda _: shown.stage_done())
     shown.begin(len(futures))
     is_alone = len(futures) == 1
-    setup = Setup(active, config.packs, config.depth, in_stages(config), is_alone)
+    setup = Setup(active, config.packs, config.depth, in_stages(config), is_alone, repository)
     pool.run(setup, jobs, config.timeout, shown.advance)
     while futures:
         yield futures.popleft().result()

@@ -17,7 +17,8 @@ from usdvol_lint.suppressions import InStages
 class Setup(NamedTuple):
     """The parent's first message: the rules to run, and how stages are to be checked.
 
-    `is_alone` says that there is but one stage in the run.
+    `is_alone` says that there is but one stage in the run, `repository` that findings in layers
+    outside that folder need a line in the stage's own file.
     """
 
     active: ActiveRules
@@ -25,6 +26,7 @@ class Setup(NamedTuple):
     depth: Depth
     suppressions: InStages
     is_alone: bool = False
+    repository: str | None = None
 
 
 class Ready(NamedTuple):

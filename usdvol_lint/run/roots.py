@@ -33,6 +33,12 @@ def root_of(
     return canonical(found) if found else None
 
 
+def checkout_of(paths: Iterable[str]) -> str:
+    """The folder that a code host names files by: that of its job, the repository, or this one."""
+    said = os.environ.get("GITHUB_WORKSPACE") or os.environ.get("CI_PROJECT_DIR")
+    return canonical(said or repository_of(paths) or os.getcwd())
+
+
 def repository_of(paths: Iterable[str]) -> str | None:
     """The innermost working copy of a repository that holds all paths, links resolved."""
     try:

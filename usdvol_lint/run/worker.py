@@ -63,6 +63,7 @@ def _engine(rules: Mapping[str, Rule], setup: Setup, answers: _Answers) -> Engin
         answers.send,
         setup.is_alone,
         setup.suppressions,
+        setup.repository,
     )
 
 
