@@ -72,9 +72,9 @@ def test_the_stage_itself(locate: Locate) -> None:
 
 
 def test_properties(locate: Locate) -> None:
-    words = Excerpt("asset filePath = @./a.vdb@", 1)
+    words = Excerpt("asset filePath = @./a.vdb@", 18)
     assert locate("/density.filePath", STAGE).site == site("/density", "filePath", 4, 5, words)
-    words = Excerpt("rel proxyPrim = </density>", 1)
+    words = Excerpt("rel proxyPrim = </density>", 17)
     assert locate("/density.proxyPrim", STAGE).site == site("/density", "proxyPrim", 10, 5, words)
 
 
@@ -83,7 +83,7 @@ def test_an_attribute_that_nobody_authored_is_looked_for_at_its_prim(locate: Loc
 
 
 def test_a_time_sample_and_the_default(locate: Locate) -> None:
-    words = Excerpt("2: @./a.0002.vdb@,", 1)
+    words = Excerpt("2: @./a.0002.vdb@,", 4)
     expected = site("/density", "filePath", 7, 9, words, times=(2.0, 4.0))
     assert locate("/density.filePath", STAGE, times=(2.0, 4.0)).site == expected
     found = locate("/density.filePath", STAGE, times=(2.0, 4.0), at_default=True).site
@@ -293,7 +293,7 @@ def test_instances_are_shown_at_the_first(locate: Locate) -> None:
     prim = stage.GetPrototypes()[0].GetChild("density")
     found = Sites().locate(Problem("", at=prim.GetAttribute("filePath")))
     assert found.instances == 2
-    words = Excerpt("asset filePath = @./a.vdb@", 1)
+    words = Excerpt("asset filePath = @./a.vdb@", 18)
     expected = site("/a/density", "filePath", 6, 5, words)
     assert found.site == expected._replace(layer="lib.usda")
 
@@ -306,8 +306,8 @@ def test_columns_count_characters_and_lines_end_as_on_windows(
     (tmp_path / "stage.usda").write_text(f"#usda 1.0\n{text}", encoding="utf-8")
     found = located("stage.usda", "/density.filePath").site
     assert (found.line, found.column) == (4, 31)
-    assert found.excerpt == Excerpt('string Größe = "größer" ; asset filePath = @./a.vdb@', 27)
+    assert found.excerpt == Excerpt('string Größe = "größer" ; asset filePath = @./a.vdb@', 44)
     windows = f"#usda 1.0\n{DENSITY}".replace("\n", "\r\n").encode()
     (tmp_path / "windows.usda").write_bytes(windows)
     found = located("windows.usda", "/density.filePath", times=(2.0,)).site
-    assert (found.line, found.excerpt) == (7, Excerpt("2: @./a.0002.vdb@,", 1))
+    assert (found.line, found.excerpt) == (7, Excerpt("2: @./a.0002.vdb@,", 4))

@@ -93,6 +93,8 @@ _SAMPLE = re.compile(
     + _PADDING
 )
 _ELEMENT = re.compile(r"\{[^{}]*\}|[^/{}]+")
+_EQUALS = re.compile(rb"[ \t]*=[ \t]*(?=[^\s])")
+_KEY = re.compile(rb"[^:\r\n]*:[ \t]*(?=[^\s])")
 _BLOCK_SIZE = 1 << 12
 
 
@@ -143,14 +145,17 @@ class TextLayer:
         if spec is None:
             return None
         offset = spec.start
+        mark = spec.value if isinstance(spec, _Property) else None
         sample = None
         if time is not None and isinstance(spec, _Property) and spec.samples:
             sample = spec.sample(time)
             offset = (sample or spec.samples.span).start
+            mark = _end_of(_KEY, self._data, sample.start) if sample else None
         if asset is not None:
             assets = _assets(self._data, [sample]) if sample else spec.assets
-            offset = assets.get(asset, offset)
-        return self._position(offset)
+            if asset in assets:
+                offset = mark = assets[asset]
+        return self._position(offset, mark)
 
     def heading(self, path: str) -> bytes:
         """What stands before the body of the prim or variant at `path`; empty if it is not here."""
@@ -188,7 +193,8 @@ class TextLayer:
     def _outline(self) -> _Outline:
         return _Outline(self._data)
 
-    def _position(self, offset: int) -> Position:
+    def _position(self, offset: int, mark: int | None) -> Position:
+        """The position of an offset; `mark` is where its value begins, if that is in its line."""
         before = self._lines_before_block
         block = offset // _BLOCK_SIZE
         while len(before) <= block:
@@ -198,7 +204,7 @@ class TextLayer:
         line_start = self._data.rfind(b"\n", 0, offset) + 1
         text = self._data[line_start:offset].decode("utf-8", "replace")
         column = len(text.removeprefix("\ufeff")) + 1
-        return Position(line + 1, column, excerpt(self._data, line_start, offset))
+        return Position(line + 1, column, excerpt(self._data, line_start, mark or offset))
 
 
 class _Outline:
@@ -293,9 +299,13 @@ class _Property:
     def __init__(self, data: bytes) -> None:
         self._data = data
         self._spans: list[_Span] = []
+        self.value: int | None = None
+        """Where the value of the first one begins, if that is in the line of the declaration."""
         self.samples: _Statement | None = None
 
     def add(self, statement: _Statement) -> None:
+        if not self._spans:
+            self.value = _end_of(_EQUALS, self._data, statement.value)
         self._spans.append(statement.span)
         if statement.suffix == "timeSamples":
             self.samples = statement
@@ -419,6 +429,12 @@ def _bracket_stop(data: bytes, position: int, stop: int) -> int:
             if depth == 0:
                 return token.end()
     return stop
+
+
+def _end_of(pattern: re.Pattern[bytes], data: bytes, position: int) -> int | None:
+    """Where a pattern that begins at `position` ends; None if it is not there."""
+    found = pattern.match(data, position)
+    return found.end() if found else None
 
 
 def _assets(data: bytes, spans: Iterable[_Span]) -> dict[str, int]:

@@ -112,6 +112,7 @@ def _told(one: Told, report: Report, indent: str, options: Options) -> Iterator[
     indent += "  "
     if cause.source.layer is not None:
         yield f"{indent}{paint('-->', 'blue', options.color)} {location(finding.site)}"
+        yield from _excerpt(finding.site, indent, style, options)
     if where := ", ".join(_where(finding.site)):
         yield _labelled("at", where, "blue", indent, options)
     if others := elsewhere(one, report, options.verbose):
@@ -123,6 +124,27 @@ def _told(one: Told, report: Report, indent: str, options: Options) -> Iterator[
         yield _labelled("help:", printable(suggestion), "green", indent, options)
     if options.verbose:
         yield from _details(finding, indent, options)
+
+
+def _excerpt(site: Site, indent: str, style: str, options: Options) -> Iterator[str]:
+    """The line of a text layer, and a mark under the value that is meant."""
+    if site.excerpt is None or site.line is None:
+        return
+    text, column = site.excerpt
+    before, number = printable(text[: column - 1]), str(site.line)
+    bar = paint("|", "blue", options.color)
+    yield f"{indent}{paint(number, 'blue', options.color)} {bar} {printable(text)}"
+    gap = " " * _cells(before)
+    yield f"{indent}{' ' * len(number)} {bar} {gap}{paint('^', style, options.color)}"
+
+
+def _cells(text: str) -> int:
+    """How many columns of a terminal a text takes."""
+    if text.isascii():
+        return len(text)
+    from rich.cells import cell_len
+
+    return cell_len(text)
 
 
 def _details(finding: Finding, indent: str, options: Options) -> Iterator[str]:
