@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from badinput import RULE, STUDIO_ONLY, pack, troubles
-from process import ROOT, Ran, environment, run, volume, write
+from process import ROOT, environment, run, volume, write
 
 
 @pytest.mark.parametrize(
@@ -81,6 +81,6 @@ def test_usd_can_not_be_imported(text: str, said: str, tmp_path: Path) -> None:
     (fake / "__init__.py").write_text(text)
     write(tmp_path, fog=volume("fog"))
     env = environment(PYTHONPATH=os.pathsep.join([str(ROOT), str(fake.parent)]))
-    assert run(*STUDIO_ONLY, ".", cwd=tmp_path, env=env) == Ran(
-        2, "", f"usdvol-lint: error: {said}\n"
-    )
+    ran = run(*STUDIO_ONLY, ".", cwd=tmp_path, env=env)
+    assert (ran.code, ran.err) == (2, f"usdvol-lint: error: {said}\n")
+    assert (ran.json["failure"], ran.json["stages"]) == (said, [])

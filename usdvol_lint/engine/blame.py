@@ -10,6 +10,7 @@ from pxr import Sdf, Usd
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
 from usdvol_lint.facts.usd.bringing import node_of
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
+from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.rule import APIS, NAME, TYPE, NotChecked, Problem
 
@@ -248,7 +249,7 @@ def _has_value(spec: Any) -> bool:
 
 def _path_of(at: Any, prim: Any, spec: Any) -> str:
     """What a problem is about, as the layer to blame sees it; "" if that is of the same prim."""
-    path = path_beside(prim, spec) or str(prim.GetPath())
+    path = path_beside(prim, spec) or shown(prim).path
     if path == str(spec.path.GetPrimPath().StripAllVariantSelections()):
         return ""
     return f"{path}.{at.GetName()}" if isinstance(at, Usd.Property) else path

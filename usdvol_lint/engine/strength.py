@@ -14,7 +14,9 @@ from usdvol_lint.facts.usd.bringing import (
     from_root,
     node_above,
     node_of,
+    path_of_prim,
 )
+from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
 
 _RANKS = {kind: rank for rank, kind in enumerate(FIELDS_OF_ARCS)}
@@ -61,12 +63,16 @@ def decisive(opinions: Sequence[Opinion]) -> Opinion:
 def path_beside(prim: Any, spec: Any) -> str:
     """The path of a prim in the namespace of a spec's layer, without variants; "" if it has none.
 
-    The prim is the spec's own, or one that is composed from the same arcs.
+    The prim is the spec's own, or one that is composed from the same arcs: of several paths that it
+    has in that layer, such as its own and that of a class, the one nearest to the spec's counts.
     """
-    layer = spec.layer
-    nodes = (node for node in nodes_of(prim.GetPrimIndex()) if layer in node.layerStack.layers)
-    node = next(nodes, None)
-    return str(node.path) if node else ""
+    layer, path = spec.layer, path_of_prim(spec)
+    nodes = [node for node in nodes_of(index_of(prim)) if layer in node.layerStack.layers]
+
+    def shared(node: Any) -> int:
+        return int(node.path.GetCommonPrefix(path).pathElementCount)
+
+    return str(max(nodes, key=shared).path.StripAllVariantSelections()) if nodes else ""
 
 
 def _standing(opinion: Opinion) -> _Standing | None:
@@ -90,11 +96,18 @@ def _keys(prim: Any, arcs: Sequence[Crossing]) -> Iterator[tuple[str, str]]:
     own = shared = prim.GetPath()
     below = prim.GetPrototype().GetAllChildren() if prim.IsInstance() else ()
     if below:
-        own = prim.GetPrimIndex().rootNode.path
-        shared = below[0].GetPrimIndex().rootNode.path.GetParentPath()
+        own = index_of(prim).rootNode.path
+        shared = index_of(below[0]).rootNode.path.GetParentPath()
     for arc in arcs:
         path, target = arc.key
-        yield str(Sdf.Path(path).ReplacePrefix(own, shared)), target
+        yield str(_moved(Sdf.Path(path), own, shared)), target
+
+
+def _moved(path: Any, old: Any, new: Any) -> Any:
+    """A path at, below or above `old`, as it is beside `new`."""
+    for _ in range(old.pathElementCount - path.pathElementCount):
+        old, new = old.GetParentPath(), new.GetParentPath()
+    return path.ReplacePrefix(old, new)
 
 
 def node_with(opinion: Opinion) -> Any | None:

@@ -12,6 +12,7 @@ from pxr import Sdf, Usd
 from usdvol_lint.engine.variant_sets import Variant, VariantSpec, may_bring, survey, variants
 from usdvol_lint.facts.usd.clips import concerns_only_clips
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
+from usdvol_lint.facts.usd.indices import recomposed
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.rule import NotChecked
@@ -121,6 +122,7 @@ class OtherSelections:
             for path, name, variant in _steps(selection):
                 Sdf.CreatePrimInLayer(session, path).variantSelections[name] = variant
                 self._chosen.append(path)
+        recomposed(self._stage)
 
     def _may_lack(self, path: Any) -> bool:
         """Whether prims that we check may be below a path, in what was not composed or loaded."""

@@ -42,7 +42,7 @@ def _names(field: Any) -> Iterator[str]:
     while prim and not prim.IsPseudoRoot():
         for spec in prim.GetPrimStack():
             yield spec.name
-            *folders, name = filter(None, _SEPARATORS.split(spec.layer.realPath)) or [""]
-            yield os.path.splitext(name)[0]
-            yield from folders[-1:]
+            names = [*filter(None, _SEPARATORS.split(spec.layer.realPath))]
+            yield from (os.path.splitext(name)[0] for name in names[-1:])
+            yield from names[-2:-1]
         prim = prim.GetParent()

@@ -12,6 +12,7 @@ from usdvol_lint.facts.prims.animated import animated
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.bringing import Crossing, arc_that
 from usdvol_lint.facts.usd.clips import Clips
+from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
@@ -132,7 +133,7 @@ def _corrected_scales(prim: Any, layer: Any, own: float) -> Iterator[float]:
 
     USD adds a scale at arcs between layers of different rates; one of the others may undo it too.
     """
-    for node in nodes_of(prim.GetPrimIndex()):
+    for node in nodes_of(index_of(prim)):
         if layer in node.layerStack.layers:
             while node.parent:
                 scale = node.mapToParent.timeOffset.scale

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from pxr import Pcp
 
+from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
 
 FIELDS_OF_ARCS = {
@@ -42,7 +43,7 @@ class Crossing(NamedTuple):
 def node_of(prim: Any, spec: Any) -> Any | None:
     """The node of a prim that a spec, of it or a property, is in; None for one in value clips."""
     path = path_of_prim(spec)
-    for node in nodes_of(prim.GetPrimIndex()):
+    for node in nodes_of(index_of(prim)):
         if node.path == path and spec.layer in node.layerStack.layers:
             return node
     return None
@@ -50,7 +51,7 @@ def node_of(prim: Any, spec: Any) -> Any | None:
 
 def node_above(prim: Any, spec: Any) -> Any | None:
     """The node of a prim that a spec is in, or lies below."""
-    for node in nodes_of(prim.GetPrimIndex()):
+    for node in nodes_of(index_of(prim)):
         if spec.path.HasPrefix(node.path) and spec.layer in node.layerStack.layers:
             return node
     return None
@@ -93,7 +94,7 @@ def root_layer(node: Any) -> Any:
 
 def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
     """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
-    for node in nodes_of(prim.GetPrimIndex()):
+    for node in nodes_of(index_of(prim)):
         if layer in node.layerStack.layers:
             return next((each.spec for each in list(crossings(node))[::-1] if is_it(each)), None)
     return None

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from pxr import Usd
 
 from usdvol_lint.facts.usd.calls import count_samples, get_value
+from usdvol_lint.facts.usd.retimes import reaching_samples
 
 
 class Value(NamedTuple):
@@ -116,8 +117,9 @@ def sample_times(attribute: Any) -> list[float]:
         return []
     times: list[float] = attribute.GetTimeSamples()
     # Where a clip begins, USD adds a sample a hair before it that repeats the last value.
-    return [
+    apart = [
         time
         for time, following in pairwise(times)
         if following - time >= 1e-6 * max(1.0, abs(time))
-    ] + times[-1:]
+    ]
+    return reaching_samples(attribute, apart + times[-1:])
