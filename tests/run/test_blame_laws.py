@@ -71,6 +71,7 @@ def Xform "tank"
             "radiance:sphericalHarmonicsCoefficients",
         ),
         (CLEAN, 'over "density" ( active = false ) {}', "VOL008", "/a/density", None),
+        (CLEAN, "float3[] extent = None", "SCH007", "/a", "extent"),
         (
             CLEAN,
             'over "density"\n{\ntoken fieldName = "fuel"\n}',

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import pytest
 from identities import FILE, HEAD, LAYER, META, SPLATS, STAGE, Find, refers
 from process import ASSETS, write
 
@@ -86,6 +87,37 @@ def test_frames_are_those_of_the_layer_to_blame(find: Find, shots: Path) -> None
     write(shots.parent / "assets", tank=LAYER + missing)
     [cause] = find("shots/one.usda", "assets/tank.usda", rules=FILE)
     assert (cause.count, cause.cover.frames, cause.cover.at_default) == (2, (2.0, 4.0), True)
+
+
+@pytest.mark.parametrize("retime", ["", "(offset = 1000)", "(offset = 0.1; scale = 1.001)"])
+@pytest.mark.parametrize("rate", ["24", "25", "30", "29.97"])
+def test_no_retime_moves_a_sample_to_its_neighbour(
+    rate: str, retime: str, find: Find, shots: Path
+) -> None:
+    """USD takes a time of the stage back to the layer, and may end a rounding error before it."""
+    frames = "".join(f"{frame}: @./smoke.{frame}.vdb@,\n" for frame in range(1, 9))
+    field = f'def OpenVDBAsset "tank"\n{{\nasset filePath.timeSamples = {{\n{frames}}}\n}}\n'
+    write(shots.parent / "assets", tank=LAYER + field)
+    for frame in (1, 3, 4, 5, 6, 8):
+        shutil.copy(ASSETS / "cloud.vdb", shots.parent / "assets" / f"smoke.{frame}.vdb")
+    stage = STAGE.replace("timeCodesPerSecond = 24", f"timeCodesPerSecond = {rate}")
+    write(shots, one=stage + refers("a").replace(".usda@", f".usda@ {retime}"))
+    [cause] = find("shots/one.usda")
+    assert cause.cover.frames == (2.0, 7.0)
+    assert [len(place.finding.site.times) for place in cause.places] == [2]
+
+
+def test_a_variable_of_the_shot_is_to_blame_where_it_is_said(find: Find, shots: Path) -> None:
+    said = 'expressionVariables = {{\nstring TAKE = "{}"\n}}\n'
+    field = 'def OpenVDBAsset "tank"\n{\nasset filePath = @`"./${TAKE}.vdb"`@\n}\n'
+    own = LAYER.replace(META, META + said.format("cloud"))
+    write(shots.parent / "assets", tank=own + field)
+    for name in ("gone", "lost"):
+        write(shots, **{name: STAGE.replace(META, META + said.format(name)) + refers("a")})
+    causes = find("assets/tank.usda", "shots/gone.usda", "shots/lost.usda")
+    assert [cause.source for cause in causes] == [
+        Source(f"shots/{name}.usda", "/", "filePath", "/tank.filePath") for name in ("gone", "lost")
+    ]
 
 
 INSIDE, OUTSIDE = "[(0.2, 0.2, 0.2), (0.8, 0.8, 0.8)]", "[(0.2, 0.2, 0.2), (3, 3, 3)]"

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from pxr import Sdf, Usd
 
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
+from usdvol_lint.engine.variables import deciding_layer
 from usdvol_lint.facts.usd.bringing import node_of
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
 from usdvol_lint.facts.usd.instances import shown
@@ -64,6 +65,8 @@ class Blaming:
         """The spec whose opinion counts where the problem is."""
         at, prim, subject = problem.at, problem.at.GetPrim(), problem.subject
         if not isinstance(at, Usd.Property):
+            if blocked := _blocked(problem):
+                return Blame(blocked, str(blocked.name), subject)
             return Blame(problem.spec or _of_prim(prim, problem.of), None, subject)
         name = at.GetName()
         if problem.spec:
@@ -88,6 +91,9 @@ class Blaming:
             return None
         spec, offset = strongest
         prim = attribute.GetPrim()
+        local = None if time is None else offset.GetInverse() * time
+        if top := deciding_layer(prim, spec, local):
+            return Blame(top.pseudoRoot, attribute.GetName(), subject or str(spec.path))
         if time is None:
             return Blame(spec, attribute.GetName(), subject, None, offset)
         if node_of(prim, spec) is None and (clips := self._clips_with(prim, spec.layer)):
@@ -95,7 +101,7 @@ class Blaming:
             clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
             bearer, offset = clips.opinion_with(clips.key)
             return Blame(bearer, "clips", subject or str(path), None, offset, clips.named(clip))
-        return Blame(spec, attribute.GetName(), subject, offset.GetInverse() * time, offset)
+        return Blame(spec, attribute.GetName(), subject, local, offset)
 
     def _clips_with(self, prim: Any, layer: Any) -> ClipSet | None:
         """The clip set that has a layer among its clips, of a prim or the next one above it."""
@@ -152,8 +158,9 @@ def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
     spec, at, subject = problem.spec, problem.at, problem.subject
     if spec.path != Sdf.Path.absoluteRootPath:
         return Blame(spec, name, subject)
-    subject = subject or _path_of(at, at.GetPrim(), spec)
-    return Blame(spec, name, subject, asset=_sublayer_with(at, spec.layer))
+    sublayer = _sublayer_with(at, spec.layer)
+    subject = subject or sublayer or _path_of(at, at.GetPrim(), spec)
+    return Blame(spec, name, subject, asset=sublayer)
 
 
 def _sublayer_with(at: Any, layer: Any) -> str | None:
@@ -164,6 +171,20 @@ def _sublayer_with(at: Any, layer: Any) -> str | None:
         if Sdf.Layer.FindRelativeToLayer(layer, path) in holders:
             return str(path)
     return None
+
+
+def _blocked(problem: Problem | NotChecked) -> Any | None:
+    """The spec that takes away what is absent, where a weaker one has it."""
+    for prim, name in (lack for part in problem.absent for lack in part):
+        prop = prim.GetProperty(name) if Sdf.Path.IsValidNamespacedIdentifier(name) else None
+        values = [spec for spec in (prop.GetPropertyStack() if prop else ()) if _has_value(spec)]
+        if len(values) > 1 and _is_block(values[0]):
+            return values[0]
+    return None
+
+
+def _is_block(spec: Any) -> bool:
+    return isinstance(spec, Sdf.AttributeSpec) and isinstance(spec.default, Sdf.ValueBlock)
 
 
 def _declared(spec: Any | None, name: str) -> Any | None:

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from usdvol_lint.layertext.lines import TextLayer
 
 
+_DIGITS = 6
+"""Decimals of a time that a retime was taken off, which leaves a rounding error."""
+
+
 class Located(NamedTuple):
     """A site, what is to blame, and how many instances show it on the stage."""
 
@@ -101,7 +105,7 @@ def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Co
     frames = problem.times
     if blame.offset and not blame.offset.IsIdentity():
         inverse = blame.offset.GetInverse()
-        frames = tuple(sorted(inverse * time for time in frames))
+        frames = tuple(sorted(round(inverse * time, _DIGITS) for time in frames))
     return Cover(level, frames, problem.at_default, share, elements)
 
 

@@ -12,7 +12,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.layers.remedies import Remedy, find_remedy
 from usdvol_lint.facts.layers.turns import Corrections, resetting
 from usdvol_lint.facts.prims.tables import Tables
-from usdvol_lint.facts.usd.bringing import Crossing, arc_that, root_layer
+from usdvol_lint.facts.usd.bringing import Crossing, arcs_from, root_layer
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 
@@ -56,8 +56,12 @@ class UnlikeStage(NamedTuple):
             other = _said(root_layer(crossing.source), key)
             return other is not None and not _are_equal(key, said, other)
 
-        arc = arc_that(self.prim, self.layer, differs)
-        return arc or self.prim.GetStage().GetRootLayer().pseudoRoot
+        arc = next(filter(differs, arcs_from(self.prim, self.layer)), None)
+        if arc is None:
+            return self.prim.GetStage().GetRootLayer().pseudoRoot
+        own = _said(arc.spec.layer, key) if arc.spec else said
+        is_right_there = own is None or not _are_equal(key, said, own)
+        return arc.spec if is_right_there else root_layer(arc.source).pseudoRoot
 
     @property
     def resetting(self) -> Any | None:

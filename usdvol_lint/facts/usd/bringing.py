@@ -92,9 +92,14 @@ def root_layer(node: Any) -> Any:
     return node.layerStack.identifier.rootLayer
 
 
-def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
-    """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
+def arcs_from(prim: Any, layer: Any) -> list[Crossing]:
+    """The arcs on the way from a layer of a prim to the stage."""
     for node in nodes_of(index_of(prim)):
         if layer in node.layerStack.layers:
-            return next((each.spec for each in list(crossings(node))[::-1] if is_it(each)), None)
-    return None
+            return list(crossings(node))[::-1]
+    return []
+
+
+def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
+    """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
+    return next((each.spec for each in arcs_from(prim, layer) if is_it(each)), None)
