@@ -118,6 +118,9 @@ def test_a_variable_of_the_shot_is_to_blame_where_it_is_said(find: Find, shots: 
     assert [cause.source for cause in causes] == [
         Source(f"shots/{name}.usda", "/", "filePath", "/tank.filePath") for name in ("gone", "lost")
     ]
+    write(shots.parent / "assets", tank=own.replace("cloud", "none") + field)
+    [cause] = find("assets/tank.usda")
+    assert cause.source == Source("assets/tank.usda", "/tank", "filePath")
 
 
 INSIDE, OUTSIDE = "[(0.2, 0.2, 0.2), (0.8, 0.8, 0.8)]", "[(0.2, 0.2, 0.2), (3, 3, 3)]"
