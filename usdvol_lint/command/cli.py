@@ -34,8 +34,25 @@ def _complete_from(constant: str) -> Any:
     return complete
 
 
+class _Command(click.Command):
+    """A command with an option whose value may be left out, though a path may follow it."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        from usdvol_lint.config import SUMMARIES
+
+        following = [*args[1:], ""]
+        return super().parse_args(
+            ctx,
+            [
+                f"{each}={SUMMARIES[0]}" if each == "--summary" and after not in SUMMARIES else each
+                for each, after in zip(args, following, strict=True)
+            ],
+        )
+
+
 # fmt: off
 @click.command(
+    cls=_Command,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Exit code: 0 clean, 1 findings at or above --fail-on, 2 the job could not be done.",
 )
@@ -51,12 +68,15 @@ def _complete_from(constant: str) -> Any:
               help="Exit with 1 from this level on: error (default), warning, info, never.")
 @click.option("--output-format", multiple=True, metavar="FORMAT",
               shell_complete=_complete_from("OUTPUT_FORMATS"),
-              help="full (default), concise, json, jsonl, sarif, github, gitlab, junit, markdown; "
-                   "may be repeated, each with its --output.")
+              help="auto (default), full, concise, json, jsonl, sarif, github, gitlab, junit, "
+                   "markdown; may be repeated, each with its --output.")
 @click.option("--output", multiple=True, type=click.Path(), metavar="FILE",
               help="Write the report to a file instead of standard output.")
 @click.option("--category", metavar="NAME",
               help="What tells this upload of a SARIF report from others of the same commit.")
+@click.option("--summary", metavar="[rule|cause|stage|asset]",
+              shell_complete=_complete_from("SUMMARIES"),
+              help="Print a table of the numbers alone (default: by rule).")
 @click.option("--show", multiple=True, metavar="WHAT",
               shell_complete=_complete_from("SHOWABLE"),
               help="Show more: info, known, suppressed, unused (suppressions); may be repeated.")

@@ -94,6 +94,7 @@ class _Job:
     def options(self) -> Options:
         return output.options_of(self._given, self.config)._replace(
             category=self._given["category"] or "",
+            summary=self._given["summary"] or "",
             repository=self.repository,
             page_of=lambda code: load(self.config.packs).page(code),
         )

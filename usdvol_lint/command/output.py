@@ -5,23 +5,30 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
+from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_file
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
 
-MACHINE_FORMATS = frozenset(FORMATS) - {"full", "concise"}
+AUTO = "auto"
+TEXTS = frozenset({"full", "concise"})
+MACHINE_FORMATS = frozenset(FORMATS) - TEXTS
 
 
 class Destination(NamedTuple):
-    """Where one report goes: its format, and its file, or None for standard output."""
+    """Where one report goes: its format, and its file, or None for standard output.
+
+    What `is_added` goes below what others wrote to the file, which is the host's.
+    """
 
     format: str
     file: str | None
+    is_added: bool = False
 
 
 def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Destination]:
@@ -45,14 +52,26 @@ def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Des
         for index, format in enumerate(named)
     ]
     if files and all(d.file and d.format in MACHINE_FORMATS for d in destinations):
-        destinations.append(Destination("full", None))
-    return destinations
+        destinations.append(Destination(AUTO, None))
+    return [each for destination in destinations for each in _expanded(destination)]
+
+
+def _expanded(destination: Destination) -> Iterator[Destination]:
+    """What a destination comes to where it is up to us: the text, and what a job of GitHub has."""
+    if destination.format != AUTO:
+        yield destination
+        return
+    yield destination._replace(format="full")
+    if destination.file is None and is_github():
+        yield Destination("github", None)
+        if file := summary_file():
+            yield Destination("markdown", file, is_added=True)
 
 
 def named_by(given: dict[str, Any]) -> list[Destination]:
     """The reports that the command line asks for, if they can be written whatever else is wrong."""
     try:
-        destinations = pair(given["output_format"], given["output"], "full")
+        destinations = pair(given["output_format"], given["output"], AUTO)
     except UsageError:
         return []
     return [each for each in destinations if each.format in FORMATS and _is_writable(each)]
@@ -73,7 +92,7 @@ def _times(number: int) -> str:
 def check_writable(destinations: Sequence[Destination]) -> None:
     """Raises UsageError, before any work, where a file can't be written."""
     for destination in destinations:
-        if destination.file is None:
+        if destination.file is None or destination.is_added:
             continue
         file = Path(destination.file)
         if os.path.isdir(file):
@@ -91,18 +110,27 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
     UsageError names these files.
     """
     failures = []
-    for format, file in destinations:
+    plain = options._replace(color=False, width=80, quiet=False)
+    for destination in destinations:
+        format, file, _ = destination
         if file is None:
-            print_text(written(report, format, options))
+            parts = written(report, format, options)
+            print_text(guarded(parts) if format in TEXTS and is_github() else parts)
             continue
-        plain = options._replace(color=False, width=80, quiet=False)
         try:
-            _replace(Path(file), written(report, format, plain))
+            _write_file(destination, file, report, plain)
         except OSError as error:
             failures.append(f"--output {file}: {error.strerror}")
             print_text(written(report, format, plain))
     if failures:
         raise UsageError("; ".join(failures))
+
+
+def _write_file(destination: Destination, file: str, report: Report, options: Options) -> None:
+    if destination.is_added:
+        add_summary(Path(file), report, options)
+    else:
+        _replace(Path(file), written(report, destination.format, options))
 
 
 def options_of(given: dict[str, Any], config: Config | None = None) -> Options:

@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import SUMMARIES, Config
 from usdvol_lint.config.files import find_config_file, read_config
-from usdvol_lint.config.values import CHECKS, level, shown
+from usdvol_lint.config.values import CHECKS, level, one_of, shown
 from usdvol_lint.model import UsageError
 
 _REPLACING = (
@@ -43,6 +43,8 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
         changes["baseline"] = None
     if given["no_suppressions"]:
         changes["suppressions"] = "none"
+    if given["summary"] is not None:
+        one_of("--summary", given["summary"], SUMMARIES)
     for name in given["output_format"]:
         CHECKS["output-format"]("--output-format", name)
     select = _codes(given["select"])

@@ -12,9 +12,10 @@ if TYPE_CHECKING:
 
 FAIL_ON = ("error", "warning", "info", "never")
 OUTPUT_FORMATS = (
-    *("full", "concise", "json", "jsonl"),
+    *("auto", "full", "concise", "json", "jsonl"),
     *("sarif", "github", "gitlab", "junit", "markdown"),
 )
+SUMMARIES = ("rule", "cause", "stage", "asset")
 SHOWABLE = ("info", "known", "suppressed", "unused")
 SUPPRESSIONS = ("all", "configuration", "none")
 LOADS = ("all", "none")
@@ -48,7 +49,7 @@ class Config(NamedTuple):
     options: Mapping[str, Mapping[str, Any]] = {}
     packs: tuple[str, ...] = ()
     fail_on: str = "error"
-    output_format: str = "full"
+    output_format: str = "auto"
     show: tuple[str, ...] = ()
     jobs: int = 0
     timeout: float = 300.0

@@ -40,6 +40,7 @@ class Options(NamedTuple):
     Reports for people have causes from the severity `least` on; `verbose` shows all of them.
     What is `known` or `suppressed` is there only where `show` names it, and then all of it.
     From `fail_on` on a cause fails the run, from no level on where it is None.
+    `summary` asks the text report for a table alone, by rule, cause, stage or asset.
     Reports for code hosts name files in relation to `repository`, a canonical folder, and keep the
     uploads of one run apart by `category`; `page_of` gives the page of a rule by its code.
     """
@@ -53,6 +54,7 @@ class Options(NamedTuple):
     fail_on: Severity | None = Severity.ERROR
     repository: str | None = None
     category: str = ""
+    summary: str = ""
     page_of: Callable[[str], Page | None] = no_page
 
     @property

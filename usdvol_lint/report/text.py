@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
@@ -11,16 +10,14 @@ from usdvol_lint.report import Options, Writer
 from usdvol_lint.report.figures import figures
 from usdvol_lint.report.numbers import counts
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
+from usdvol_lint.report.table import table
 from usdvol_lint.report.telling import Told, elsewhere, message, remarks, shown, told
-from usdvol_lint.report.verdict import advice, verdict
+from usdvol_lint.report.verdict import MANY_CAUSES, advice, verdict
+from usdvol_lint.report.width import cells, wrap
 from usdvol_lint.results import Report, StageResult
 from usdvol_lint.words import printable
 
 _LONGEST_SUGGESTION = 400
-
-# Text is wrapped between these words; what is in quotes is one, so that a path with spaces can be
-# copied.
-_WORD = re.compile(r"""(?<!\S)\(?(['"@]).*?\1\S*|\S+""")
 
 
 class Full(Writer):
@@ -31,25 +28,35 @@ class Full(Writer):
 
 
 def _blocks(report: Report, options: Options) -> list[str]:
-    by_stage = told(report, options)
+    by_stage = {} if options.summary else told(report, options)
     blocks = [
         _stage(number, by_stage.get(number, ()), report, options)
         for number, stage in enumerate(report.stages)
         if number in by_stage or _is_shown(stage, options)
     ]
+    blocks += _table(report, options)
     if not options.quiet:
-        style = _verdict_style(report, by_stage.values())
+        style = _verdict_style(report, options)
         last = paint(verdict(report, options), style, options.color)
-        lines = (last, *advice(report, options.verbose))
+        lines = (last, *advice(report, options))
         blocks.append("".join(f"{line}\n" for line in lines))
     return blocks
 
 
-def _verdict_style(report: Report, telling: Iterable[Sequence[Told]]) -> str:
+def _table(report: Report, options: Options) -> Iterator[str]:
+    """The table that was asked for, or one by rule after many causes."""
+    number = sum(map(options.shows, report.causes))
+    if options.summary or (number > MANY_CAUSES and not options.quiet):
+        lines = table(report, options, options.summary or "rule")
+        if text := "".join(f"{line}\n" for line in lines):
+            yield text
+
+
+def _verdict_style(report: Report, options: Options) -> str:
     if any(stage.status != Status.CHECKED for stage in report.stages):
         return SEVERITY_STYLES[Severity.ERROR]
-    counted = [one.first for lines in telling for one in lines if one.first.state.counts]
-    severities = [cause.severity for cause in counted]
+    told = filter(options.shows, report.causes)
+    severities = [cause.severity for cause in told if cause.state.counts]
     return SEVERITY_STYLES[max(severities)] if severities else "bold green"
 
 
@@ -134,17 +141,8 @@ def _excerpt(site: Site, indent: str, style: str, options: Options) -> Iterator[
     before, number = printable(text[: column - 1]), str(site.line)
     bar = paint("|", "blue", options.color)
     yield f"{indent}{paint(number, 'blue', options.color)} {bar} {printable(text)}"
-    gap = " " * _cells(before)
+    gap = " " * cells(before)
     yield f"{indent}{' ' * len(number)} {bar} {gap}{paint('^', style, options.color)}"
-
-
-def _cells(text: str) -> int:
-    """How many columns of a terminal a text takes."""
-    if text.isascii():
-        return len(text)
-    from rich.cells import cell_len
-
-    return cell_len(text)
 
 
 def _details(finding: Finding, indent: str, options: Options) -> Iterator[str]:
@@ -218,20 +216,5 @@ def _labelled(label: str, text: str, style: str, indent: str, options: Options) 
     lines = [text]
     hang = len(indent) + len(label) + 1
     if options.color:
-        lines = list(_wrap(text, options.width - hang))
+        lines = list(wrap(text, options.width - hang))
     return f"{indent}{paint(label, style, options.color)} " + f"\n{' ' * hang}".join(lines)
-
-
-def _wrap(text: str, width: int) -> Iterator[str]:
-    """Text in lines of at most `width` cells; a word that is longer has a line of its own."""
-    from rich.cells import cell_len
-
-    line = ""
-    for word in (match.group() for match in _WORD.finditer(text)):
-        longer = f"{line} {word}" if line else word
-        if line and cell_len(longer) > width:
-            yield line
-            line = word
-        else:
-            line = longer
-    yield line

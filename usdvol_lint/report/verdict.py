@@ -11,11 +11,13 @@ from usdvol_lint.report.numbers import count, counts, duration
 from usdvol_lint.results import BaselineUse, Report, State, Summary
 from usdvol_lint.words import printable
 
-_MANY_CAUSES = 20
+MANY_CAUSES = 20
 _MANY_PAIRS = 5
 _BASELINE = "usdvol-lint-baseline.jsonl"
 _LONGEST_COMMAND = 300
-_OF_OUTPUT = frozenset({"--output", "--output-format", "--show", "--color", "--max-places"})
+_OF_OUTPUT = frozenset(
+    {"--output", "--output-format", "--show", "--color", "--max-places", "--summary"}
+)
 
 
 def verdict(report: Report, options: Options) -> str:
@@ -101,17 +103,26 @@ def _checked_counts(stats: Mapping[str, int]) -> str:
 # --- what to type next ----------------------------------------------------------------------------
 
 
-def advice(report: Report, verbose: bool) -> Iterator[str]:
+def advice(report: Report, options: Options) -> Iterator[str]:
     """The lines below the verdict."""
+    verbose = options.verbose
     if report.baseline:
         yield from _moved(report.baseline.moved, verbose)
         if verbose:
             yield from _gone(report.baseline)
     elif _may_adopt(report):
-        said = _typed(("usdvol-lint", "--write-baseline", _BASELINE, *_kept(report.run.command)))
-        if len(said) > _LONGEST_COMMAND:
-            said = f"usdvol-lint --write-baseline {_BASELINE} and the same arguments"
-        yield f"adopt them with: {said}"
+        yield f"adopt them with: {_again(report, '--write-baseline', _BASELINE)}"
+    if not options.summary and sum(map(options.shows, report.causes)) > MANY_CAUSES:
+        command = _again(report, "--summary", "stage")
+        yield f"the numbers alone, by rule, cause, stage or asset: {command}"
+
+
+def _again(report: Report, *added: str) -> str:
+    """The command of the run with other options than those about the report."""
+    said = _typed(("usdvol-lint", *added, *_kept(report.run.command)))
+    if len(said) > _LONGEST_COMMAND:
+        return f"{_typed(('usdvol-lint', *added))} and the same arguments"
+    return said
 
 
 def _kept(command: Sequence[str]) -> Iterator[str]:
@@ -148,7 +159,7 @@ def _may_adopt(report: Report) -> bool:
     """Whether somebody who wants to begin has more before them than can be mended today."""
     summary = report.summary
     asked_for_none = "--no-baseline" in report.run.command
-    return summary.errors + summary.warnings > _MANY_CAUSES and not asked_for_none
+    return summary.errors + summary.warnings > MANY_CAUSES and not asked_for_none
 
 
 def _typed(arguments: Sequence[str]) -> str:

@@ -1,0 +1,44 @@
+"""What a job in GitHub Actions has besides the text: annotations, and a summary of its step."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from usdvol_lint.report import Options
+from usdvol_lint.results import Report
+
+MOST_OF_A_SUMMARY = 900 * 1024
+"""How many bytes a step's summary may have; of one above 1,024 KiB GitHub shows nothing."""
+
+
+def is_github() -> bool:
+    return os.environ.get("GITHUB_ACTIONS") == "true"
+
+
+def guarded(parts: Iterable[str]) -> Iterator[str]:
+    """Text that GitHub takes no commands from, whatever stages have in their names."""
+    text = "".join(parts)
+    if text:
+        token = secrets.token_hex(16)  # which no stage can foresee
+        yield f"::stop-commands::{token}\n"
+        yield text
+        yield f"::{token}::\n"
+
+
+def summary_file() -> str | None:
+    """The file of the step's summary; None for a hook, whose calls would each add to it."""
+    file = os.environ.get("GITHUB_STEP_SUMMARY")
+    return file if file and not os.environ.get("PRE_COMMIT") else None
+
+
+def add_summary(file: Path, report: Report, options: Options) -> None:
+    """Adds the report to the summary of a step, as much as fits beside what others wrote."""
+    from usdvol_lint.report.markdown import markdown
+
+    written = file.stat().st_size if file.exists() else 0
+    text = markdown(report, options, max(0, MOST_OF_A_SUMMARY - written))
+    with file.open("ab") as summary:
+        summary.write(text.encode("utf-8", "backslashreplace"))

@@ -1,0 +1,82 @@
+"""The report as GitHub's annotations: workflow commands, of which it shows few."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from usdvol_lint.model import Severity
+from usdvol_lint.report import Writer
+from usdvol_lint.report.addresses import Address, addresses
+from usdvol_lint.report.numbers import count, counts
+from usdvol_lint.results import Cause, Report
+from usdvol_lint.words import printable
+
+MOST = 10
+"""How many errors, and how many warnings, GitHub shows of one step: it drops the rest."""
+
+
+class GitHub(Writer):
+    """The worst causes first, each once; then how many there are."""
+
+    def end(self, report: Report) -> Iterator[str]:
+        if report.failure:
+            yield _command("error", {"title": "usdvol-lint"}, report.failure)
+        address = addresses(report, self.options.repository)
+        left_out = []
+        for level in (Severity.ERROR, Severity.WARNING):
+            causes = [each for each in report.causes if _is_told(each, level)]
+            yield from (_annotation(each, address(each)) for each in causes[:MOST])
+            left_out.append((len(causes[MOST:]), level.label))
+        if more := counts(*left_out):
+            yield _command("notice", {"title": "usdvol-lint"}, _summary(report, more))
+
+
+def _is_told(cause: Cause, level: Severity) -> bool:
+    return cause.state.counts and cause.severity is level
+
+
+def _annotation(cause: Cause, address: Address) -> str:
+    finding = cause.first
+    properties = {"file": address.file, "title": f"{finding.code} {finding.name}"}
+    if address.line is not None:
+        properties["line"] = str(address.line)
+        if address.column is not None:
+            properties["col"] = str(address.column)
+    return _command(cause.severity.label, properties, "\n".join(_lines(cause, address)))
+
+
+def _lines(cause: Cause, address: Address) -> Iterator[str]:
+    finding = cause.first
+    site = finding.site
+    path = ".".join(filter(None, (site.prim, site.property)))
+    yield finding.message
+    where = [f"<{path}>"] if path else []
+    where += [f"frames {site.frames}"] if site.frames else []
+    where += [f"in {address.outside}"] if address.outside else []
+    where += [f"and {count(cause.count - 1, 'other place')}"] if cause.count > 1 else []
+    if where:
+        yield ", ".join(where)
+    if finding.suggestion:
+        yield f"help: {finding.suggestion}"
+
+
+def _summary(report: Report, more: str) -> str:
+    summary = report.summary
+    found = counts((summary.errors, "error"), (summary.warnings, "warning"))
+    where = count(summary.stages, "stage")
+    return f"{found} in {where}: {more} more than GitHub shows here are in the log"
+
+
+def _command(name: str, properties: dict[str, str], message: str) -> str:
+    said = ",".join(f"{key}={_property(value)}" for key, value in properties.items())
+    return f"::{name} {said}::{_data(message)}\n"
+
+
+def _data(text: str) -> str:
+    """Text as a workflow command has it: in one line, and without anything a terminal obeys."""
+    lines = map(printable, text.replace("%", "%25").split("\n"))
+    return "%0A".join(lines)
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")
