@@ -47,6 +47,7 @@ SITES = st.builds(
     times=TIMES,
     at_default=st.booleans(),
     excerpt=st.none() | st.builds(Excerpt, ANYTHING, st.integers(1, 200)),
+    entry=st.none() | st.tuples(st.integers(1, 10**6), st.integers(1, 200)),
 )
 SOURCES = st.sampled_from([Source(None), Source("a.usda", "/A"), Source("a.usda", "/B")]) | (
     st.builds(
