@@ -232,6 +232,10 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
 
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
 NOTHING = report(CLEAN)
+FAILED = report()._replace(
+    root=None, failure="studio.toml: there is no key 'ignroe': did you mean 'ignore'?"
+)
+"""A run that ended before it looked at anything."""
 
 _NO_FIGURES = ParticleFieldStats("/World/Void", 0, None, 0, None, None, None, None, None)
 _FIGURES = _NO_FIGURES._replace(

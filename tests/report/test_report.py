@@ -14,6 +14,7 @@ from process import ROOT
 from reports import (
     BY_CAUSE,
     EVERYTHING,
+    FAILED,
     FIGURES,
     INFOS,
     LONG_PRIM,
@@ -56,6 +57,14 @@ GOLDENS = (
     ("report.json", EVERYTHING, "json", Options()),
     ("report-clean.json", NOTHING, "json", Options()),
     ("report-causes.json", BY_CAUSE, "json", Options()),
+    ("report.sarif", EVERYTHING, "sarif", Options()),
+    ("report-clean.sarif", NOTHING, "sarif", Options()),
+    ("report-causes.sarif", BY_CAUSE, "sarif", Options(category="assets")),
+    ("report-failed.sarif", FAILED, "sarif", Options()),
+    ("gitlab.json", EVERYTHING, "gitlab", Options()),
+    ("gitlab-clean.json", NOTHING, "gitlab", Options()),
+    ("gitlab-causes.json", BY_CAUSE, "gitlab", Options()),
+    ("gitlab-failed.json", FAILED, "gitlab", Options()),
 )
 
 
@@ -77,7 +86,9 @@ def test_every_format_has_its_golden_files() -> None:
     """One of everything and one of nothing, but for the format that says nothing then."""
     plain = [(format, subject) for _, subject, format, options in GOLDENS if options == Options()]
     assert [format for format, subject in plain if subject is EVERYTHING] == list(FORMATS)
-    assert [format for format, subject in plain if subject is NOTHING] == ["full", "json"]
+    assert [format for format, subject in plain if subject is NOTHING] == [
+        *("full", "json", "sarif", "gitlab")
+    ]
     assert {path.name for path in GOLDEN.iterdir()} - {golden for golden, *_ in GOLDENS} == {
         "broken-shot.txt"  # of the documentation
     }
@@ -202,6 +213,8 @@ def test_printable(text: str, expected: str) -> None:
         ("full", {"rich", "json"}),
         ("concise", {"rich", "json"}),
         ("json", {"rich"}),
+        ("sarif", {"rich", "usdvol_lint.report.text", "usdvol_lint.report.json_report"}),
+        ("gitlab", {"rich", "urllib.parse", "usdvol_lint.report.json_report"}),
     ],
 )
 def test_imports_wait_until_needed(format: str | None, unwanted: set[str]) -> None:

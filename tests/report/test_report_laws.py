@@ -30,7 +30,20 @@ from usdvol_lint.results import BaselineUse, Report, RunInfo, State
 VALIDATOR = jsonschema.Draft202012Validator(STRICT)
 
 ANYTHING = st.text(alphabet=st.characters(categories=None), max_size=20) | st.sampled_from(
-    ["", "\x1b[31m", "[red]x[/red]", "a\r\nb", "\u2028", "\x85", "\udcff", "\ud800", "'a b'", "::"]
+    [
+        "",
+        "\x1b[31m",
+        "[red]x[/red]",
+        "a\r\nb",
+        "\u2028",
+        "\x85",
+        "\udcff",
+        "\ud800",
+        "'a b'",
+        "::",
+        "\n::error::",
+        "]]>",
+    ]
 )
 TIMES = st.lists(
     st.floats(-1e6, 1e6) | st.integers(-50, 50).map(float), max_size=6, unique=True
@@ -47,6 +60,7 @@ SITES = st.builds(
     times=TIMES,
     at_default=st.booleans(),
     excerpt=st.none() | st.builds(Excerpt, ANYTHING, st.integers(1, 200)),
+    entry=st.none() | st.tuples(st.integers(1, 10**6), st.integers(1, 200)),
 )
 SOURCES = st.sampled_from([Source(None), Source("a.usda", "/A"), Source("a.usda", "/B")]) | (
     st.builds(

@@ -47,7 +47,7 @@ def lint_stages(
         raise
     report = report._replace(run=_run_info(report.run, job.file))
     report, failure = job.prepared.apply(report) if job.prepared else (report, "")
-    output.write(report, job.destinations, job.options())
+    output.write(report._replace(failure=failure), job.destinations, job.options())
     if job.config.suppress and not given["quiet"]:
         _tell_expired(job.config)
     if failure:

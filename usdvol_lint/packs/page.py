@@ -37,6 +37,11 @@ class Page(NamedTuple):
     text: str
     path: Path
 
+    def sections(self) -> Mapping[str, str]:
+        """By heading, in order, what stands under it; what stands before the first is left out."""
+        _, *parts = _HEADING.split(self.text)
+        return {title: text.strip() for title, text in zip(parts[::2], parts[1::2], strict=True)}
+
     def examples(self) -> Iterator[Example]:
         """The unnamed blocks under `## Wrong` and `## Right`, with the named ones before each."""
         headings = [(match.start(), match["title"]) for match in _HEADING.finditer(self.text)]

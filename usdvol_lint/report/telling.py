@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from usdvol_lint.model import Finding
+from usdvol_lint.model import Finding, Site
 from usdvol_lint.report import Options
 from usdvol_lint.report.numbers import count, few
 from usdvol_lint.results import Cause, Report, StageResult, State
@@ -101,6 +101,15 @@ def message(one: Told, every: bool) -> str:
 def _place(finding: Finding) -> str:
     site = finding.site
     return f"<{printable(site.prim)}>" if site.prim else printable(site.layer)
+
+
+def variant_and_frames(site: Site) -> Iterator[str]:
+    """Under which variant and when it is seen."""
+    if site.variant:
+        yield f"variant {printable(site.variant)}"
+    if site.frames:
+        several = len(site.times) > 1 or site.at_default
+        yield f"{'frames' if several else 'frame'} {site.frames}"
 
 
 def elsewhere(one: Told, report: Report, every: bool) -> str:

@@ -11,7 +11,15 @@ from usdvol_lint.report.figures import figures
 from usdvol_lint.report.numbers import counts
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
 from usdvol_lint.report.table import table
-from usdvol_lint.report.telling import Told, elsewhere, message, remarks, shown, told
+from usdvol_lint.report.telling import (
+    Told,
+    elsewhere,
+    message,
+    remarks,
+    shown,
+    told,
+    variant_and_frames,
+)
 from usdvol_lint.report.verdict import MANY_CAUSES, advice, verdict
 from usdvol_lint.report.width import cells, wrap
 from usdvol_lint.results import Report, StageResult
@@ -174,11 +182,7 @@ def _where(site: Site) -> Iterator[str]:
     """Property, variant and frames: what is neither in the heading nor in the location."""
     if site.property:
         yield printable(site.property)
-    if site.variant:
-        yield f"variant {printable(site.variant)}"
-    if site.frames:
-        several = len(site.times) > 1 or site.at_default
-        yield f"{'frames' if several else 'frame'} {site.frames}"
+    yield from variant_and_frames(site)
 
 
 def _rule(finding: Finding) -> str:
