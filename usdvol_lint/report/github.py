@@ -8,6 +8,8 @@ from usdvol_lint.model import Severity
 from usdvol_lint.report import Writer
 from usdvol_lint.report.addresses import Address, addresses
 from usdvol_lint.report.numbers import count, counts
+from usdvol_lint.report.sentences import statements
+from usdvol_lint.report.undone import undone
 from usdvol_lint.results import Cause, Report
 from usdvol_lint.words import printable
 
@@ -19,14 +21,15 @@ class GitHub(Writer):
     """The worst causes first, each once; then how many there are."""
 
     def end(self, report: Report) -> Iterator[str]:
-        if report.failure:
-            yield _command("error", {"title": "usdvol-lint"}, report.failure)
+        found = list(undone(report))
+        yield from (_command("error", {"title": "usdvol-lint"}, what) for what in found)
         address = addresses(report, self.options.repository)
         left_out = []
         for level in (Severity.ERROR, Severity.WARNING):
             causes = [each for each in report.causes if _is_told(each, level)]
-            yield from (_annotation(each, address(each)) for each in causes[:MOST])
-            left_out.append((len(causes[MOST:]), level.label))
+            room = MOST - len(found) if level is Severity.ERROR else MOST
+            yield from (_annotation(each, address(each)) for each in causes[:room])
+            left_out.append((len(causes[room:]), level.label))
         if more := counts(*left_out):
             yield _command("notice", {"title": "usdvol-lint"}, _summary(report, more))
 
@@ -42,22 +45,7 @@ def _annotation(cause: Cause, address: Address) -> str:
         properties["line"] = str(address.line)
         if address.column is not None:
             properties["col"] = str(address.column)
-    return _command(cause.severity.label, properties, "\n".join(_lines(cause, address)))
-
-
-def _lines(cause: Cause, address: Address) -> Iterator[str]:
-    finding = cause.first
-    site = finding.site
-    path = ".".join(filter(None, (site.prim, site.property)))
-    yield finding.message
-    where = [f"<{path}>"] if path else []
-    where += [f"frames {site.frames}"] if site.frames else []
-    where += [f"in {address.outside}"] if address.outside else []
-    where += [f"and {count(cause.count - 1, 'other place')}"] if cause.count > 1 else []
-    if where:
-        yield ", ".join(where)
-    if finding.suggestion:
-        yield f"help: {finding.suggestion}"
+    return _command(cause.severity.label, properties, "\n".join(statements(cause, address)))
 
 
 def _summary(report: Report, more: str) -> str:

@@ -19,7 +19,7 @@ def sentences(cause: Cause, address: Address) -> str:
 
     The message comes first: where there is little room, hosts show the first sentence alone.
     """
-    return " ".join(map(_sentence, _parts(cause, address)))
+    return " ".join(map(_sentence, statements(cause, address)))
 
 
 def object_path(site: Site) -> str:
@@ -28,7 +28,8 @@ def object_path(site: Site) -> str:
     return f"{prim}.{site.property}" if site.property else prim
 
 
-def _parts(cause: Cause, address: Address) -> Iterator[str]:
+def statements(cause: Cause, address: Address) -> Iterator[str]:
+    """The same, each of them by itself and in full."""
     finding = cause.first
     yield printable(finding.message) or printable(finding.name) or "no message"
     if where := ", ".join(_where(cause)):
