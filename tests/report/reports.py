@@ -232,6 +232,10 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
 
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
 NOTHING = report(CLEAN)
+FAILED = report()._replace(
+    failure="usdvol-lint.toml: unknown key '<b>|`@me`', did you mean 'a]]>'?"
+)
+"""A run that ended before any stage was looked at."""
 
 _NO_FIGURES = ParticleFieldStats("/World/Void", 0, None, 0, None, None, None, None, None)
 _FIGURES = _NO_FIGURES._replace(

@@ -14,6 +14,7 @@ from process import ROOT
 from reports import (
     BY_CAUSE,
     EVERYTHING,
+    FAILED,
     FIGURES,
     INFOS,
     LONG_PRIM,
@@ -56,6 +57,18 @@ GOLDENS = (
     ("report.json", EVERYTHING, "json", Options()),
     ("report-clean.json", NOTHING, "json", Options()),
     ("report-causes.json", BY_CAUSE, "json", Options()),
+    ("report.jsonl", EVERYTHING, "jsonl", Options()),
+    ("report-clean.jsonl", NOTHING, "jsonl", Options()),
+    ("report-causes.jsonl", BY_CAUSE, "jsonl", Options()),
+    ("report-failed.jsonl", FAILED, "jsonl", Options()),
+    ("junit.xml", EVERYTHING, "junit", Options()),
+    ("junit-clean.xml", NOTHING, "junit", Options()),
+    ("junit-causes.xml", BY_CAUSE, "junit", Options(show=frozenset({"known", "suppressed"}))),
+    ("junit-failed.xml", FAILED, "junit", Options()),
+    ("markdown.md", EVERYTHING, "markdown", Options()),
+    ("markdown-clean.md", NOTHING, "markdown", Options()),
+    ("markdown-causes.md", BY_CAUSE, "markdown", Options(show=frozenset({"known", "suppressed"}))),
+    ("markdown-failed.md", FAILED, "markdown", Options()),
 )
 
 
@@ -77,7 +90,9 @@ def test_every_format_has_its_golden_files() -> None:
     """One of everything and one of nothing, but for the format that says nothing then."""
     plain = [(format, subject) for _, subject, format, options in GOLDENS if options == Options()]
     assert [format for format, subject in plain if subject is EVERYTHING] == list(FORMATS)
-    assert [format for format, subject in plain if subject is NOTHING] == ["full", "json"]
+    assert [format for format, subject in plain if subject is NOTHING] == [
+        format for format in FORMATS if format != "concise"
+    ]
     assert {path.name for path in GOLDEN.iterdir()} - {golden for golden, *_ in GOLDENS} == {
         "broken-shot.txt"  # of the documentation
     }
@@ -202,6 +217,9 @@ def test_printable(text: str, expected: str) -> None:
         ("full", {"rich", "json"}),
         ("concise", {"rich", "json"}),
         ("json", {"rich"}),
+        ("jsonl", {"rich", "xml", "usdvol_lint.report.text"}),
+        ("junit", {"rich", "json"}),
+        ("markdown", {"rich", "json", "xml"}),
     ],
 )
 def test_imports_wait_until_needed(format: str | None, unwanted: set[str]) -> None:
