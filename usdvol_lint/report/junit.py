@@ -25,7 +25,7 @@ _NO_STAGES = "no stages checked"
 
 # GitLab takes files of up to 30 MB.  Of these so much is for what is told of stages.
 _MOST_BYTES = 20_000_000
-_MOST_TOLD = 30_000
+_MOST_TOLD = 50_000
 _MOST_CAUSES = 200
 _MORE_AS_XML = 4
 
