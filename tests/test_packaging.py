@@ -75,6 +75,7 @@ def test_the_wheel_holds_all_of_it_and_nothing_else(wheel: Path) -> None:
         "usdvol_lint/py.typed",
         "usdvol_lint/help.txt",
         "usdvol_lint/report/report-2.0.schema.json",
+        "usdvol_lint/report/report-line-2.0.schema.json",
         "usdvol_lint/rules/asset/file_missing.py",
         "usdvol_lint/rules/asset/file_missing.md",
         "usdvol_lint/rules/lint/stage_unreadable.md",

@@ -233,7 +233,7 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
 NOTHING = report(CLEAN)
 FAILED = report()._replace(
-    root=None, failure="studio.toml: there is no key 'ignroe': did you mean 'ignore'?"
+    root=None, failure="usdvol-lint.toml: unknown key '<b>|`@me`', did you mean 'a]]>'?"
 )
 """A run that ended before it looked at anything."""
 

@@ -57,14 +57,30 @@ GOLDENS = (
     ("report.json", EVERYTHING, "json", Options()),
     ("report-clean.json", NOTHING, "json", Options()),
     ("report-causes.json", BY_CAUSE, "json", Options()),
+    ("report.jsonl", EVERYTHING, "jsonl", Options()),
+    ("report-clean.jsonl", NOTHING, "jsonl", Options()),
+    ("report-causes.jsonl", BY_CAUSE, "jsonl", Options()),
+    ("report-failed.jsonl", FAILED, "jsonl", Options()),
     ("report.sarif", EVERYTHING, "sarif", Options()),
     ("report-clean.sarif", NOTHING, "sarif", Options()),
     ("report-causes.sarif", BY_CAUSE, "sarif", Options(category="assets")),
     ("report-failed.sarif", FAILED, "sarif", Options()),
+    ("github.txt", EVERYTHING, "github", Options()),
+    ("github-clean.txt", NOTHING, "github", Options()),
+    ("github-causes.txt", BY_CAUSE, "github", Options()),
+    ("github-failed.txt", FAILED, "github", Options()),
     ("gitlab.json", EVERYTHING, "gitlab", Options()),
     ("gitlab-clean.json", NOTHING, "gitlab", Options()),
     ("gitlab-causes.json", BY_CAUSE, "gitlab", Options()),
     ("gitlab-failed.json", FAILED, "gitlab", Options()),
+    ("junit.xml", EVERYTHING, "junit", Options()),
+    ("junit-clean.xml", NOTHING, "junit", Options()),
+    ("junit-causes.xml", BY_CAUSE, "junit", Options(show=frozenset({"known", "suppressed"}))),
+    ("junit-failed.xml", FAILED, "junit", Options()),
+    ("markdown.md", EVERYTHING, "markdown", Options()),
+    ("markdown-clean.md", NOTHING, "markdown", Options()),
+    ("markdown-causes.md", BY_CAUSE, "markdown", Options(show=frozenset({"known", "suppressed"}))),
+    ("markdown-failed.md", FAILED, "markdown", Options()),
 )
 
 
@@ -87,7 +103,7 @@ def test_every_format_has_its_golden_files() -> None:
     plain = [(format, subject) for _, subject, format, options in GOLDENS if options == Options()]
     assert [format for format, subject in plain if subject is EVERYTHING] == list(FORMATS)
     assert [format for format, subject in plain if subject is NOTHING] == [
-        *("full", "json", "sarif", "gitlab")
+        format for format in FORMATS if format != "concise"
     ]
     assert {path.name for path in GOLDEN.iterdir()} - {golden for golden, *_ in GOLDENS} == {
         "broken-shot.txt"  # of the documentation
@@ -215,6 +231,9 @@ def test_printable(text: str, expected: str) -> None:
         ("json", {"rich"}),
         ("sarif", {"rich", "usdvol_lint.report.text", "usdvol_lint.report.json_report"}),
         ("gitlab", {"rich", "urllib.parse", "usdvol_lint.report.json_report"}),
+        ("jsonl", {"rich", "xml", "usdvol_lint.report.text"}),
+        ("junit", {"rich", "json"}),
+        ("markdown", {"rich", "json", "xml"}),
     ],
 )
 def test_imports_wait_until_needed(format: str | None, unwanted: set[str]) -> None:

@@ -35,7 +35,7 @@ Times: TypeAlias = tuple[str | None, list[int | float]]
 """Time codes as people read them, and as programs do."""
 
 
-class _Shared(NamedTuple):
+class Shared(NamedTuple):
     """What many causes have in common, each computed once in a report."""
 
     cover: Callable[[Cover], Mapping[str, object]]
@@ -43,7 +43,7 @@ class _Shared(NamedTuple):
     root: str | None
 
     @classmethod
-    def of(cls, report: Report) -> _Shared:
+    def of(cls, report: Report) -> Shared:
         from usdvol_lint.baseline.cover import cover_as_json
 
         return cls(cache(cover_as_json), cache(_times), report.root)
@@ -52,43 +52,45 @@ class _Shared(NamedTuple):
 class Json(Writer):
     """One object; what is known before the first cause stands first."""
 
-    _shared: _Shared
+    _shared: Shared
     _before = "[\n"
 
     def begin(self, report: Report) -> Iterator[str]:
-        self._shared = _Shared.of(report)
+        self._shared = Shared.of(report)
         yield "{\n"
-        for key, value in _head(report).items():
-            yield f"  {_line(key)}: {_line(value)},\n"
+        for key, value in head(report).items():
+            yield f"  {line(key)}: {line(value)},\n"
         yield '  "causes": '
 
     def cause(self, number: int, cause: Cause) -> Iterator[str]:
-        yield f"{self._before}    {_line(_cause(cause, self._shared))}"
+        yield f"{self._before}    {line(cause_object(cause, cause.places, self._shared))}"
         self._before = ",\n"
 
     def end(self, report: Report) -> Iterator[str]:
         yield "[]" if self._before == "[\n" else "\n  ]"
-        for key, value in _rest(report).items():
-            yield f",\n  {_line(key)}: {_value(value)}"
+        for key, value in rest(report).items():
+            yield f",\n  {line(key)}: {_value(value)}"
         yield "\n}\n"
 
 
 def _value(value: object) -> str:
     """A value on one line, or a list with a line for each item."""
     if not isinstance(value, list):
-        return _line(value)
-    items = ",\n".join(f"    {_line(item)}" for item in value)
+        return line(value)
+    items = ",\n".join(f"    {line(item)}" for item in value)
     return f"[\n{items}\n  ]" if items else "[]"
 
 
-def _line(value: object) -> str:
+def line(value: object) -> str:
+    """A value in one line."""
     text = _ENCODE(value)
     if text.isascii() and "\x7f" not in text:
         return text
     return _TO_ESCAPE.sub(lambda match: f"\\u{ord(match.group()):04x}", text)
 
 
-def _head(report: Report) -> dict[str, object]:
+def head(report: Report) -> dict[str, object]:
+    """What is known before the first cause."""
     from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 
     return {
@@ -105,7 +107,8 @@ def _head(report: Report) -> dict[str, object]:
     }
 
 
-def _rest(report: Report) -> dict[str, object]:
+def rest(report: Report) -> dict[str, Any]:
+    """What is known after the last cause."""
     return {
         "partial": False,
         "failure": report.failure or None,
@@ -184,7 +187,8 @@ def _completion(completion: Completion) -> dict[str, object]:
     }
 
 
-def _cause(cause: Cause, shared: _Shared) -> dict[str, object]:
+def cause_object(cause: Cause, places: Iterable[Place], shared: Shared) -> dict[str, object]:
+    """A cause with some of its places."""
     first = cause.places[0].finding
     site = first.site
     return {
@@ -203,7 +207,7 @@ def _cause(cause: Cause, shared: _Shared) -> dict[str, object]:
         "source": _source(cause.source, first, shared.root),
         "excerpt": _excerpt(site),
         "count": cause.count,
-        "places": [_place(place, first, shared) for place in cause.places],
+        "places": [place_object(place, first, shared) for place in places],
     }
 
 
@@ -229,7 +233,7 @@ def _excerpt(site: Site) -> dict[str, object] | None:
     return {"text": text, "column": column}
 
 
-def _place(place: Place, first: Finding, shared: _Shared) -> dict[str, object]:
+def place_object(place: Place, first: Finding, shared: Shared) -> dict[str, object]:
     """A place; it has the words of the cause unless it says others."""
     stage, finding = place
     site = finding.site

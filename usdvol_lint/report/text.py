@@ -128,14 +128,14 @@ def _told(one: Told, report: Report, indent: str, options: Options) -> Iterator[
     if cause.source.layer is not None:
         yield f"{indent}{paint('-->', 'blue', options.color)} {location(finding.site)}"
         yield from _excerpt(finding.site, indent, style, options)
-    if where := ", ".join(_where(finding.site)):
-        yield _labelled("at", where, "blue", indent, options)
+    if place := ", ".join(where(finding.site)):
+        yield _labelled("at", place, "blue", indent, options)
     if others := elsewhere(one, report, options.verbose):
         yield _labelled("also", others, "blue", indent, options)
     for name, said in remarks(one):
         yield _labelled(name, said, style, indent, options)
     if finding.suggestion:
-        suggestion = finding.suggestion if options.verbose else _shortened(finding.suggestion)
+        suggestion = finding.suggestion if options.verbose else shortened(finding.suggestion)
         yield _labelled("help:", printable(suggestion), "green", indent, options)
     if options.verbose:
         yield from _details(finding, indent, options)
@@ -160,7 +160,7 @@ def _details(finding: Finding, indent: str, options: Options) -> Iterator[str]:
         yield f"{indent}| {printable(line)}".rstrip()
 
 
-def _shortened(suggestion: str) -> str:
+def shortened(suggestion: str) -> str:
     """A long suggestion, such as a list of frames to paste, cut off between two of its items."""
     if len(suggestion) <= _LONGEST_SUGGESTION:
         return suggestion
@@ -178,7 +178,7 @@ def location(site: Site) -> str:
     return ":".join(parts)
 
 
-def _where(site: Site) -> Iterator[str]:
+def where(site: Site) -> Iterator[str]:
     """Property, variant and frames: what is neither in the heading nor in the location."""
     if site.property:
         yield printable(site.property)

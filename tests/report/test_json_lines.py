@@ -1,0 +1,108 @@
+"""The report line by line holds what the one in one object does, and follows its own schema."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import jsonschema  # type: ignore[import-untyped]
+import pytest
+from hypothesis import given
+from process import ROOT
+from referencing import Registry, Resource
+from reports import BY_CAUSE, SCHEMA, STRICT, TANK, report, shown_on
+from test_report_laws import LAW, OPTIONS, REPORTS
+
+from usdvol_lint.model import Severity
+from usdvol_lint.report import Options, render
+from usdvol_lint.report.json_lines import JsonLines
+from usdvol_lint.report.json_report import SCHEMA_VERSION
+from usdvol_lint.results import Report
+
+LINE: dict[str, Any] = json.loads(
+    (ROOT / f"usdvol_lint/report/report-line-{SCHEMA_VERSION}.schema.json").read_text("utf-8")
+)
+VALIDATOR = jsonschema.Draft202012Validator(
+    LINE, registry=Registry().with_resource(SCHEMA["$id"], Resource.from_contents(SCHEMA))
+)
+
+
+def lines(subject: Report, options: Options) -> list[dict[str, Any]]:
+    text = render(subject, "jsonl", options)
+    text.encode("utf-8")
+    assert text.endswith("\n")
+    return [json.loads(line, parse_constant=pytest.fail) for line in text.splitlines()]
+
+
+def rebuilt(told: list[dict[str, Any]]) -> dict[str, Any]:
+    """The report in one object, as a reader who knows the schema alone makes it."""
+    whole: dict[str, Any] = {"causes": [], "stages": []}
+    for line in told:
+        match line.pop("type"):
+            case "run" | "summary":
+                whole |= line
+            case "cause":
+                assert line.pop("number") == len(whole["causes"])
+                whole["causes"].append(line)
+            case "place":
+                whole["causes"][line.pop("cause")]["places"].append(line)
+            case "stage":
+                assert line.pop("number") == len(whole["stages"])
+                whole["stages"].append(line)
+    return whole
+
+
+@LAW
+@given(REPORTS, OPTIONS)
+def test_the_whole_report_can_be_made_of_the_lines(subject: Report, options: Options) -> None:
+    told = lines(subject, options)
+    for line in told:
+        VALIDATOR.validate(line)
+    whole = rebuilt(told)
+    assert whole == json.loads(render(subject, "json", options))
+    jsonschema.validate(whole, STRICT)
+
+
+def test_the_lines_in_order() -> None:
+    types = [line["type"] for line in lines(BY_CAUSE, Options())]
+    places = [len(cause.places) - 1 for cause in BY_CAUSE.causes]
+    causes = [each for more in places for each in ("cause", *["place"] * more)]
+    assert types == ["run", *causes, *["stage"] * len(BY_CAUSE.stages), "summary"]
+
+
+def test_a_place_may_follow_when_it_is_met() -> None:
+    """As it does where a cause is told as soon as the first stage shows it."""
+    other = TANK._replace(message="other", severity=Severity.INFO)
+    subject = report(
+        shown_on("a", TANK, "/A"), shown_on("b", TANK, "/B"), shown_on("c", other, "/C")
+    )
+    (cause,) = subject.causes
+    writer = JsonLines(Options())
+    list(writer.begin(subject))
+    for number in (0, 1):
+        list(writer.cause(number, cause._replace(places=cause.places[number:])))
+    (text,) = writer.place(0, cause.places[2])
+    line = json.loads(text)
+    VALIDATOR.validate(line)
+    assert (line["cause"], line["stage"], line["message"]) == (0, 2, "other")
+    assert line["severity"] == "info"
+
+
+def test_the_schema_describes_itself_and_what_it_refers_to() -> None:
+    jsonschema.Draft202012Validator.check_schema(LINE)
+    assert f"urn:usdvol-lint:report-line:{SCHEMA_VERSION}" == LINE["$id"]
+    named = [one["if"]["properties"]["type"]["const"] for one in LINE["allOf"]]
+    assert named == [name for name in LINE["$defs"] if name != "number"]
+    assert all("description" in LINE["$defs"][name] for name in named)
+
+
+@pytest.mark.parametrize("kind", ["run", "cause", "place", "stage", "summary"])
+def test_the_schema_asks_for_all_of_a_line(kind: str) -> None:
+    """A line of a type that later versions add passes, and none that lacks something."""
+    line = next(line for line in lines(BY_CAUSE, Options()) if line["type"] == kind)
+    VALIDATOR.validate({**line, "later": 1})
+    VALIDATOR.validate({"type": "level", "cause": 1})
+    for key in line:
+        less = {name: value for name, value in line.items() if name != key}
+        with pytest.raises(jsonschema.ValidationError):
+            VALIDATOR.validate(less)

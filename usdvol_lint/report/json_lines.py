@@ -1,0 +1,47 @@
+"""The report for programs that read line by line: each follows `report-line-2.0.schema.json`.
+
+The lines hold the very objects of the JSON report: `run` comes first and has what stands there
+before the causes, `summary` comes last and has what stands there after them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from usdvol_lint.model import Finding
+from usdvol_lint.report import Options, Writer
+from usdvol_lint.report.json_report import Shared, cause_object, head, line, place_object, rest
+from usdvol_lint.results import Cause, Place, Report
+
+
+class JsonLines(Writer):
+    """A line when something is known; what a place says of its own is held against the first."""
+
+    _shared: Shared
+
+    def __init__(self, options: Options) -> None:
+        super().__init__(options)
+        self._first: dict[int, Finding] = {}
+
+    def begin(self, report: Report) -> Iterator[str]:
+        self._shared = Shared.of(report)
+        yield _of_type("run", head(report))
+
+    def cause(self, number: int, cause: Cause) -> Iterator[str]:
+        self._first[number] = cause.first
+        said = cause_object(cause, cause.places[:1], self._shared)
+        yield _of_type("cause", {"number": number, **said})
+
+    def place(self, number: int, place: Place) -> Iterator[str]:
+        said = place_object(place, self._first[number], self._shared)
+        yield _of_type("place", {"cause": number, **said})
+
+    def end(self, report: Report) -> Iterator[str]:
+        last = rest(report)
+        for number, stage in enumerate(last.pop("stages")):
+            yield _of_type("stage", {"number": number, **stage})
+        yield _of_type("summary", last)
+
+
+def _of_type(name: str, said: Mapping[str, object]) -> str:
+    return line({"type": name, **said}) + "\n"
