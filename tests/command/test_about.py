@@ -133,6 +133,6 @@ def test_completion(tmp_path: Path) -> None:
 
 
 def test_formats_are_named_once() -> None:
-    assert tuple(FORMATS) == OUTPUT_FORMATS
+    assert ("auto", *FORMATS) == OUTPUT_FORMATS
     words = cli.command.get_help(cli.click.Context(cli.command))
     assert all(re.search(rf"\b{name}\b", words) for name in FORMATS)

@@ -20,6 +20,8 @@ fog.usda
   /fog
     STU001 error: {WRONG}
       --> fog.usda:2:1
+      2 | def Volume "fog"
+        | ^
 """
 
 VERDICT = re.compile(r"1 error in 1 of 2 stages; 2 volumes checked in [\d.]+ s\n")
@@ -216,5 +218,8 @@ def test_foreign_text_is_harmless(format: str, tmp_path: Path) -> None:
         assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e]", plain), repr(plain)
         if format == "json":
             assert {stage["path"] for stage in ran.json["stages"]} >= {name, "broken.usda"}
+        elif format == "github":
+            commands = re.findall(r"^::(error|warning|notice) [^\n]*$", plain, re.MULTILINE)
+            assert len(commands) == len(plain.splitlines())
         else:
             assert not re.search(r"^::", plain, re.MULTILINE)

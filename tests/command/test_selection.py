@@ -203,7 +203,7 @@ def test_mistakes_on_the_command_line(
 def test_an_unknown_format_names_the_nearest(tool: Callable[..., Ran]) -> None:
     ran = tool("--isolated", "--output-format", "jsn", ".")
     assert (ran.code, ran.out) == (2, "")
-    assert ran.err.startswith("usdvol-lint: error: --output-format must be one of full, concise, ")
+    assert ran.err.startswith("usdvol-lint: error: --output-format must be one of auto, full, ")
     assert ran.err.endswith("not 'jsn'; did you mean 'json'?\n")
 
 

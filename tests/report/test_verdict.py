@@ -227,13 +227,28 @@ def test_who_has_many_is_told_how_to_begin(
 ) -> None:
     subject = report(SHOT._replace(findings=findings))
     subject = subject._replace(run=subject.run._replace(command=command))
-    *_, last = render(subject, "full", Options()).splitlines()
+    lines = render(subject, "full", Options()).splitlines()
+    last = next((line for line in reversed(lines) if line.startswith("adopt")), "")
     begin = "adopt them with: usdvol-lint --write-baseline usdvol-lint-baseline.jsonl "
     assert last.startswith(begin) == (expected is not None)
     if expected:
         assert last == begin + expected
     assert "adopt" not in render(subject, "full", Options(quiet=True))
     assert "adopt" not in render(subject._replace(baseline=USED), "full", Options())
+
+
+def test_a_long_report_ends_with_its_numbers_and_where_more_are() -> None:
+    """A table by rule, and the command that prints it by something else, alone."""
+    subject = report(SHOT._replace(findings=many(21)))
+    subject = subject._replace(run=subject.run._replace(command=("usdvol-lint", "shots")))
+    lines = render(subject, "full", Options()).splitlines()
+    head = next(number for number, line in enumerate(lines) if line.startswith("code "))
+    assert lines[head + 1].split() == ["FLD002", "error", "21", "21"]
+    assert lines[-1] == (
+        "the numbers alone, by rule, cause, stage or asset: usdvol-lint --summary stage shots"
+    )
+    short = render(report(SHOT._replace(findings=many(20))), "full", Options())
+    assert not any(line.startswith("code ") for line in short.splitlines())
 
 
 def test_one_cause_in_many_places_is_no_reason_to_adopt() -> None:
