@@ -97,11 +97,13 @@ def test_only_a_configuration_that_is_named_counts(here: Path) -> None:
     (here / "usdvol-lint.toml").write_text("ignore = ['AST']", encoding="utf-8")
     assert "AST002" in said("gone.usda")
     assert_clean("gone.usda", config="usdvol-lint.toml")
+    assert_clean("gone.usda", config="usdvol-lint.toml", ignore="SCH")
+    suppress = "suppress = [{ files = '/gone.usda', reason = 'later' }]"
+    (here / "usdvol-lint.toml").write_text(suppress, encoding="utf-8")
+    assert_clean("gone.usda", config=here / "usdvol-lint.toml")
     (here / "lax").mkdir()
     lax = here / "lax" / "lax.toml"
-    lax.write_text(
-        "suppress = [{ files = 'gone.usda', reason = 'later' }]\nroot = '..'", encoding="utf-8"
-    )
+    lax.write_text(f"{suppress}\nroot = '..'", encoding="utf-8")
     assert_clean("gone.usda", config=lax)
     assert "AST010" in said(".", config=lax, fail_on="info", ignore="SCH")
 

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from process import ROOT, Ran, run, settings, write
 
+from usdvol_lint import lint
+from usdvol_lint.report import Options
 from usdvol_lint.results import UNCHECKED
 
 FIELD = """\
@@ -90,7 +92,7 @@ def test_it_fails_no_run_that_checks_all(tmp_path: Path) -> None:
 def test_the_verdict_counts_it(tmp_path: Path) -> None:
     ran = run("--fail-on-unchecked", "uri.usda", cwd=uri(tmp_path))
     said = "no errors or warnings in 1 stage; 1 not checked, which --fail-on-unchecked counts; "
-    assert ran.out.splitlines()[-1].startswith(said)
+    assert ran.out.splitlines()[-1].startswith(f"{said}1 volume checked in ")
 
 
 def test_a_configuration_can_ask_for_it(tmp_path: Path, tool: Callable[..., Ran]) -> None:
@@ -108,6 +110,13 @@ def test_what_is_known_or_suppressed_does_not_count(tmp_path: Path) -> None:
     suppress = 'suppress = [{ rules = ["AST010"], reason = "checked on the farm" }]'
     (tmp_path / "usdvol-lint.toml").write_text(suppress, encoding="utf-8")
     assert run(*strict, cwd=tmp_path) == Ran(0, "", "")
+
+
+def test_every_format_knows_that_it_fails_the_run(tmp_path: Path) -> None:
+    (cause,) = lint([str(uri(tmp_path) / "uri.usda")]).causes
+    options = Options(fail_on=None)
+    assert not options.fails(cause)
+    assert options._replace(fail_on_unchecked=True).fails(cause)
 
 
 @pytest.mark.parametrize(
