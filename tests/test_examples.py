@@ -26,6 +26,8 @@ BLOCK = re.compile(r"^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.MULTILINE | 
 SESSION = re.compile(r"\A\$ usdvol-lint (?P<arguments>.*)\n(?P<output>(?:.|\n)+)")
 LINK = re.compile(r"\]\((?!https?:)(?P<path>[^)#]+)\)")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
+FOREIGN = re.compile(r"\b(?:python -m tests|pip install|git [a-z]+)\b[^`\n]*")
+"""Commands with options of their own."""
 
 
 def run(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
@@ -121,7 +123,7 @@ def test_links_lead_somewhere(path: Path) -> None:
 @pytest.mark.parametrize("path", GUIDES, ids=ids)
 def test_options_exist(path: Path) -> None:
     known = {name for parameter in command.params for name in parameter.opts} | {"--help"}
-    text = re.sub(r"`python -m tests[^`]*`", "", path.read_text(encoding="utf-8"))
+    text = FOREIGN.sub("", path.read_text(encoding="utf-8"))
     assert set(OPTION.findall(text)) <= known
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from process import ROOT
+from pxr import Sdf
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
 
@@ -36,7 +38,14 @@ repos:
       - id: usdvol-lint
       - id: usdvol-lint-all
         stages: [manual]
+      - id: usdvol-lint
+        alias: telling
+        entry: usdvol-lint
+        stages: [manual]
 """
+LONG = () if os.name == "nt" else ("long" * 50,) * 3
+"""Folders by which a few files make a command as long as a system or pre-commit takes."""
+MANY = 240
 LEFT_OUT = {".git", ".venv", "__pycache__", ".hypothesis", "dist"}
 
 
@@ -99,24 +108,38 @@ def shots(tmp_path: Path) -> Repository:
 
 
 def write_stage(repository: Repository, name: str, file: str) -> None:
-    text = STAGE.replace("FILE", file)
-    (repository.folder / name).write_text(text, encoding="utf-8", newline="\n")
+    """A stage with a volume of that file: text, a crate or a package, as the name says."""
+    path = repository.folder / name
+    text = path if path.suffix == ".usda" else repository.folder / "source.usda"
+    text.write_text(STAGE.replace("FILE", file), encoding="utf-8", newline="\n")
+    if path.suffix == ".usdc":
+        assert Sdf.Layer.FindOrOpen(str(text)).Export(str(path))
+    elif path.suffix == ".usdz":
+        with Sdf.ZipFileWriter.CreateNew(str(path)) as package:
+            package.AddFile(str(text), "smoke.usda")
+            if file == "cloud":
+                package.AddFile(str(repository.folder / "cloud.vdb"), "cloud.vdb")
+    if text != path:
+        text.unlink()
 
 
 def test_hooks(shots: Repository) -> None:
     """One story, because an environment is costly to set up."""
     shutil.copy(ROOT / "rules" / "assets" / "cloud.vdb", shots.folder)
-    write_stage(shots, "clean.usda", "cloud")
-    write_stage(shots, "broken.usda", "gone")
+    for suffix in (".usda", ".usdc", ".usdz"):
+        write_stage(shots, f"clean{suffix}", "cloud")
+        write_stage(shots, f"broken_{suffix[1:]}{suffix}", "gone")
     (shots.folder / "notes.txt").write_text("no stage\n")
 
     code, said = shots.pre_commit()
     assert code == 1, said
     assert "- exit code: 1" in said
-    assert "broken.usda\n  /smoke/density\n    AST002 error: no file at './gone.vdb'\n" in said
-    assert "clean.usda" not in said
+    for name in ("broken_usda.usda", "broken_usdc.usdc", "broken_usdz.usdz"):
+        assert f"{name}\n  /smoke/density\n    AST002 error: no file at './gone.vdb'" in said
+    assert "clean." not in said
 
-    write_stage(shots, "broken.usda", "cloud")
+    for suffix in (".usda", ".usdc", ".usdz"):
+        write_stage(shots, f"broken_{suffix[1:]}{suffix}", "cloud")
     code, said = shots.pre_commit()
     assert code == 0, said
     assert said.splitlines()[-1].endswith("Passed")
@@ -128,10 +151,37 @@ def test_hooks(shots: Repository) -> None:
     assert code == 0
     assert said.rstrip().endswith("(no files to check)Skipped")
 
-    # No stage is in this commit, and both are broken by it.
+    # No stage is in this commit, and all but the packages are broken by it.
     (shots.folder / "cloud.vdb").unlink()
     code, said = shots.pre_commit()
     assert code == 0
     code, said = shots.pre_commit("--hook-stage", "manual", "usdvol-lint-all")
     assert code == 1, said
-    assert said.count("AST002 error: no file at './cloud.vdb'") == 2
+    assert said.count("AST002 error: no file at './cloud.vdb'") == 4
+    shots.git("checkout", "HEAD", "--", "cloud.vdb")
+    code, said = shots.pre_commit("--hook-stage", "manual", "usdvol-lint-all")
+    assert (code, len(said.splitlines())) == (0, 1), said
+
+    commands_that_are_split(shots)
+
+
+def commands_that_are_split(shots: Repository) -> None:
+    """A command with so many files is several: all are checked, and the worst exit code counts."""
+    folder = shots.folder.joinpath(*LONG)
+    folder.mkdir(parents=True, exist_ok=True)
+    tail = "x" * 100
+    for number in range(MANY):
+        (folder / f"{number:03}{tail}.usda").write_text('#usda 1.0\ndef Xform "x"\n{\n}\n')
+    write_stage(shots, (folder / f"000{tail}.usda").relative_to(shots.folder).as_posix(), "gone")
+    code, said = shots.pre_commit("--hook-stage", "manual", "telling")
+    verdicts = re.findall(r" in (?:\d+ of )?(\d+) stages; ", said)
+    assert len(verdicts) > 1
+    assert sum(map(int, verdicts)) == MANY
+    assert "- exit code: 1" in said
+    assert said.count("AST002 error: no file at './gone.vdb'") == 1
+
+    (folder / f"{MANY - 1:03}{tail}.usda").write_text("#usda 1.0\ndef")
+    code, said = shots.pre_commit()
+    assert code == 1
+    assert "- exit code: 2" in said
+    assert said.count(" AST002 error: ") == said.count(" LNT001 error: ") == 1

@@ -6,6 +6,7 @@ TYPE_CHECKING = False  # as good as typing's, whose import would take half of th
 if TYPE_CHECKING:
     from typing import Any
 
+    from usdvol_lint.asserting import assert_clean
     from usdvol_lint.config import Config
     from usdvol_lint.model import Cover, Finding, Severity, Site, Source, Status, UsageError
     from usdvol_lint.results import Cause, Place, Report, StageResult, State
@@ -27,11 +28,13 @@ __all__ = [
     "Status",
     "UsageError",
     "__version__",
+    "assert_clean",
     "lint",
 ]
 
 _HOMES = {
     "Config": "config",
+    "assert_clean": "asserting",
     "lint": "run.lint",
     **dict.fromkeys(("Cause", "Place", "Report", "StageResult", "State"), "results"),
 }

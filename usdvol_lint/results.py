@@ -17,6 +17,9 @@ from usdvol_lint.model import (
     Status,
 )
 
+UNCHECKED = frozenset({"LNT004", "LNT005", "AST010", "STG001", "STG004"})
+"""The codes that say that something was not checked, whatever else they say of it."""
+
 
 class State(StrEnum):
     """What a cause is beside the baseline in use: `known` is in it, `worse` goes beyond it.
@@ -74,6 +77,11 @@ class Cause(NamedTuple):
     @property
     def name(self) -> str:
         return self.first.name
+
+    @property
+    def is_unchecked(self) -> bool:
+        """Whether it counts, and says that something was not checked."""
+        return self.state.counts and self.code in UNCHECKED
 
 
 class StageResult(NamedTuple):

@@ -63,7 +63,8 @@ def test_a_pack_that_prints_does_not_garble_the_report(tmp_path: Path) -> None:
     [
         (
             "raise ImportError('no libusd.so,\\n reinstall')",
-            "USD can't be imported (no libusd.so, reinstall); install usd-core",
+            "USD can't be imported (no libusd.so, reinstall): install usd-core, or put the folder "
+            "with the pxr of another USD on PYTHONPATH",
         ),
         (
             "raise RuntimeError('boom')",

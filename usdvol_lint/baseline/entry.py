@@ -36,9 +36,10 @@ def entry_of(cause: Cause) -> Entry:
     return Entry(cause.fingerprint, cause.code, cause.source, cause.cover)
 
 
-def least_held(fail_on: object) -> Severity:
-    """The severity from which on a baseline holds causes."""
-    return Severity.INFO if fail_on == "info" else Severity.WARNING
+def least_held(settings: Mapping[str, object]) -> Severity:
+    """The severity from which on a baseline holds causes: infos where they may fail a run."""
+    are_infos = settings.get("fail_on") == "info" or settings.get("fail_on_unchecked") is True
+    return Severity.INFO if are_infos else Severity.WARNING
 
 
 def is_held(entry: Entry, state: State, severity: Severity, least: Severity) -> bool:

@@ -71,7 +71,7 @@ def _from_report(file: str, report: dict[str, Any]) -> Baseline:
         file=file,
         root=None,
         scope=scope_from_json(file, settings, arguments),
-        entries=by_fingerprint(_held(file, report, least_held(settings.get("fail_on")))),
+        entries=by_fingerprint(_held(file, report, least_held(settings))),
         has_root=optional_string(file, report, "root") is not None,
         is_report=True,
     )

@@ -182,7 +182,7 @@ def _entries(report: Report, prepared: Prepared, covers: bool) -> Mapping[str, E
     entries = prepared.baseline.entries if prepared.baseline else {}
     if not prepared.use.write:
         return pruned(entries, report.causes)
-    now = held(report.causes, least_held(report.settings.get("fail_on")))
+    now = held(report.causes, least_held(report.settings))
     return brought_up_to_date(entries, now, covers)
 
 

@@ -66,6 +66,8 @@ class _Command(click.Command):
 @click.option("--fail-on", metavar="LEVEL",
               shell_complete=_complete_from("FAIL_ON"),
               help="Exit with 1 from this level on: error (default), warning, info, never.")
+@click.option("--fail-on-unchecked", is_flag=True,
+              help="Exit with 1 if something could not be checked, whatever its level.")
 @click.option("--output-format", multiple=True, metavar="FORMAT",
               shell_complete=_complete_from("OUTPUT_FORMATS"),
               help="auto (default), full, concise, json, jsonl, sarif, github, gitlab, junit, "

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from usdvol_lint.config import Config
     from usdvol_lint.results import Report
 
 CLEAN, FINDINGS, FAILED = 0, 1, 2
 
 
-def exit_code(report: Report, fail_on: str, fail_on_unpruned: bool = False) -> int:
+def exit_code(report: Report, config: Config, fail_on_unpruned: bool = False) -> int:
+    """What a run exits with: from `fail-on` on a cause fails it, and what `config` says besides."""
     from usdvol_lint.model import Severity
     from usdvol_lint.packs.catalog import NOT_IGNORABLE
 
@@ -18,8 +20,10 @@ def exit_code(report: Report, fail_on: str, fail_on_unpruned: bool = False) -> i
         return FAILED
     if fail_on_unpruned and report.baseline and report.baseline.is_unpruned:
         return FINDINGS
-    if fail_on == "never":
+    if config.fail_on_unchecked and any(cause.is_unchecked for cause in report.causes):
+        return FINDINGS
+    if config.fail_on == "never":
         return CLEAN
-    threshold = Severity[fail_on.upper()]
+    threshold = Severity[config.fail_on.upper()]
     counted = (cause.severity for cause in report.causes if cause.state.counts)
     return FINDINGS if any(severity >= threshold for severity in counted) else CLEAN

@@ -54,7 +54,7 @@ def lint_stages(
         raise UsageError(failure)
     if given["write_baseline"] is not None:
         return CLEAN
-    return exit_code(report, job.config.fail_on, given["fail_on_unpruned"])
+    return exit_code(report, job.config, given["fail_on_unpruned"])
 
 
 class _Job:

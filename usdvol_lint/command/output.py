@@ -139,7 +139,12 @@ def options_of(given: dict[str, Any], config: Config | None = None) -> Options:
     if config is None:
         return options
     fail_on = None if config.fail_on == "never" else Severity[config.fail_on.upper()]
-    return options._replace(least=config.least_shown, show=frozenset(config.show), fail_on=fail_on)
+    return options._replace(
+        least=config.least_shown,
+        show=frozenset(config.show),
+        fail_on=fail_on,
+        fail_on_unchecked=config.fail_on_unchecked,
+    )
 
 
 def options_for(color: str, quiet: bool, verbose: bool) -> Options:

@@ -14,7 +14,7 @@ from usdvol_lint.model import UsageError
 
 _REPLACING = (
     *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
-    *("max-places", "root", "baseline", "today"),
+    *("max-places", "root", "baseline", "today", "fail-on-unchecked"),
 )
 """The options that replace what the file says; the others add to it."""
 
@@ -58,14 +58,18 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
 
 
 def _check_depth(settings: Config) -> None:
-    """Raises UsageError where a suppression would seem unused because little is looked at."""
-    if "unused" not in settings.show:
-        return
-    for name in ("load", "content", "times"):
+    """Raises UsageError where little is looked at, and much is concluded from it.
+
+    A suppression would seem unused, and what was left out checked.
+    """
+    asked = "--show unused" if "unused" in settings.show else ""
+    if settings.fail_on_unchecked:
+        asked = "--fail-on-unchecked"
+    for name in ("load", "content", "times") if asked else ():
         value = getattr(settings, name)
         if value != "all":
             raise UsageError(
-                f"--show unused needs a run that looks at everything: leave out --{name} {value}"
+                f"{asked} needs a run that looks at everything: leave out --{name} {value}"
             )
 
 

@@ -30,6 +30,7 @@ class Config(NamedTuple):
 
     `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
     for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
+    `fail_on_unchecked` says that what was not checked fails a run at any level.
     `show` is what reports for people have besides errors and warnings.
     `max_places` is how many places of a cause a report has in full; `root` is the folder that
     layers go by in fingerprints, `version_pattern` what stands for any version in their paths.
@@ -49,6 +50,7 @@ class Config(NamedTuple):
     options: Mapping[str, Mapping[str, Any]] = {}
     packs: tuple[str, ...] = ()
     fail_on: str = "error"
+    fail_on_unchecked: bool = False
     output_format: str = "auto"
     show: tuple[str, ...] = ()
     jobs: int = 0

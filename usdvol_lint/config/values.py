@@ -140,6 +140,7 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "options": _tables,
     "packs": _strings,
     "fail-on": partial(one_of, allowed=FAIL_ON),
+    "fail-on-unchecked": _boolean,
     "output-format": partial(one_of, allowed=OUTPUT_FORMATS),
     "show": shown,
     "jobs": partial(_whole_number, least=0),

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from usdvol_lint.config import Config
 from usdvol_lint.config.values import strings
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
-from usdvol_lint.packs.catalog import NOT_IGNORABLE, Catalog, length
+from usdvol_lint.packs.catalog import NOT_IGNORABLE, OF_UNCHECKED, Catalog, length
 from usdvol_lint.releases import is_later
 
 _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
@@ -50,6 +50,8 @@ def activate(config: Config, catalog: Catalog) -> ActiveRules:
     Raises UsageError for unknown codes, names and options.
     """
     codes = catalog.select(config.select, config.ignore)
+    if config.fail_on_unchecked:
+        codes |= _of_unchecked(config.ignore)
     severities = {code: catalog.rules[code].severity for code in sorted(codes)}
     chosen: set[str] = set()
     for selector, level in sorted(config.severity.items(), key=lambda item: length(item[0])):
@@ -60,6 +62,14 @@ def activate(config: Config, catalog: Catalog) -> ActiveRules:
             chosen.add(code)
     active = ActiveRules(severities, _options(config, catalog), frozenset(chosen))
     return _dated(active, config.rules_as_of, catalog)
+
+
+def _of_unchecked(ignored: Sequence[str]) -> frozenset[str]:
+    """The codes that a run needs which fails for what was not checked."""
+    for selector in ignored:
+        if selector.strip().upper() in OF_UNCHECKED:
+            raise UsageError(f"{selector} can't be ignored with --fail-on-unchecked: leave one out")
+    return OF_UNCHECKED
 
 
 def _dated(active: ActiveRules, as_of: str | None, catalog: Catalog) -> ActiveRules:

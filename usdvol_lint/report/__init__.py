@@ -39,7 +39,8 @@ class Options(NamedTuple):
     `width` is that of the terminal in cells: with `color`, the text report is wrapped to it.
     Reports for people have causes from the severity `least` on; `verbose` shows all of them.
     What is `known` or `suppressed` is there only where `show` names it, and then all of it.
-    From `fail_on` on a cause fails the run, from no level on where it is None.
+    From `fail_on` on a cause fails the run, from no level on where it is None; with
+    `fail_on_unchecked` also one that says that something was not checked.
     `summary` asks the text report for a table alone, by rule, cause, stage or asset.
     Reports for code hosts name files in relation to `repository`, a canonical folder, and keep the
     uploads of one run apart by `category`; `page_of` gives the page of a rule by its code.
@@ -52,6 +53,7 @@ class Options(NamedTuple):
     least: Severity = Severity.WARNING
     show: frozenset[str] = frozenset()
     fail_on: Severity | None = Severity.ERROR
+    fail_on_unchecked: bool = False
     repository: str | None = None
     category: str = ""
     summary: str = ""
@@ -66,11 +68,16 @@ class Options(NamedTuple):
         """Whether a report for people has this cause."""
         if not cause.state.counts:
             return cause.state in self.show
-        return cause.severity >= self.threshold
+        return cause.severity >= self.threshold or self._fails_unchecked(cause)
 
     def fails(self, cause: Cause) -> bool:
         """Whether this cause fails the run."""
+        if self._fails_unchecked(cause):
+            return True
         return self.fail_on is not None and cause.state.counts and cause.severity >= self.fail_on
+
+    def _fails_unchecked(self, cause: Cause) -> bool:
+        return self.fail_on_unchecked and cause.is_unchecked
 
 
 class Writer:

@@ -29,8 +29,11 @@ def verdict(report: Report, options: Options) -> str:
 
 
 def _parts(report: Report, summary: Summary, options: Options) -> Iterator[str]:
-    hidden = summary.infos if options.threshold > Severity.INFO else 0
+    unchecked = _unchecked(report, options)
+    hidden = summary.infos - unchecked if options.threshold > Severity.INFO else 0
     yield _finding_counts(report, summary, options.threshold)
+    if unchecked:
+        yield f"{unchecked:,} not checked, which --fail-on-unchecked counts"
     if hidden:
         yield f"{count(hidden, 'info')}, shown with --show info"
     if uncounted := _uncounted(summary):
@@ -38,9 +41,16 @@ def _parts(report: Report, summary: Summary, options: Options) -> Iterator[str]:
     if report.baseline:
         yield from _baseline(report.baseline)
     yield f"{_checked_counts(summary.stats)} in {duration(report.run.seconds)}"
-    unchecked = summary.stages - summary.by_status.get(Status.CHECKED, 0)
-    if unchecked:
-        yield f"{count(unchecked, 'stage')} could not be checked"
+    unread = summary.stages - summary.by_status.get(Status.CHECKED, 0)
+    if unread:
+        yield f"{count(unread, 'stage')} could not be checked"
+
+
+def _unchecked(report: Report, options: Options) -> int:
+    """The number of infos that fail the run, because they say that something was not checked."""
+    if not options.fail_on_unchecked:
+        return 0
+    return sum(each.is_unchecked and each.severity is Severity.INFO for each in report.causes)
 
 
 def _finding_counts(report: Report, summary: Summary, threshold: Severity) -> str:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 _SHAPING = (
-    *("options", "packs", "fail_on", "show", "rules_as_of"),
+    *("options", "packs", "fail_on", "fail_on_unchecked", "show", "rules_as_of"),
     *("load", "content", "variants", "variant_limit", "times", "timeout", "suppressions"),
 )
 

@@ -30,7 +30,8 @@ def main() -> None:
     try:
         from pxr import Usd  # noqa: F401
     except ImportError as error:
-        return _send(replies, Refusal(f"USD can't be imported ({error}); install usd-core"))
+        advice = "install usd-core, or put the folder with the pxr of another USD on PYTHONPATH"
+        return _send(replies, Refusal(f"USD can't be imported ({error}): {advice}"))
     from usdvol_lint.engine.asked_types import check_types
     from usdvol_lint.engine.usd_version import usd_version
 
