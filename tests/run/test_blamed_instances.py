@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
-from identities import CLEAN, LAYER, META, STAGE, Find, refers
-from process import write
+from identities import CLEAN, LAYER, META, SPLATS, STAGE, Find, refers
+from process import ASSETS, write
 from pxr import Usd
 
 from usdvol_lint.facts.usd.indices import index_of
@@ -93,3 +94,40 @@ def test_a_sublayer_is_one_cause_for_all_fields(find: Find, shots: Path) -> None
         "../assets/tank.usda",
         2,
     )
+
+
+APIS = 'prepend apiSchemas = ["ColorSpaceDefinitionAPI:studio", "ColorSpaceAPI"]'
+SPACES = """uniform token colorSpace:name = "wide"
+uniform token colorSpaceDefinition:studio:name = "wide"
+"""
+WIDE = SPLATS.replace('"tank"\n{\n', f'"tank" (\n{APIS}\n)\n{{\n{SPACES}')
+
+
+@pytest.mark.parametrize("asset", [WIDE, CLEAN.replace("</tank/density>", "<density>")])
+def test_an_instance_shows_what_a_reference_shows(asset: str, find: Find, shots: Path) -> None:
+    inside = LAYER.replace("tank", "set") + f'def Xform "set"\n{{\n{asset}\n}}\n'
+    write(shots.parent / "assets", set=inside, tank=LAYER + asset)
+    for name in ("set", "tank"):
+        path = f"../assets/{name}.usda"
+        write(shots, one=STAGE + refers("A", path), two=STAGE + refers("A", path, INSTANCE))
+        plain, instance = (
+            [(each.code, each.source) for each in find(f"shots/{shot}.usda", rules=("ALL",))]
+            for shot in ("one", "two")
+        )
+        assert [each for each in instance if each[0] != "STG007"] == plain
+
+
+def test_a_field_of_an_instance_is_compared_with_its_siblings(find: Find, shots: Path) -> None:
+    """One that stands still beside one that plays: the Volume is the instance itself."""
+    for frame in range(1, 5):
+        shutil.copy(ASSETS / "cloud.vdb", shots.parent / "assets" / f"puff.{frame:04}.vdb")
+    samples = "".join(f"{100 + n}: @./puff.{n:04}.vdb@,\n" for n in range(1, 5))
+    field = 'def OpenVDBAsset "{}"\n{{\nasset filePath.timeSamples = {{\n{}}}\n}}\n'
+    still = "".join(f"{100 + n}: @./puff.0001.vdb@,\n" for n in range(1, 5))
+    fields = field.format("density", samples) + field.format("heat", still)
+    bound = "rel field:density = </tank/density>\nrel field:heat = </tank/heat>\n"
+    write(shots.parent / "assets", tank=f'{LAYER}def Volume "tank"\n{{\n{bound}{fields}}}\n')
+    write(shots, one=STAGE + refers("A"), two=STAGE + refers("A", meta=INSTANCE))
+    plain, instance = (find(f"shots/{shot}.usda", rules=("AST017",)) for shot in ("one", "two"))
+    assert [each.fingerprint for each in plain] == [each.fingerprint for each in instance]
+    assert [each.code for each in plain] == ["AST017"]

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf
 
+from usdvol_lint.facts.usd.instances import on_stage
 from usdvol_lint.words import quoted
 
 
@@ -41,7 +42,7 @@ def unselected_path(field: Any) -> VariantPath | None:
 
 
 def _unselected(field: Any) -> Iterator[VariantPath]:
-    prim = field
+    field = prim = on_stage(field)
     while prim and not prim.IsPseudoRoot():
         below = field.GetPath().MakeRelativePath(prim.GetPath()) if prim != field else None
         for spec in prim.GetPrimStack() if prim.HasVariantSets() else ():

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from usdvol_lint.facts.files.frame_names import FrameName, numbers_an_issue
-from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.instances import on_stage
 
 _SEPARATORS = re.compile(r"[/\\\[\]]")
 _NUMBERED = re.compile(r"(?s)(.*?)([0-9]+)")
@@ -38,7 +38,7 @@ def _names(field: Any) -> Iterator[str]:
 
     Those of layers are without their extensions.
     """
-    prim = field.GetStage().GetPrimAtPath(shown(field).path)
+    prim = on_stage(field)
     while prim and not prim.IsPseudoRoot():
         for spec in prim.GetPrimStack():
             yield spec.name

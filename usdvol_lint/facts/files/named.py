@@ -9,14 +9,14 @@ from typing import Any
 from pxr import Sdf
 
 from usdvol_lint.facts.files.families import Family, read_family
-from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.instances import on_stage
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.paths import FORMAT_ARGUMENTS
 
 
 def in_variants(field: Any, family: Family) -> Iterator[int]:
     """The numbers of the files of a family that variants of the field, or above it, name."""
-    prim = field.GetStage().GetPrimAtPath(shown(field).path)
+    prim = on_stage(field)
     while prim and not prim.IsPseudoRoot():
         for spec in prim.GetPrimStack() if prim.HasVariantSets() else ():
             for variant_set in spec.variantSets.values():

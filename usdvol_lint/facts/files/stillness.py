@@ -15,7 +15,7 @@ from usdvol_lint.facts.files.named import in_layer, in_variants, numbers_in
 from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.clips import ClipSet
-from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.instances import on_stage, shown
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.words import format_time
 
@@ -146,7 +146,7 @@ def _volume_above(field: Any) -> Any | None:
     """The Volume that a field is below."""
     from pxr import UsdVol  # costs start-up time
 
-    prim = field.GetParent()
+    prim = on_stage(field).GetParent()
     while prim and not prim.IsA(UsdVol.Volume):
         prim = prim.GetParent()
     return prim or None

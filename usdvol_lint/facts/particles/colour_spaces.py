@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from pxr import Gf
 
+from usdvol_lint.facts.usd.instances import on_stage
 from usdvol_lint.facts.usd.kinds import raw_apis
 from usdvol_lint.schema import COLOUR_SPACES
 from usdvol_lint.spelling import closest_name
@@ -78,6 +79,7 @@ def _described(
 
 
 def _upward(prim: Any) -> Iterator[Any]:
+    prim = on_stage(prim)
     while not prim.IsPseudoRoot():
         yield prim
         prim = prim.GetParent()

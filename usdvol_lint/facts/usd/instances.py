@@ -132,6 +132,11 @@ def prototype_of(prim: Any) -> Any:
     return prim
 
 
+def on_stage(prim: Any) -> Any:
+    """The prim where it appears first: what is above it there, a prototype does not have."""
+    return prim.GetStage().GetPrimAtPath(shown(prim).path) if prim.IsInPrototype() else prim
+
+
 def in_prototype(prim: Any) -> Any:
     """The prim of the prototype for an instance proxy; any other prim itself."""
     return prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
