@@ -146,7 +146,7 @@ def test_configurations_are_accepted(path: Path, tmp_path: Path) -> None:
             continue
         name = "pyproject.toml" if "tool" in table else "usdvol-lint.toml"
         (tmp_path / name).write_text(block, encoding="utf-8")
-        done = run("--show-settings", folder=tmp_path)
+        done = run("--show-settings", "--output-format", "json", folder=tmp_path)
         assert done.returncode == 0, done.stderr
         assert json.loads(done.stdout)["config_file"] == str(tmp_path / name)
         (tmp_path / name).unlink()

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from process import ROUGH, STUDIO, Ran, run, settings, volume, write
+from process import AS_JSON, ROUGH, STUDIO, Ran, run, settings, volume, write
 
 from usdvol_lint import __version__
 from usdvol_lint.config import Config
@@ -22,24 +22,24 @@ def test_the_nearest_configuration_counts(tool: Callable[..., Ran], tmp_path: Pa
     shot = tmp_path / "show" / "shot"
     shot.mkdir(parents=True)
     os.chdir(shot)
-    assert settings(tool("--show-settings"))["config_file"] is None
+    assert settings(tool(*AS_JSON))["config_file"] is None
 
     outer = tmp_path / "pyproject.toml"
     outer.write_text('[tool.usdvol-lint]\nfail-on = "info"\n', encoding="utf-8")
     (tmp_path / "show" / "pyproject.toml").write_text("[tool.other]\nx = 1\n", encoding="utf-8")
-    found = settings(tool("--show-settings"))
+    found = settings(tool(*AS_JSON))
     assert (found["config_file"], found["fail_on"]) == (str(outer), "info")
 
     own = tmp_path / "show" / "usdvol-lint.toml"
     own.write_text('fail-on = "never"\n', encoding="utf-8")
-    found = settings(tool("--show-settings"))
+    found = settings(tool(*AS_JSON))
     assert (found["config_file"], found["fail_on"]) == (str(own), "never")
 
-    found = settings(tool("--show-settings", "--fail-on", "warning"))
+    found = settings(tool(*AS_JSON, "--fail-on", "warning"))
     assert (found["config_file"], found["fail_on"]) == (str(own), "warning")
-    found = settings(tool("--show-settings", "--isolated"))
+    found = settings(tool(*AS_JSON, "--isolated"))
     assert (found["config_file"], found["fail_on"]) == (None, "error")
-    found = settings(tool("--show-settings", "--config", "../../pyproject.toml"))
+    found = settings(tool(*AS_JSON, "--config", "../../pyproject.toml"))
     assert (found["config_file"], found["fail_on"]) == (str(Path("../../pyproject.toml")), "info")
 
 
@@ -88,7 +88,7 @@ strict = true
         "variant_limit": 7,
         "timeout": 12.0,
     }
-    shown = settings(tool("--show-settings"))
+    shown = settings(tool(*AS_JSON))
     assert {key: shown[key] for key in expected} == expected
 
 
@@ -189,7 +189,7 @@ def test_a_file_that_is_no_configuration(
 
 def test_a_project_without_our_table(tool: Callable[..., Ran], tmp_path: Path) -> None:
     (tmp_path / "pyproject.toml").write_text("tool = 3\n", encoding="utf-8")
-    assert settings(tool("--show-settings"))["config_file"] is None
+    assert settings(tool(*AS_JSON))["config_file"] is None
     said = "usdvol-lint: error: pyproject.toml has no table [tool.usdvol-lint]\n"
     assert tool("--show-settings", "--config", "pyproject.toml") == Ran(2, "", said)
 

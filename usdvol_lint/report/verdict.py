@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from usdvol_lint.model import Severity, Status
 from usdvol_lint.report import Options
 from usdvol_lint.report.numbers import count, counts, duration
-from usdvol_lint.results import BaselineUse, Report, State, Summary
+from usdvol_lint.results import BaselineUse, Report, RunInfo, State, Summary
 from usdvol_lint.words import printable
 
 _MANY_CAUSES = 20
@@ -103,6 +103,8 @@ def _checked_counts(stats: Mapping[str, int]) -> str:
 
 def advice(report: Report, verbose: bool) -> Iterator[str]:
     """The lines below the verdict."""
+    if verbose:
+        yield _configuration(report.run)
     if report.baseline:
         yield from _moved(report.baseline.moved, verbose)
         if verbose:
@@ -112,6 +114,12 @@ def advice(report: Report, verbose: bool) -> Iterator[str]:
         if len(said) > _LONGEST_COMMAND:
             said = f"usdvol-lint --write-baseline {_BASELINE} and the same arguments"
         yield f"adopt them with: {said}"
+
+
+def _configuration(run: RunInfo) -> str:
+    """Which configuration file was used."""
+    extended = f", which extends {', '.join(run.config_extends)}" if run.config_extends else ""
+    return f"configuration: {printable((run.config_file or 'none') + extended)}"
 
 
 def _kept(command: Sequence[str]) -> Iterator[str]:
