@@ -15,7 +15,9 @@ from usdvol_lint.config.values import CHECKS
 
 
 def test_every_setting_has_a_check() -> None:
-    assert tuple(key.replace("-", "_") for key in CHECKS) == Config._fields
+    """But for where they are said; `extend` is none, but what they are read from."""
+    settings = tuple(key.replace("-", "_") for key in CHECKS if key != "extend")
+    assert (*settings, "origins") == Config._fields
 
 
 def test_the_nearest_configuration_counts(tool: Callable[..., Ran], tmp_path: Path) -> None:
@@ -114,7 +116,19 @@ strict = true
         ),
         ("ignore = ['AST', 3]", "ignore must be a list of strings, not ['AST', 3]"),
         ("packs = true", "packs must be a list of strings, not True"),
+        ("packs = ['']", "packs has an empty string, which names nothing: leave it out"),
+        ("select = ['AST', ' ']", "select has an empty string, which names nothing: leave it out"),
         ("severity = 'error'", "severity must be a table, not 'error'"),
+        (
+            "severity.AST002 = false",
+            "severity.AST002 must be one of error, warning, info, not False; "
+            "a rule that is to report nothing stands in `ignore`",
+        ),
+        (
+            "severity.asse = 'info'",
+            "severity.asse: 'asse' is no rule, no family and no beginning of a code; "
+            "did you mean 'asset'?",
+        ),
         (
             "severity.AST002 = 'errors'",
             "severity.AST002 must be one of error, warning, info, not 'errors'; "
@@ -190,6 +204,9 @@ def test_a_file_that_is_no_configuration(
 def test_a_project_without_our_table(tool: Callable[..., Ran], tmp_path: Path) -> None:
     (tmp_path / "pyproject.toml").write_text("tool = 3\n", encoding="utf-8")
     assert settings(tool(*AS_JSON))["config_file"] is None
+    assert tool("--config", "", ".").err.startswith(
+        "usdvol-lint: error: --config has an empty value: "
+    )
     said = "usdvol-lint: error: pyproject.toml has no table [tool.usdvol-lint]\n"
     assert tool("--show-settings", "--config", "pyproject.toml") == Ran(2, "", said)
 

@@ -31,8 +31,6 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
     """
     file = _config_file(given["config_file"], given["isolated"])
     base = read_config(file) if file else Config()
-    for name in given["output_format"]:
-        CHECKS["output-format"]("--output-format", name)
     settings = laid_over(base, dict(_values(given)), _option)
     _check_depth(settings)
     return settings, file
@@ -48,6 +46,10 @@ def _values(given: dict[str, Any]) -> Iterator[tuple[str, Any]]:
         if given["baseline"] is not None:
             raise click.UsageError("--baseline and --no-baseline exclude each other")
         yield "baseline", None
+    for name in given["output_format"]:
+        CHECKS["output-format"]("--output-format", name)
+    if len(given["output_format"]) == 1 and not given["output"]:
+        yield "output-format", given["output_format"][0]
     if given["no_suppressions"]:
         yield "suppressions", "none"
     yield from ((key, read(given[name])) for key, name, read in _ADDING if given[name])
