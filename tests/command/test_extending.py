@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -19,6 +20,11 @@ def show(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "show").mkdir()
     shutil.copytree(STUDIO, tmp_path / "studio" / "rules")
     return tmp_path / "show"
+
+
+def path(folder: str | Path, name: str) -> str:
+    """A path as messages have it: `..` stays."""
+    return str(Path(folder) / name)
 
 
 def configure(show: Path, studio: str, own: str) -> Path:
@@ -57,10 +63,10 @@ per-path = [{ files = "b", ignore = ["STU"] }]
 """,
     )
     config = read_config(file)
-    studio = f"{show}/../studio"
+    studio = path(show, "../studio")
     assert config.select == ("STU",)
     assert config.ignore == ("STU002", "STU001")
-    assert config.packs == (f"{studio}/rules",)
+    assert config.packs == (path(studio, "rules"),)
     assert config.show == ("known", "info")
     assert (config.fail_on, config.timeout, config.root) == ("error", 7.0, studio)
     assert list(config.severity.items()) == [("STU002", "info"), ("STU001", "error")]
@@ -70,7 +76,7 @@ per-path = [{ files = "b", ignore = ["STU"] }]
 
 
 def test_messages_name_the_file_that_says_it(show: Path, tool: Callable[..., Ran]) -> None:
-    own, studio = "show/usdvol-lint.toml", "show/../studio/usdvol-lint.toml"
+    own, studio = (path(each, "usdvol-lint.toml") for each in ("show", "show/../studio"))
     none = "is no rule, no family and no beginning of a code"
     for wanted, where, said in (
         ("ignore = ['XYZ']", "ignore", f"'XYZ' {none}"),
@@ -89,7 +95,7 @@ def test_messages_name_the_file_that_says_it(show: Path, tool: Callable[..., Ran
         assert err.startswith(f"usdvol-lint: error: {own}: {where}: {said}")
     configure(show, "packs = ['gone']", "")
     err = tool("--show-settings", "--config", own).err
-    assert err.startswith(f"usdvol-lint: error: {studio}: packs: there is no folder 'show/../studi")
+    assert err.startswith(f"usdvol-lint: error: {studio}: packs: there is no folder ")
     configure(show, "root = 'gone'", "")
     assert f"error: {studio}: root: the root " in tool("--config", own, ".").err
     configure(show, "baseline = 'gone.jsonl'", "")
@@ -105,7 +111,7 @@ def test_each_pack_is_known_by_the_file_that_says_it(show: Path) -> None:
     (show / "own").mkdir()
     config = read_config(configure(show, "packs = ['rules']", "packs = ['own']"))
     files = [config.origins.of("packs", pack).file for pack in config.packs]
-    assert files == [f"{show}/../studio/usdvol-lint.toml", f"{show}/usdvol-lint.toml"]
+    assert files == [path(show, "../studio/usdvol-lint.toml"), path(show, "usdvol-lint.toml")]
 
 
 @pytest.mark.parametrize(
@@ -140,8 +146,8 @@ def test_a_chain_from_one_project_to_another(show: Path, tool: Callable[..., Ran
     ran = run("--select", "STU001", "-v", "--output-format", "json", "fog.usda", cwd=show)
     assert ran.json["settings"]["timeout"] == 7
     assert [cause["code"] for cause in ran.json["causes"]] == ["STU001"]
-    files = [f"{show}/usdvol-lint.toml", f"{show}/../studio/usdvol-lint.toml"]
-    files.append(f"{show}/../studio/base/pyproject.toml")
+    names = ("usdvol-lint.toml", "../studio/usdvol-lint.toml", "../studio/base/pyproject.toml")
+    files = [path(show, name) for name in names]
     run_info = ran.json["run"]
     assert [run_info["config_file"], *run_info["config_extends"]] == files
     text = run("--select", "STU001", "-v", "fog.usda", cwd=show).out
@@ -154,8 +160,8 @@ def test_a_chain_from_one_project_to_another(show: Path, tool: Callable[..., Ran
 
 def test_a_circle_is_named(show: Path, tool: Callable[..., Ran]) -> None:
     file = configure(show, "extend = '../show/usdvol-lint.toml'", "")
-    studio = f"{show}/../studio/usdvol-lint.toml"
-    again = f"{show}/../studio/../show/usdvol-lint.toml"
+    studio = path(show, "../studio/usdvol-lint.toml")
+    again = path(show, "../studio/../show/usdvol-lint.toml")
     assert tool("--show-settings", "--config", file).err == (
         f"usdvol-lint: error: {studio}: extend: the files extend each other in a circle: "
         f"{file} -> {studio} -> {again}\n"
@@ -181,5 +187,5 @@ def test_what_can_not_be_extended(
     file = show / "usdvol-lint.toml"
     (show / "pyproject.toml").touch()
     file.write_text(f"extend = {own}\n", encoding="utf-8")
-    wanted = f"usdvol-lint: error: {file}: {said.format(show=show)}\n"
+    wanted = f"usdvol-lint: error: {file}: {said.format(show=show).replace('/', os.sep)}\n"
     assert tool("--show-settings", "--config", file) == Ran(2, "", wanted)

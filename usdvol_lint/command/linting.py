@@ -22,6 +22,7 @@ from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import versions_in
 from usdvol_lint.run.lint import Naming, lint
 from usdvol_lint.run.roots import checkout_of, root_of
+from usdvol_lint.words import quoted
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -89,7 +90,7 @@ class _Job:
         folder = str(self.file.parent) if self.file else None
         if config.root is not None and not os.path.isdir(config.root):
             where = config.origins.words("root")
-            raise UsageError(f"{where}: the root {config.root!r} is no folder")
+            raise UsageError(f"{where}: the root {quoted(config.root)} is no folder")
         root = root_of(self._paths, self._given["root"], of_baseline, config.root, folder)
         if self.prepared:
             self.prepared.check_root(root)

@@ -12,6 +12,7 @@ from usdvol_lint.config.misnamed import FILE_NAME, TABLE, check_keys, check_name
 from usdvol_lint.config.values import CHECKS, table
 from usdvol_lint.model import UsageError
 from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.words import quoted
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -69,7 +70,7 @@ def _chain(path: Path) -> Iterator[tuple[Path, Mapping[str, Any]]]:
             names = " -> ".join(map(str, (*met.values(), named)))
             raise UsageError(f"{where}the files extend each other in a circle: {names}")
         if not isfile(named):
-            raise UsageError(f"{where}there is no file {str(named)!r}")
+            raise UsageError(f"{where}there is no file {quoted(str(named))}")
 
 
 def _read_values(path: Path, where: str) -> dict[str, Any]:

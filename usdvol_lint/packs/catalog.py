@@ -11,6 +11,7 @@ from usdvol_lint.model import PackError, Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.packs.folders import find_packs, import_rules
 from usdvol_lint.rule import Problems, Rule
+from usdvol_lint.words import quoted
 
 if TYPE_CHECKING:
     from usdvol_lint.packs.page import Page
@@ -156,7 +157,9 @@ def load_for(config: Config) -> Catalog:
     for pack in config.packs:
         if not isdir(pack):
             where = config.origins.words("packs", pack)
-            raise UsageError(f"{where}: there is no folder {pack!r}, which is to be a rule pack")
+            raise UsageError(
+                f"{where}: there is no folder {quoted(pack)}, which is to be a rule pack"
+            )
     return load(config.packs)
 
 
