@@ -73,6 +73,9 @@ def _text(data: bytes) -> str:
     return data.decode("utf-8").replace("\r\n", "\n")
 
 
+AS_JSON = ("--show-settings", "--output-format", "json")
+
+
 def settings(ran: Ran) -> Any:
     """What `--show-settings` printed."""
     assert (ran.code, ran.err) == (0, "")

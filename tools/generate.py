@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from tools import coverage, words
+from tools import configuration, coverage, words
 from usdvol_lint.command.cli import help_text
 from usdvol_lint.packs.catalog import Catalog, load
 from usdvol_lint.run.testing import all_words
@@ -55,6 +55,8 @@ def main(arguments: list[str]) -> int:
             coverage.read_introduction(), coverage.read_sentences(), pages
         ),
         HELP: help_text(),
+        configuration.SCHEMA: configuration.schema(catalog, pages),
+        configuration.GUIDE: configuration.guide(),
         **beside_pages,
         words.TARGET: words.all_on_one_page(catalog, beside_pages.values()),
     }

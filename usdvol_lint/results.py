@@ -152,13 +152,17 @@ class BaselineUse(NamedTuple):
 
 
 class RunInfo(NamedTuple):
-    """What may differ between equal runs."""
+    """What may differ between equal runs.
+
+    `config_extends` are the files that the configuration file extends, the nearest first.
+    """
 
     date: str = ""
     command: tuple[str, ...] = ()
     config_file: str | None = None
     seconds: float = 0.0
     jobs: int = 1
+    config_extends: tuple[str, ...] = ()
 
 
 class Report(NamedTuple):

@@ -257,6 +257,8 @@ def rule(
     types = (on,) if isinstance(on, str) else on
     if not types:
         raise ValueError(f"{code}: `on` names no type")
+    if not isinstance(types, tuple) or not all(isinstance(name, str) and name for name in types):
+        raise ValueError(f"{code}: `on` is the name of a type or a tuple of such, not {on!r}")
     check_precondition(code, when, types)
 
     def decorate(check: Check) -> Rule:

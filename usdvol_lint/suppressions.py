@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from usdvol_lint.model import UsageError
@@ -81,14 +81,14 @@ def date_of(where: str, value: Any) -> str:
 # --- patterns -------------------------------------------------------------------------------------
 
 
-def matching(patterns: Sequence[str]) -> Callable[[str], bool]:
+def matching(lines: Sequence[str]) -> Callable[[str], bool]:
     """Whether a path matches patterns that are written as in a .gitignore.
 
     Raises ValueError for one that is none.
     """
     from pathspec import GitIgnoreSpec  # few runs have a pattern
 
-    spec = GitIgnoreSpec.from_lines(patterns)
+    spec = GitIgnoreSpec.from_lines(lines)
     return lambda path: bool(spec.match_file(path))
 
 
@@ -99,41 +99,52 @@ _LISTS = ("files", "stages", "prims", "rules")
 
 def read_tables(where: str, value: Any) -> tuple[Suppression, ...]:
     """The tables; raises UsageError, which `where` begins, for what is wrong with one."""
+    return tuple(_read(*each) for each in tables_of(where, value, "suppress"))
+
+
+def tables_of(where: str, value: Any, key: str) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The tables of a list, each with how messages name it."""
     if not isinstance(value, list) or not all(isinstance(table, dict) for table in value):
-        raise UsageError(f"{where} must be tables, each below a line [[suppress]], not {value!r}")
-    return tuple(_read(f"{where}, table {number}", each) for number, each in enumerate(value, 1))
+        raise UsageError(f"{where} must be tables, each below a line [[{key}]], not {value!r}")
+    yield from ((f"{where}, table {number}", each) for number, each in enumerate(value, 1))
 
 
-def _read(where: str, table: dict[str, Any]) -> Suppression:
-    known = (*_LISTS, "reason", "until")
+def check_known(where: str, table: dict[str, Any], known: tuple[str, ...]) -> None:
+    """Raises UsageError for a key of a table that is not known."""
     for key in table:
         if key not in known:
             raise UsageError(f"{where}: unknown key {key!r}{did_you_mean(key, known)}")
+
+
+def _read(where: str, table: dict[str, Any]) -> Suppression:
+    check_known(where, table, (*_LISTS, "reason", "until"))
     reason = table.get("reason")
     if not isinstance(reason, str) or not reason.strip():
         found = f", not {reason!r}" if "reason" in table else ""
         raise UsageError(f"{where}: 'reason' must say why{found}")
     if not any(key in table for key in _LISTS):
         raise UsageError(f"{where}: name what is suppressed, with one of {', '.join(_LISTS)}")
-    lists = {key: _list(f"{where}: {key}", table[key]) for key in _LISTS if key in table}
-    for key in lists.keys() - {"rules"}:
-        _check_patterns(f"{where}: {key}", lists[key])
+    reading = {key: texts if key == "rules" else patterns for key in _LISTS if key in table}
+    lists = {key: read(f"{where}: {key}", table[key]) for key, read in reading.items()}
     until = date_of(f"{where}: until", table["until"]) if "until" in table else None
     return Suppression(where, reason.strip(), until=until, **lists)
 
 
-def _list(where: str, value: Any) -> tuple[str, ...]:
-    """One text, or a list of them."""
-    texts = [value] if isinstance(value, str) else value
-    is_list = isinstance(texts, list) and bool(texts)
-    if not is_list or not all(isinstance(text, str) and text.strip() for text in texts):
+def texts(where: str, value: Any) -> tuple[str, ...]:
+    """The value, if it is a text or a list of texts."""
+    given = [value] if isinstance(value, str) else value
+    is_list = isinstance(given, list) and bool(given)
+    if not is_list or not all(isinstance(text, str) and text.strip() for text in given):
         raise UsageError(f"{where} must be a text or a list of texts, not {value!r}")
-    return tuple(texts)
+    return tuple(given)
 
 
-def _check_patterns(where: str, patterns: tuple[str, ...]) -> None:
-    for pattern in patterns:
+def patterns(where: str, value: Any) -> tuple[str, ...]:
+    """The value, if it is a pattern as in a .gitignore, or a list of such."""
+    given = texts(where, value)
+    for pattern in given:
         try:
             matching([pattern])
         except ValueError as error:
             raise UsageError(f"{where}: {pattern!r} is no pattern as in a .gitignore") from error
+    return given

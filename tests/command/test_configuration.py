@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from process import ROUGH, STUDIO, Ran, run, settings, volume, write
+from process import AS_JSON, ROUGH, STUDIO, Ran, run, settings, volume, write
 
 from usdvol_lint import __version__
 from usdvol_lint.config import Config
@@ -15,31 +15,33 @@ from usdvol_lint.config.values import CHECKS
 
 
 def test_every_setting_has_a_check() -> None:
-    assert tuple(key.replace("-", "_") for key in CHECKS) == Config._fields
+    """But for where they are said; `extend` is none, but what they are read from."""
+    settings = tuple(key.replace("-", "_") for key in CHECKS if key != "extend")
+    assert (*settings, "origins") == Config._fields
 
 
 def test_the_nearest_configuration_counts(tool: Callable[..., Ran], tmp_path: Path) -> None:
     shot = tmp_path / "show" / "shot"
     shot.mkdir(parents=True)
     os.chdir(shot)
-    assert settings(tool("--show-settings"))["config_file"] is None
+    assert settings(tool(*AS_JSON))["config_file"] is None
 
     outer = tmp_path / "pyproject.toml"
     outer.write_text('[tool.usdvol-lint]\nfail-on = "info"\n', encoding="utf-8")
     (tmp_path / "show" / "pyproject.toml").write_text("[tool.other]\nx = 1\n", encoding="utf-8")
-    found = settings(tool("--show-settings"))
+    found = settings(tool(*AS_JSON))
     assert (found["config_file"], found["fail_on"]) == (str(outer), "info")
 
     own = tmp_path / "show" / "usdvol-lint.toml"
     own.write_text('fail-on = "never"\n', encoding="utf-8")
-    found = settings(tool("--show-settings"))
+    found = settings(tool(*AS_JSON))
     assert (found["config_file"], found["fail_on"]) == (str(own), "never")
 
-    found = settings(tool("--show-settings", "--fail-on", "warning"))
+    found = settings(tool(*AS_JSON, "--fail-on", "warning"))
     assert (found["config_file"], found["fail_on"]) == (str(own), "warning")
-    found = settings(tool("--show-settings", "--isolated"))
+    found = settings(tool(*AS_JSON, "--isolated"))
     assert (found["config_file"], found["fail_on"]) == (None, "error")
-    found = settings(tool("--show-settings", "--config", "../../pyproject.toml"))
+    found = settings(tool(*AS_JSON, "--config", "../../pyproject.toml"))
     assert (found["config_file"], found["fail_on"]) == (str(Path("../../pyproject.toml")), "info")
 
 
@@ -88,7 +90,7 @@ strict = true
         "variant_limit": 7,
         "timeout": 12.0,
     }
-    shown = settings(tool("--show-settings"))
+    shown = settings(tool(*AS_JSON))
     assert {key: shown[key] for key in expected} == expected
 
 
@@ -114,7 +116,19 @@ strict = true
         ),
         ("ignore = ['AST', 3]", "ignore must be a list of strings, not ['AST', 3]"),
         ("packs = true", "packs must be a list of strings, not True"),
+        ("packs = ['']", "packs has an empty string, which names nothing: leave it out"),
+        ("select = ['AST', ' ']", "select has an empty string, which names nothing: leave it out"),
         ("severity = 'error'", "severity must be a table, not 'error'"),
+        (
+            "severity.AST002 = false",
+            "severity.AST002 must be one of error, warning, info, not False; "
+            "a rule that is to report nothing stands in `ignore`",
+        ),
+        (
+            "severity.asse = 'info'",
+            "severity.asse: 'asse' is no rule, no family and no beginning of a code; "
+            "did you mean 'asset'?",
+        ),
         (
             "severity.AST002 = 'errors'",
             "severity.AST002 must be one of error, warning, info, not 'errors'; "
@@ -189,7 +203,10 @@ def test_a_file_that_is_no_configuration(
 
 def test_a_project_without_our_table(tool: Callable[..., Ran], tmp_path: Path) -> None:
     (tmp_path / "pyproject.toml").write_text("tool = 3\n", encoding="utf-8")
-    assert settings(tool("--show-settings"))["config_file"] is None
+    assert settings(tool(*AS_JSON))["config_file"] is None
+    assert tool("--config", "", ".").err.startswith(
+        "usdvol-lint: error: --config has an empty value: "
+    )
     said = "usdvol-lint: error: pyproject.toml has no table [tool.usdvol-lint]\n"
     assert tool("--show-settings", "--config", "pyproject.toml") == Ran(2, "", said)
 

@@ -7,9 +7,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from process import ONLY_STUDIO, STUDIO, Ran, run, settings, volume, write
+from process import AS_JSON, ONLY_STUDIO, STUDIO, Ran, run, settings, volume, write
 
 from usdvol_lint.command import linting
+
+NONE = "is no rule, no family and no beginning of a code"
+EMPTY = (
+    "has an empty value: if a script brings it, its variable is not set; "
+    "leave the option out to say nothing"
+)
+MAY_BE_EMPTY = ("--select", "--ignore", "--severity", "--pack")
 
 
 @pytest.mark.parametrize(
@@ -36,14 +43,29 @@ from usdvol_lint.command import linting
         ('ignore = ["stu001"]', "--select stu001", "STU001"),
         ('ignore = ["STU"]', "--select STU001", "STU001"),
         ('ignore = ["STU001"]', "--select STU --ignore STU002", ""),
+        # By names of rules and families, which are as exact as codes and the letters of codes.
+        ("", "--select house", "STU001 STU002"),
+        ("", "--select Volume-Name", "STU001"),
+        ("", "--select house --ignore volume-name", "STU002"),
+        ("", "--select volume-name --ignore STU", "STU001"),
+        ("", "--select STU001 --ignore house", "STU001"),
+        ("", "--select house --ignore STU", ""),
+        ("", "--select STU00 --ignore house", "STU001 STU002"),
+        ("", "--select volume-name --ignore STU001", ""),
+        ('ignore = ["volume-name"]', "--select STU001", "STU001"),
+        ('ignore = ["house"]', "--select STU", "STU001 STU002"),
+        # Nothing is not the same as nothing said.
+        ("select = []", "", ""),
+        ("select = []", "--select STU002", "STU002"),
+        ("select = []\nignore = []", "--ignore STU", ""),
     ],
 )
 def test_selection(
     file: str, arguments: str, on: str, tool: Callable[..., Ran], tmp_path: Path
 ) -> None:
-    """The longest selector wins, then the command line, then what is ignored."""
+    """The most exact selector wins, then the command line, then what is ignored."""
     (tmp_path / "usdvol-lint.toml").write_text(file, encoding="utf-8")
-    ran = tool("--show-settings", "--pack", STUDIO, *arguments.split())
+    ran = tool(*AS_JSON, "--pack", STUDIO, *arguments.split())
     rules = settings(ran)["rules"]
     assert {"LNT001", "LNT002"} <= rules.keys()
     assert " ".join(code for code in rules if code.startswith("STU")) == on
@@ -61,13 +83,17 @@ def test_selection(
         ('severity = { STU001 = "info", STU = "error" }', "", "info error"),
         ('severity = { stu = "info" }', "--severity STU=error", "error error"),
         ('severity = { STU001 = "info" }', "--severity STU=error", "info error"),
+        ('severity = { volume-name = "info" }', "--severity house=error", "info error"),
+        ('severity = { volume-name = "info" }', "--severity STU001=error", "error warning"),
+        ('severity = { STU001 = "info", volume-seen = "info" }', "", "info info"),
+        ('severity = { volume-name = "info", STU001 = "warning" }', "", "warning warning"),
     ],
 )
 def test_severity(
     file: str, arguments: str, levels: str, tool: Callable[..., Ran], tmp_path: Path
 ) -> None:
     (tmp_path / "usdvol-lint.toml").write_text(file, encoding="utf-8")
-    ran = tool("--show-settings", "--pack", STUDIO, "--select", "STU", *arguments.split())
+    ran = tool(*AS_JSON, "--pack", STUDIO, "--select", "STU", *arguments.split())
     rules = settings(ran)["rules"]
     assert f"{rules['STU001']} {rules['STU002']}" == levels
     assert rules["LNT001"] == "error"
@@ -137,13 +163,20 @@ def test_infos_are_shown_to_those_who_ask(
             "--show info --show xyzzy .",
             "--show must be one of info, known, suppressed, unused, not 'xyzzy'",
         ),
-        ("--select STU01x .", "no rule code starts with 'STU01x'; did you mean 'STU001'?"),
+        ("--select STU01x .", f"--select: 'STU01x' {NONE}; did you mean 'STU001'?"),
+        ("--ignore volum-name .", f"--ignore: 'volum-name' {NONE}; did you mean 'volume-name'?"),
+        ("--ignore hous .", f"--ignore: 'hous' {NONE}; did you mean 'house'?"),
+        ("--ignore xyzzy .", f"--ignore: 'xyzzy' {NONE}"),
         (
-            "--ignore volume-name .",
-            "no rule code starts with 'volume-name'; did you mean 'STU001'?",
+            "--ignore LNT001 .",
+            "--ignore: LNT001 can't be ignored: it says that the job was not done",
         ),
-        ("--ignore xyzzy .", "no rule code starts with 'xyzzy'"),
-        ("--ignore LNT001 .", "LNT001 can't be ignored: it says that the job was not done"),
+        (
+            "--ignore rule-failed .",
+            "--ignore: rule-failed can't be ignored: it says that the job was not done",
+        ),
+        *((f"{option}= .", f"{option} {EMPTY}") for option in MAY_BE_EMPTY),
+        ("--select STU --select , .", f"--select {EMPTY}"),
         (
             "--severity STU001 .",
             "--severity STU001: write it as CODE=LEVEL, such as AST002=warning",
@@ -153,8 +186,19 @@ def test_infos_are_shown_to_those_who_ask(
             "--severity STU001 must be one of error, warning, info, not 'eror'; "
             "did you mean 'error'?",
         ),
-        ("--severity STV001=info .", "no rule code starts with 'STV001'; did you mean 'STU001'?"),
-        ("--severity LNT002=info .", "LNT002 stays an error: it says that the job was not done"),
+        (
+            "--severity STV001=info .",
+            f"--severity STV001: 'STV001' {NONE}; did you mean 'STU001'?",
+        ),
+        (
+            "--severity LNT002=info .",
+            "--severity LNT002: LNT002 stays an error: it says that the job was not done",
+        ),
+        (
+            "--severity STU001=off .",
+            "--severity STU001 must be one of error, warning, info, not 'off'; "
+            "a rule that is to report nothing stands in `ignore`",
+        ),
         (
             "--fail-on warn .",
             "--fail-on must be one of error, warning, info, never, not 'warn'; "
@@ -188,7 +232,8 @@ def test_infos_are_shown_to_those_who_ask(
             "--output-format json --output a --output-format full --output ./a .",
             "one file can't take several reports: name each --output once",
         ),
-        ("--pack gone .", "rule pack 'gone': no such folder"),
+        ("--pack gone .", "--pack: there is no folder 'gone', which is to be a rule pack"),
+        ("--root gone .", "--root: the root 'gone' is no folder"),
     ],
 )
 def test_mistakes_on_the_command_line(

@@ -153,7 +153,7 @@ def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     )
     assert tool().code == 1
     assert tool("--variants", "selected").code == 0
-    settings = json.loads(tool("--show-settings").out)
+    settings = json.loads(tool("--show-settings", "--output-format", "json").out)
     assert (settings["variants"], settings["variant_limit"]) == ("all", 3)
 
 

@@ -101,37 +101,43 @@ def test_options_reach_the_rule(options: str, found: str | None, show: Path) -> 
 @pytest.mark.parametrize(
     ("rule", "option", "value", "said"),
     [
-        ("volum-name", "strict", True, "no rule 'volum-name'; did you mean 'volume-name'?"),
+        (
+            "volum-name",
+            "strict",
+            True,
+            "options.volum-name: no rule 'volum-name'; did you mean 'volume-name'?",
+        ),
         (
             "volume-name",
             "alowed",
             ["fog"],
-            "volume-name has no option 'alowed'; did you mean 'allowed'?",
+            "options.volume-name.alowed: volume-name has no option 'alowed'; "
+            "did you mean 'allowed'?",
         ),
         (
             "STU001",
             "allowed",
             "fog",
-            "volume-name: option 'allowed' must be a list of strings, not 'fog'",
+            "options.STU001.allowed must be a list of strings, not 'fog'",
         ),
         (
             "STU001",
             "allowed",
             [1],
-            "volume-name: option 'allowed' must be a list of strings, not [1]",
+            "options.STU001.allowed must be a list of strings, not [1]",
         ),
-        ("STU001", "prefix", 1, "volume-name: option 'prefix' must be a string, not 1"),
-        ("STU001", "longest", 1.5, "volume-name: option 'longest' must be a whole number, not 1.5"),
+        ("STU001", "prefix", 1, "options.STU001.prefix must be a string, not 1"),
+        ("STU001", "longest", 1.5, "options.STU001.longest must be a whole number, not 1.5"),
         (
             "STU001",
             "longest",
             True,
-            "volume-name: option 'longest' must be a whole number, not True",
+            "options.STU001.longest must be a whole number, not True",
         ),
-        ("STU001", "share", "1", "volume-name: option 'share' must be a number, not '1'"),
-        ("STU001", "share", False, "volume-name: option 'share' must be a number, not False"),
-        ("STU001", "strict", 1, "volume-name: option 'strict' must be true or false, not 1"),
-        ("STU002", "strict", True, "volume-seen has no option 'strict'"),
+        ("STU001", "share", "1", "options.STU001.share must be a number, not '1'"),
+        ("STU001", "share", False, "options.STU001.share must be a number, not False"),
+        ("STU001", "strict", 1, "options.STU001.strict must be true or false, not 1"),
+        ("STU002", "strict", True, "options.STU002.strict: volume-seen has no option 'strict'"),
     ],
 )
 def test_options_are_checked(rule: str, option: str, value: object, said: str) -> None:

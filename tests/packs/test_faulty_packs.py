@@ -138,6 +138,14 @@ def test_an_interrupt_that_a_rule_raises_is_its_own(rule: str, said: str, tmp_pa
     assert f"{said}KeyboardInterrupt: stop" in [each["message"] for each in stage["findings"]]
 
 
+@pytest.mark.parametrize("on", ["5", "['Volume']", "('Volume', 5)", "('Volume', '')"])
+def test_types_that_are_none(on: str, tmp_path: Path) -> None:
+    rule = RULE.format(problem="'seen', at=volume").replace('on="Volume"', f"on={on}")
+    (tmp_path / "faulty.py").write_text(rule, encoding="utf-8")
+    with pytest.raises(PackError, match="FLT001: `on` is the name of a type or a tuple of such, "):
+        load([str(tmp_path)])
+
+
 def test_a_precondition_that_is_none(tmp_path: Path) -> None:
     rule = RULE.format(problem="'seen', at=volume").replace(
         'on="Volume"', 'on="Volume", when="authored"'
@@ -209,7 +217,20 @@ def test_types_that_only_a_plugin_has(
     assert found["suggestion"] == f"install the plugin that has it, or correct the rule{advice}"
 
 
-@pytest.mark.parametrize("types", [("Volume", "StudioFlame"), ("Xform",), ("ParticleField",)])
+def test_a_type_beside_others_that_only_a_plugin_has(tmp_path: Path) -> None:
+    """The rule finds less than it should, which is no less silent."""
+    stages = write(tmp_path / "stages", one=volume("a"))
+    pack = on(tmp_path, "Volume", "StudioFlame")
+    chosen = ("--select", "FLT,LNT", "--output-format", "json")
+    ran = run("--isolated", "--pack", pack, *chosen, stages, cwd=tmp_path)
+    assert {cause["code"]: cause["message"] for cause in ran.json["causes"]} == {
+        "FLT001": "seen",
+        "LNT005": "rule FLT001 (faulty) looked at less than it asks for: no schema that is "
+        "installed here is called 'StudioFlame'",
+    }
+
+
+@pytest.mark.parametrize("types", [("Volume", "OpenVDBAsset"), ("Xform",), ("ParticleField",)])
 def test_a_rule_that_has_something_to_look_at_says_nothing_of_it(
     types: tuple[str, ...], tmp_path: Path
 ) -> None:

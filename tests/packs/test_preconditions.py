@@ -47,6 +47,10 @@ def pack(folder: Path, when: str, on: str = "Volume", options: str = "", more: s
 
 
 ATTRIBUTE_ERROR = {"when": "When(Prims.authored, lambda authored: authored.no_such_name)"}
+NO_TRUTH = {
+    "when": "When(Prims.authored, lambda authored: Odd())",
+    "more": "class Odd:\n    def __bool__(self):\n        raise ValueError('either')\n",
+}
 KEY_OF_CONTENT = {
     "when": "contents(key)",
     "on": "FieldAsset",
@@ -65,6 +69,7 @@ KEY_OF_CONTENT = {
             "AttributeError: 'Authored' object has no attribute 'no_such_name'",
             id="holds",
         ),
+        pytest.param(NO_TRUTH, volume("cloud"), "/cloud", "ValueError: either", id="no-truth"),
         pytest.param(KEY_OF_CONTENT, FIELD, "/density", "KeyError: 'lost'", id="key-of-content"),
     ],
 )

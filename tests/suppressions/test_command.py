@@ -164,7 +164,7 @@ def test_unused_ones_are_shown(library: Path) -> None:
 
 
 def test_settings_say_what_is_suppressed(library: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    ran = run("--show-settings", cwd=library)
+    ran = run("--show-settings", "--output-format", "json", cwd=library)
     settings = json.loads(ran.out)
     assert settings["suppressions"] == "all"
     assert settings["suppress"] == [{"prims": ["/World/Old/**"], "reason": "an old cache"}]

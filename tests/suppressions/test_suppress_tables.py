@@ -232,15 +232,15 @@ def test_what_says_that_the_job_was_not_done_is_never_suppressed(reason: Reason)
     for rules in ("LNT001", "rule-failed"):
         with pytest.raises(UsageError) as raised:
             reason(table(rules=["AST", rules]))
-        said = f"c.toml: suppress, table 1: {rules} can't be ignored: it says that the job was not "
-        assert str(raised.value) == f"{said}done"
+        said = f"{rules} can't be ignored: it says that the job was not done"
+        assert str(raised.value) == f"c.toml: suppress, table 1: rules: {said}"
 
 
 def test_rules_have_to_be_there(reason: Reason) -> None:
     for old in ({}, {"until": "2000-01-01"}):
         with pytest.raises(UsageError) as raised:
             reason(table(rules=["AST02"], **old))
-        said = "c.toml: suppress, table 1: rules: no rule code starts with 'AST02'"
+        said = "c.toml: suppress, table 1: rules: 'AST02' is no rule, no family"
         assert str(raised.value).startswith(said)
 
 

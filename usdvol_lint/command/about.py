@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from typing import Any
 
+from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
 from usdvol_lint.packs.catalog import Catalog
 from usdvol_lint.packs.page import Page
 from usdvol_lint.report.style import paint
+from usdvol_lint.words import printable
 
 
 def explain(catalog: Catalog, code_or_name: str) -> Page:
@@ -65,6 +68,25 @@ def list_rules_as_json(catalog: Catalog) -> str:
     return json.dumps(rules, indent=2, ensure_ascii=False) + "\n"
 
 
-def show_settings(settings: Mapping[str, object], source: str | None) -> str:
-    """The settings in force, as JSON; `source` is the configuration file."""
-    return json.dumps({"config_file": source, **settings}, indent=2, ensure_ascii=False) + "\n"
+def show_settings(config: Config, catalog: Catalog, settings: Mapping[str, Any]) -> str:
+    """The settings in force as a configuration file, with the rules in force as comments.
+
+    `settings` are those that a report has.
+    """
+    from usdvol_lint.config.writing import as_toml
+
+    files = ", which extends ".join(config.origins.files) or "none"
+    lines = [f"# configuration file: {printable(files)}", "", *as_toml(config)]
+    lines += ["", "# in force with that:"]
+    for code, level in settings["rules"].items():
+        lines.append(f"# {code}  {level:<7}  {catalog.rules[code].name}")
+    return "\n".join(lines) + "\n"
+
+
+def show_settings_as_json(config: Config, settings: Mapping[str, Any]) -> str:
+    """The settings in force for programs, as a JSON object."""
+    file, *extended = config.origins.files or (None,)
+    others = config._asdict()
+    del others["origins"]
+    said = {"config_file": file, "config_extends": extended, **others, **settings}
+    return json.dumps(said, indent=2, ensure_ascii=False) + "\n"

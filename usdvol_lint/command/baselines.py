@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import click
@@ -29,7 +30,12 @@ def prepared(given: dict[str, Any], config: Config) -> Prepared:
     if file and given["baseline"] is None:
         file = display(file)  # the configuration's folder stands before it
     moves = tuple(map(_move, given["moved"]))
-    return prepare(Use(file, given["write_baseline"], given["prune_baseline"], moves))
+    try:
+        return prepare(Use(file, given["write_baseline"], given["prune_baseline"], moves))
+    except UsageError as error:
+        if given["baseline"] is not None or not file or os.path.exists(file):
+            raise
+        raise UsageError(f"{config.origins.words('baseline')}: {error}") from error
 
 
 def _move(pair: str) -> Move:

@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 def _complete_code(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
     from usdvol_lint.packs.catalog import load
 
-    return [code for code in load().rules if code.startswith(typed.upper())]
+    catalog = load()
+    names = [*(rule.name for rule in catalog.rules.values()), *catalog.families]
+    codes = [code for code in catalog.rules if code.startswith(typed.upper())]
+    return codes + [name for name in names if typed and name.startswith(typed.lower())]
 
 
 def _complete_from(constant: str) -> Any:
@@ -58,9 +61,9 @@ class _Command(click.Command):
 )
 @click.argument("paths", nargs=-1, type=click.Path(), metavar="PATHS...")
 @click.option("--select", multiple=True, metavar="CODES", shell_complete=_complete_code,
-              help="Only these rules: codes, prefixes such as AST, or ALL.")
+              help="Only these rules: codes, their beginnings, names, families, or ALL.")
 @click.option("--ignore", multiple=True, metavar="CODES", shell_complete=_complete_code,
-              help="Not these rules: codes or prefixes.")
+              help="Not these rules: codes, their beginnings, names or families.")
 @click.option("--severity", multiple=True, metavar="CODE=LEVEL",
               help="Report a rule as error, warning or info.")
 @click.option("--fail-on", metavar="LEVEL",
@@ -128,7 +131,8 @@ class _Command(click.Command):
               help="Worker processes (default: one for each processor).")
 @click.option("--timeout", type=float, metavar="SECONDS",
               help="Time limit for one stage (default: 300).")
-@click.option("--show-settings", is_flag=True, help="Print the settings in force and exit.")
+@click.option("--show-settings", is_flag=True,
+              help="Print the settings in force, as a configuration file, and exit.")
 @click.option("--list-rules", is_flag=True, help="Print every rule and exit.")
 @click.option("--explain", metavar="CODE|NAME", shell_complete=_complete_code,
               help="Print the page of a rule and exit.")
@@ -226,21 +230,28 @@ def _show_settings(given: dict[str, Any]) -> int:
     from usdvol_lint.command import about, output
     from usdvol_lint.command.settings import read_settings
     from usdvol_lint.packs.activation import activate
-    from usdvol_lint.packs.catalog import load
+    from usdvol_lint.packs.catalog import load_for
+    from usdvol_lint.packs.selection import still_ignored
+    from usdvol_lint.run.layer_levels import verdicts
     from usdvol_lint.run.lint import settings_of
     from usdvol_lint.run.suppressing import reasons
 
-    config, file = read_settings(given)
-    catalog = load(config.packs)
+    config, _ = read_settings(given)
+    catalog = load_for(config)
     settings = settings_of(config, activate(config, catalog))
     reasons(config, catalog, root=None)  # which says where a table names no rule
-    output.print_text([about.show_settings(settings, str(file) if file else None)])
+    verdicts(config, catalog)
+    config = config._replace(ignore=still_ignored(config, catalog))
+    if "json" in given["output_format"]:
+        output.print_text([about.show_settings_as_json(config, settings)])
+    else:
+        output.print_text([about.show_settings(config, catalog, settings)])
     return CLEAN
 
 
 def _catalog(given: dict[str, Any]) -> Catalog:
     from usdvol_lint.command.settings import read_settings
-    from usdvol_lint.packs.catalog import load
+    from usdvol_lint.packs.catalog import load_for
 
     config, _ = read_settings(given)
-    return load(config.packs)
+    return load_for(config)

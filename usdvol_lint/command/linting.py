@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -15,12 +16,13 @@ from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.settings import read_settings
 from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
-from usdvol_lint.packs.catalog import load
+from usdvol_lint.packs.catalog import load_for
 from usdvol_lint.report import FOR_HOSTS
 from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import versions_in
 from usdvol_lint.run.lint import Naming, lint
 from usdvol_lint.run.roots import checkout_of, root_of
+from usdvol_lint.words import quoted
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -45,7 +47,7 @@ def lint_stages(
     except Exception as error:
         job.write_failure(error)
         raise
-    report = report._replace(run=_run_info(report.run, job.file))
+    report = report._replace(run=_run_info(report.run, job.config))
     report, failure = job.prepared.apply(report) if job.prepared else (report, "")
     output.write(report._replace(failure=failure), job.destinations, job.options())
     if job.config.suppress and not given["quiet"]:
@@ -86,6 +88,9 @@ class _Job:
     def naming(self, config: Config) -> Naming:
         of_baseline = self.prepared.root if self.prepared else None
         folder = str(self.file.parent) if self.file else None
+        if config.root is not None and not os.path.isdir(config.root):
+            where = config.origins.words("root")
+            raise UsageError(f"{where}: the root {quoted(config.root)} is no folder")
         root = root_of(self._paths, self._given["root"], of_baseline, config.root, folder)
         if self.prepared:
             self.prepared.check_root(root)
@@ -96,7 +101,7 @@ class _Job:
             category=self._given["category"] or "",
             summary=self._given["summary"] or "",
             repository=self.repository,
-            page_of=lambda code: load(self.config.packs).page(code),
+            page_of=lambda code: load_for(self.config).page(code),
         )
 
     def write_failure(self, error: Exception) -> None:
@@ -106,10 +111,11 @@ class _Job:
         if not destinations:
             return
         self.repository = self.repository or checkout_of(self._paths)
-        output.write(_failed(self._paths, error), destinations, self.options())
+        report = _failed(self._paths, error, self.config)
+        output.write(report, destinations, self.options())
 
 
-def _failed(paths: tuple[str, ...], error: Exception) -> Report:
+def _failed(paths: tuple[str, ...], error: Exception, config: Config) -> Report:
     """The report on a run that could not begin."""
     words = error.format_message() if isinstance(error, click.ClickException) else str(error)
     return Report(
@@ -119,7 +125,7 @@ def _failed(paths: tuple[str, ...], error: Exception) -> Report:
         root=None,
         stages=(),
         causes=(),
-        run=_run_info(RunInfo(), None),
+        run=_run_info(RunInfo(), config),
         arguments=paths,
         failure=" ".join(words.split()),
     )
@@ -143,11 +149,13 @@ def _tell_expired(config: Config) -> None:
         click.echo(f"usdvol-lint: {line}", err=True)
 
 
-def _run_info(run: RunInfo, file: Path | None) -> RunInfo:
+def _run_info(run: RunInfo, config: Config) -> RunInfo:
     from datetime import UTC, datetime
 
+    file, *extended = config.origins.files or (None,)
     return run._replace(
         date=datetime.now(UTC).isoformat(timespec="seconds"),
         command=("usdvol-lint", *sys.argv[1:]),
-        config_file=str(file) if file else None,
+        config_file=file,
+        config_extends=tuple(map(str, extended)),
     )

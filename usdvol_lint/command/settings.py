@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +11,7 @@ import click
 
 from usdvol_lint.config import SUMMARIES, Config
 from usdvol_lint.config.files import find_config_file, read_config
+from usdvol_lint.config.layers import laid_over
 from usdvol_lint.config.values import CHECKS, level, one_of, shown
 from usdvol_lint.model import UsageError
 
@@ -16,7 +19,7 @@ _REPLACING = (
     *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
     *("max-places", "root", "baseline", "today", "fail-on-unchecked"),
 )
-"""The options that replace what the file says; the others add to it."""
+"""The options that replace what the file says."""
 
 
 def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
@@ -28,33 +31,39 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
     """
     file = _config_file(given["config_file"], given["isolated"])
     base = read_config(file) if file else Config()
-    changes: dict[str, Any] = {
-        "packs": base.packs + given["pack"],
-        "show": base.show + shown("--show", list(given["show"])),
-    }
+    settings = laid_over(base, dict(_values(given)), _option)
+    _check_depth(settings)
+    return settings, file
+
+
+def _values(given: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """The settings that the command line says, by key."""
     for key in _REPLACING:
-        name = key.replace("-", "_")
-        value = given[name]
+        value = given[key.replace("-", "_")]
         if value is not None and value is not False:
-            changes[name] = CHECKS[key](f"--{key}", value)
+            yield key, CHECKS[key](f"--{key}", value)
     if given["no_baseline"]:
         if given["baseline"] is not None:
             raise click.UsageError("--baseline and --no-baseline exclude each other")
-        changes["baseline"] = None
-    if given["no_suppressions"]:
-        changes["suppressions"] = "none"
+        yield "baseline", None
     if given["summary"] is not None:
         one_of("--summary", given["summary"], SUMMARIES)
     for name in given["output_format"]:
         CHECKS["output-format"]("--output-format", name)
-    select = _codes(given["select"])
-    if select:
-        changes["select"] = select
-    changes["ignore"] = _still_ignored(base.ignore, select) + _codes(given["ignore"])
-    changes["severity"] = {**base.severity, **_severities(given["severity"])}
-    settings = base._replace(**changes)
-    _check_depth(settings)
-    return settings, file
+    if len(given["output_format"]) == 1 and not given["output"]:
+        yield "output-format", given["output_format"][0]
+    if given["no_suppressions"]:
+        yield "suppressions", "none"
+    yield from ((key, read(given[name])) for key, name, read in _ADDING if given[name])
+
+
+def _shown(given: tuple[str, ...]) -> tuple[str, ...]:
+    return shown("--show", list(given))
+
+
+def _option(key: str) -> str:
+    """The option that says something of a key, and has not always its name."""
+    return {"packs": "--pack", "suppressions": "--no-suppressions"}.get(key, f"--{key}")
 
 
 def _check_depth(settings: Config) -> None:
@@ -62,15 +71,24 @@ def _check_depth(settings: Config) -> None:
 
     A suppression would seem unused, and what was left out checked.
     """
-    asked = "--show unused" if "unused" in settings.show else ""
-    if settings.fail_on_unchecked:
-        asked = "--fail-on-unchecked"
-    for name in ("load", "content", "times") if asked else ():
+    is_asked = settings.fail_on_unchecked or "unused" in settings.show
+    for name in ("load", "content", "times") if is_asked else ():
         value = getattr(settings, name)
         if value != "all":
-            raise UsageError(
-                f"{asked} needs a run that looks at everything: leave out --{name} {value}"
-            )
+            if settings.fail_on_unchecked:
+                asking = _said(settings, "fail-on-unchecked", "")
+            else:
+                asking = _said(settings, "show", "unused")
+            needed = f"{asking} needs a run that looks at everything"
+            raise UsageError(f"{needed}: leave out {_said(settings, name, str(value))}")
+
+
+def _said(settings: Config, key: str, value: str) -> str:
+    """A value with where it is said: `--load none`, `usdvol-lint.toml: load = 'none'`."""
+    origin = settings.origins.of(key, value if key == "show" else "")
+    if not value:
+        return origin.words
+    return f"{origin.words} = {value!r}" if origin.file else f"{origin.words} {value}"
 
 
 def _config_file(named: str | None, isolated: bool) -> Path | None:
@@ -78,30 +96,56 @@ def _config_file(named: str | None, isolated: bool) -> Path | None:
         here = Path.cwd()
     except OSError:
         raise UsageError("the working directory is not there any more") from None
-    if named and isolated:
+    if named is not None and isolated:
         raise click.UsageError("--config and --isolated exclude each other")
-    if named:
+    if named is not None:
+        _check_filled("--config", named)
         return Path(named)
     return None if isolated else find_config_file(here)
 
 
-def _still_ignored(ignored: tuple[str, ...], select: tuple[str, ...]) -> tuple[str, ...]:
-    """What the file ignores, without the codes that the command line selects by name."""
-    selected = {code.upper() for code in select}
-    return tuple(code for code in ignored if code.strip().upper() not in selected)
+def _packs(given: tuple[str, ...]) -> tuple[str, ...]:
+    for folder in given:
+        _check_filled("--pack", folder)
+    return given
 
 
-def _codes(lists: tuple[str, ...]) -> tuple[str, ...]:
-    """The codes in lists that are separated by commas."""
-    return tuple(code.strip() for codes in lists for code in codes.split(",") if code.strip())
+def _codes(option: str, given: tuple[str, ...]) -> tuple[str, ...]:
+    """The selectors in lists that are separated by commas; raises UsageError for an empty list."""
+    return tuple(code for codes in given for code in _parts(f"--{option}", codes))
 
 
-def _severities(pairs: tuple[str, ...]) -> dict[str, str]:
+def _parts(option: str, given: str) -> list[str]:
+    parts = [part.strip() for part in given.split(",")]
+    _check_filled(option, "".join(parts))
+    return list(filter(None, parts))
+
+
+def _check_filled(option: str, value: str) -> None:
+    """Raises UsageError for a value that is empty, as that of a variable of a script may be."""
+    if not value.strip():
+        raise UsageError(
+            f"{option} has an empty value: if a script brings it, its variable is not set; "
+            "leave the option out to say nothing"
+        )
+
+
+def _severities(given: tuple[str, ...]) -> dict[str, str]:
     """Severities by code, from `CODE=LEVEL`."""
     severities = {}
-    for pair in _codes(pairs):
+    for pair in _codes("severity", given):
         code, equals, name = (part.strip() for part in pair.partition("="))
         if not equals:
             raise UsageError(f"--severity {pair}: write it as CODE=LEVEL, such as AST002=warning")
         severities[code] = level(f"--severity {code}", name)
     return severities
+
+
+_ADDING: tuple[tuple[str, str, Callable[[tuple[str, ...]], Any]], ...] = (
+    ("packs", "pack", _packs),
+    ("show", "show", _shown),
+    ("select", "select", partial(_codes, "select")),
+    ("ignore", "ignore", partial(_codes, "ignore")),
+    ("severity", "severity", _severities),
+)
+"""The keys that options which may be repeated add to, but for `select`: option, and its reader."""

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from usdvol_lint.config.origins import Origins
 from usdvol_lint.model import Severity
 
 if TYPE_CHECKING:
+    from usdvol_lint.config.per_path import PerPath
     from usdvol_lint.suppressions import Suppression
 
 FAIL_ON = ("error", "warning", "info", "never")
@@ -28,6 +30,7 @@ LEVELS = tuple(severity.label for severity in reversed(Severity))
 class Config(NamedTuple):
     """The settings of a run.
 
+    `select` is None for the rules that are on by default; without any selector it is none at all.
     `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
     for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
     `fail_on_unchecked` says that what was not checked fails a run at any level.
@@ -39,10 +42,12 @@ class Config(NamedTuple):
     came after the release `rules_as_of` report infos.
     `suppressions` are those that are heeded: those in stages are not the `configuration`'s own,
     `suppress`; `today` is a date in place of the real one, for those that expire.
+    `per_path` has other severities for some layers.
+    `origins` is where all of this is said.
     See `Depth` for `load`, `content`, `times` and `statistics`.
     """
 
-    select: tuple[str, ...] = ()
+    select: tuple[str, ...] | None = None
     ignore: tuple[str, ...] = ()
     # One empty dictionary for all: a Mapping is not written to, and a MappingProxyType can't be
     # pickled or copied.
@@ -69,7 +74,9 @@ class Config(NamedTuple):
     rules_as_of: str | None = None
     suppressions: str = "all"
     suppress: tuple[Suppression, ...] = ()
+    per_path: tuple[PerPath, ...] = ()
     today: str | None = None
+    origins: Origins = Origins()
 
     @property
     def least_shown(self) -> Severity:

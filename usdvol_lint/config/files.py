@@ -1,63 +1,113 @@
-"""Finds configuration files, and reads settings from them."""
+"""Finds configuration files, and reads settings from them and from those that they extend."""
 
 from __future__ import annotations
 
-from os.path import isfile
+from collections.abc import Callable, Iterator, Mapping
+from os.path import isfile, realpath
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint.config import Config
+from usdvol_lint.config.layers import laid_over
+from usdvol_lint.config.misnamed import FILE_NAME, TABLE, check_keys, check_names, check_tables
 from usdvol_lint.config.values import CHECKS, table
 from usdvol_lint.model import UsageError
 from usdvol_lint.nearest import did_you_mean
+from usdvol_lint.words import quoted
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-FILE_NAME = "usdvol-lint.toml"
-TABLE = "usdvol-lint"
+_PROJECT = "pyproject.toml"
+EXTEND = "extend"
+PATHS = frozenset({"packs", "root", "baseline"})
+"""The keys with paths in relation to the file."""
 
 
 def find_config_file(start: Path) -> Path | None:
     """The configuration file of a folder, or of the nearest one above it that has one.
 
     It is a usdvol-lint.toml, or else a pyproject.toml with a table [tool.usdvol-lint].
+    Raises UsageError for one that is not read because of its name, or that of its table.
     """
     for folder in (start, *start.parents):
+        check_names(folder)
         own = folder / FILE_NAME
         if isfile(own):
             return own
-        project = folder / "pyproject.toml"
+        project = folder / _PROJECT
         if isfile(project) and _own_table(project) is not None:
             return project
     return None
 
 
 def read_config(path: Path) -> Config:
-    """Reads a configuration file; paths in it are relative to the file.
+    """Reads a configuration file and those that it extends; paths are relative to their file.
 
-    Raises UsageError where it can't be read, or says what is not allowed.
+    Raises UsageError where one can't be read, or says what is not allowed.
     """
-    own = _own_table(path) if path.name == "pyproject.toml" else _read_toml(path)
+    chain = list(_chain(path))
+    config = Config()
+    for file, values in reversed(chain):
+        config = laid_over(config, values, _in(file), str(file))
+    files = tuple(str(file) for file, _ in chain)
+    return config._replace(origins=config.origins._replace(files=files))
+
+
+def _chain(path: Path) -> Iterator[tuple[Path, Mapping[str, Any]]]:
+    """A file and those that it extends, with their values by key."""
+    named, where = path, ""
+    met: dict[str, Path] = {}
+    while True:
+        met[realpath(named)] = named
+        values = _read_values(named, where)
+        extended = values.pop(EXTEND, None)
+        yield named, values
+        if extended is None:
+            return
+        where = f"{named}: {EXTEND}: "
+        named = named.parent / extended
+        if realpath(named) in met:
+            names = " -> ".join(map(str, (*met.values(), named)))
+            raise UsageError(f"{where}the files extend each other in a circle: {names}")
+        if not isfile(named):
+            raise UsageError(f"{where}there is no file {quoted(str(named))}")
+
+
+def _read_values(path: Path, where: str) -> dict[str, Any]:
+    """The values that one file has, by key; `where` begins a message about the file itself."""
+    is_project = path.name == _PROJECT
+    own = _own_table(path) if is_project else _read_toml(path)
     if own is None:
-        raise UsageError(f"{path} has no table [tool.{TABLE}]")
-    values = {}
+        raise UsageError(f"{where}{path} has no table [tool.{TABLE}]")
     given = table(f"{path}: tool.{TABLE}", own)
+    if not is_project:
+        check_keys(path, given)
     # A file that is written for another version may have keys that this one doesn't know.
-    for key in sorted(given, key=lambda key: key != "required-version"):
-        value = given[key]
-        if key not in CHECKS:
-            raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
-        values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
-    config = Config(**values)
-    packs = tuple(str(path.parent / pack) for pack in config.packs)
-    root = None if config.root is None else str(path.parent / config.root)
-    baseline = None if config.baseline is None else str(path.parent / config.baseline)
-    return config._replace(packs=packs, root=root, baseline=baseline)
+    keys = sorted(given, key=lambda key: key != "required-version")
+    return {key: _value(path, key, given[key]) for key in keys}
+
+
+def _value(path: Path, key: str, value: Any) -> Any:
+    if key not in CHECKS:
+        raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
+    checked = CHECKS[key](_in(path)(key), value)
+    if key not in PATHS:
+        return checked
+    if isinstance(checked, tuple):
+        return tuple(str(path.parent / each) for each in checked)
+    return str(path.parent / checked)
+
+
+def _in(file: Path) -> Callable[[str], str]:
+    """How messages name a key of a file."""
+    return lambda key: f"{file}: {key}"
 
 
 def _own_table(project: Path) -> Any | None:
     """The value of tool.usdvol-lint in a pyproject.toml; None if there is none."""
-    tools = _read_toml(project).get("tool", {})
+    data = _read_toml(project)
+    check_tables(project, data)
+    tools = data.get("tool", {})
     return tools.get(TABLE) if isinstance(tools, dict) else None
 
 

@@ -22,9 +22,12 @@ from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.releases import release, required_version
 
 if TYPE_CHECKING:
+    from usdvol_lint.config.per_path import PerPath
     from usdvol_lint.suppressions import Suppression
 
 LONGEST_TIMEOUT = 1_000_000
+_NO_LEVELS = ("ignore", "ignored", "off", "none", "never", False)
+"""What somebody writes for the severity of a rule that is to report nothing."""
 
 
 def strings(where: str, value: Any) -> list[str]:
@@ -44,11 +47,18 @@ def one_of(where: str, value: Any, allowed: tuple[str, ...]) -> str:
 
 def level(where: str, value: Any) -> str:
     """The value, if it is the name of a severity."""
+    if value in _NO_LEVELS:
+        said = f"not {value!r}; a rule that is to report nothing stands in `ignore`"
+        raise UsageError(f"{where} must be one of {', '.join(LEVELS)}, {said}")
     return one_of(where, value, LEVELS)
 
 
-def _strings(where: str, value: Any) -> tuple[str, ...]:
-    return tuple(strings(where, value))
+def filled(where: str, value: Any) -> tuple[str, ...]:
+    """The value, if it is a list of strings none of which is empty."""
+    given = tuple(strings(where, value))
+    if not all(map(str.strip, given)):
+        raise UsageError(f"{where} has an empty string, which names nothing: leave it out")
+    return given
 
 
 def shown(where: str, value: Any) -> tuple[str, ...]:
@@ -62,7 +72,7 @@ def table(where: str, value: Any) -> dict[str, Any]:
     return value
 
 
-def _levels(where: str, value: Any) -> dict[str, str]:
+def levels(where: str, value: Any) -> dict[str, str]:
     return {code: level(f"{where}.{code}", name) for code, name in table(where, value).items()}
 
 
@@ -101,6 +111,12 @@ def _suppress(where: str, value: Any) -> tuple[Suppression, ...]:
     return read_tables(where, value)
 
 
+def _per_path(where: str, value: Any) -> tuple[PerPath, ...]:
+    from usdvol_lint.config.per_path import read_per_path
+
+    return read_per_path(where, value)
+
+
 def _day(where: str, value: Any) -> str:
     from usdvol_lint.suppressions import date_of
 
@@ -134,11 +150,12 @@ def _times(where: str, value: Any) -> str | int:
 
 
 CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
-    "select": _strings,
-    "ignore": _strings,
-    "severity": _levels,
+    "extend": _text,
+    "select": filled,
+    "ignore": filled,
+    "severity": levels,
     "options": _tables,
-    "packs": _strings,
+    "packs": filled,
     "fail-on": partial(one_of, allowed=FAIL_ON),
     "fail-on-unchecked": _boolean,
     "output-format": partial(one_of, allowed=OUTPUT_FORMATS),
@@ -159,9 +176,10 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "rules-as-of": release,
     "suppressions": partial(one_of, allowed=SUPPRESSIONS),
     "suppress": _suppress,
+    "per-path": _per_path,
     "today": _day,
 }
-"""For each key of the configuration a function that returns the value for the `Config`.
+"""For each key of a configuration a function that returns the value for the `Config`.
 
 It is called with where the value was given, which begins its UsageError, and the value.
 """

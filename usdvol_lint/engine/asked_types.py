@@ -32,20 +32,22 @@ def check_types(rules: Iterable[Rule]) -> None:
                 )
 
 
-def never_run(rules: Iterable[Rule], root: Any) -> Iterator[tuple[Rule, NotChecked]]:
-    """The rules none of whose types is known here, each with what to say of it on a stage."""
+def unknown_types(rules: Iterable[Rule], root: Any) -> Iterator[tuple[Rule, NotChecked]]:
+    """The rules some of whose types are unknown here, each with what to say of it on a stage."""
     for rule in rules:
-        if rule.on and all(map(_is_unknown, rule.on)):
-            types = " or ".join(map(repr, rule.on))
+        unknown = list(filter(_is_unknown, rule.on))
+        if unknown:
+            types = " or ".join(map(repr, unknown))
+            looked = "nothing" if len(unknown) == len(rule.on) else "less than it asks for"
             yield (
                 rule,
                 NotChecked(
-                    f"rule {rule.code} ({rule.name}) looked at nothing: no schema that is "
+                    f"rule {rule.code} ({rule.name}) looked at {looked}: no schema that is "
                     f"installed here is called {types}",
                     at=root,
                     machine=rule.code,
                     suggestion="install the plugin that has it, or correct the rule"
-                    + did_you_mean(rule.on[0], _names()),
+                    + did_you_mean(unknown[0], _names()),
                 ),
             )
 

@@ -127,7 +127,7 @@ class _RulesByKey:
     def _holds(self, rule: Rule, when: When, key: Any) -> bool:
         given = {**rule.options, **self._options.get(rule.code, {})}
         try:
-            return when.holds(key, **{name: given[name] for name in when.options})
+            return bool(when.holds(key, **{name: given[name] for name in when.options}))
         except PACK_FAILURES as error:
             self._failed([rule], error)
             return True

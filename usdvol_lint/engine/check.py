@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from usdvol_lint import schema
-from usdvol_lint.engine.asked_types import never_run
+from usdvol_lint.engine.asked_types import unknown_types
 from usdvol_lint.engine.assign import Options, assign
 from usdvol_lint.engine.failures import PACK_FAILURES, Failures
 from usdvol_lint.engine.identity import Identity
@@ -52,9 +52,9 @@ class StageCheck:
             )
             yield from self._stamp.stamp(USD_TOO_OLD, too_old)
 
-    def never_run(self, facts: Facts) -> Iterator[Stamped]:
-        """Reports the rules that ask for types which nobody knows; of a run, only the first do."""
-        for rule, idle in never_run(self._rules, facts.stage.GetPseudoRoot()):
+    def unknown_types(self, facts: Facts) -> Iterator[Stamped]:
+        """Reports the rules that ask for types which nobody knows."""
+        for rule, idle in unknown_types(self._rules, facts.stage.GetPseudoRoot()):
             yield from self._stamp.stamp(rule, idle)
 
     def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:

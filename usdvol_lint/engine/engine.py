@@ -112,7 +112,7 @@ class Engine:
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)
-        found += self._sent(chain(check.usd_version(facts), check.never_run(facts)))
+        found += self._sent(chain(check.usd_version(facts), check.unknown_types(facts)))
         found += self._sent(check.selection(walked, facts))
         completes = _completion(facts)
         stats = _stats(walked, facts, context.disk.checked)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from usdvol_lint.config import Config
 from usdvol_lint.config.values import strings
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
-from usdvol_lint.packs.catalog import NOT_IGNORABLE, OF_UNCHECKED, Catalog, length
+from usdvol_lint.packs.catalog import NOT_IGNORABLE, OF_UNCHECKED, Catalog
+from usdvol_lint.packs.selection import levels, options_rule, selected
 from usdvol_lint.releases import is_later
+from usdvol_lint.rule import Rule
 
 _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
 
@@ -47,28 +49,25 @@ class ActiveRules(NamedTuple):
 def activate(config: Config, catalog: Catalog) -> ActiveRules:
     """Resolves selection, severities and options against the catalog.
 
-    Raises UsageError for unknown codes, names and options.
+    Raises UsageError for unknown codes, names and options, and says where they stand.
     """
-    codes = catalog.select(config.select, config.ignore)
+    codes = selected(config, catalog)
     if config.fail_on_unchecked:
-        codes |= _of_unchecked(config.ignore)
-    severities = {code: catalog.rules[code].severity for code in sorted(codes)}
-    chosen: set[str] = set()
-    for selector, level in sorted(config.severity.items(), key=lambda item: length(item[0])):
-        if selector.strip().upper() in NOT_IGNORABLE:
-            raise UsageError(f"{selector} stays an error: it says that the job was not done")
-        for code in catalog.expand(selector) & severities.keys() - NOT_IGNORABLE:
-            severities[code] = Severity[level.upper()]
-            chosen.add(code)
-    active = ActiveRules(severities, _options(config, catalog), frozenset(chosen))
+        codes |= _of_unchecked(config, catalog)
+    given = levels(config, catalog)
+    severities = {code: given.get(code, catalog.rules[code].severity) for code in sorted(codes)}
+    chosen = frozenset(given.keys() & codes)
+    active = ActiveRules(severities, _options(config, catalog), chosen)
     return _dated(active, config.rules_as_of, catalog)
 
 
-def _of_unchecked(ignored: Sequence[str]) -> frozenset[str]:
+def _of_unchecked(config: Config, catalog: Catalog) -> frozenset[str]:
     """The codes that a run needs which fails for what was not checked."""
-    for selector in ignored:
-        if selector.strip().upper() in OF_UNCHECKED:
-            raise UsageError(f"{selector} can't be ignored with --fail-on-unchecked: leave one out")
+    for selector in config.ignore:
+        if catalog.match(selector).codes <= OF_UNCHECKED:
+            where = config.origins.words("ignore", selector)
+            said = f"{selector} can't be ignored with --fail-on-unchecked: leave one out"
+            raise UsageError(f"{where}: {said}")
     return OF_UNCHECKED
 
 
@@ -90,21 +89,23 @@ def _options(config: Config, catalog: Catalog) -> dict[str, dict[str, Any]]:
     """The options that were given, by code; raises UsageError for those that no rule has."""
     options: dict[str, dict[str, Any]] = {}
     for name, given in config.options.items():
-        rule = catalog.find(name)
+        rule = options_rule(config, catalog, name)
         for option, value in given.items():
-            checked = _checked_option(rule.name, rule.options, option, value)
+            where = config.origins.words("options", f"{name}.{option}")
+            checked = _checked_option(where, rule, option, value)
             options.setdefault(rule.code, {})[option] = checked
     return options
 
 
-def _checked_option(name: str, known: Mapping[str, Any], option: str, value: Any) -> Any:
-    if option not in known:
-        raise UsageError(f"{name} has no option {option!r}{did_you_mean(option, known)}")
-    default = known[option]
+def _checked_option(where: str, rule: Rule, option: str, value: Any) -> Any:
+    if option not in rule.options:
+        hint = did_you_mean(option, rule.options)
+        raise UsageError(f"{where}: {rule.name} has no option {option!r}{hint}")
+    default = rule.options[option]
     if isinstance(default, tuple):
-        return tuple(strings(f"{name}: option {option!r}", value))
+        return tuple(strings(where, value))
     kind = (int, float) if isinstance(default, float) else type(default)
     if not isinstance(value, kind) or isinstance(value, bool) != isinstance(default, bool):
         wanted = _KINDS.get(type(default), type(default).__name__)
-        raise UsageError(f"{name}: option {option!r} must be {wanted}, not {value!r}")
+        raise UsageError(f"{where} must be {wanted}, not {value!r}")
     return value

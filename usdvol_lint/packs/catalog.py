@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from os.path import isdir
 from typing import TYPE_CHECKING, NamedTuple
 
+from usdvol_lint.config import Config
 from usdvol_lint.model import PackError, Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.packs.folders import find_packs, import_rules
 from usdvol_lint.rule import Problems, Rule
+from usdvol_lint.words import quoted
 
 if TYPE_CHECKING:
     from usdvol_lint.packs.page import Page
@@ -35,20 +38,41 @@ OF_UNCHECKED = frozenset({USD_TOO_OLD.code, NOT_CHECKED.code})
 """What the engine itself did not check: in force where such a thing fails a run."""
 
 
+_LETTERS, _WHOLE_CODE = 3, 6
+"""How many letters a code begins with, and how long it is."""
+
+
 def help_for(rule: Rule) -> str:
     """The command that prints a rule's page: it works wherever the tool does."""
     return f"usdvol-lint --explain {rule.code}"
 
 
+class Match(NamedTuple):
+    """The codes that a selector stands for, and how exact it is: 0 for ALL, 6 for one rule.
+
+    Of two selectors that match a code the more exact one wins.
+    """
+
+    codes: frozenset[str]
+    rank: int
+
+    @property
+    def not_ignorable(self) -> bool:
+        """Whether it names a rule that nobody can switch off."""
+        return self.rank == _WHOLE_CODE and self.codes <= NOT_IGNORABLE
+
+
 class Catalog(NamedTuple):
     """All rules by code, in order, with the folders their pages lie in.
 
-    `built_in` are the codes of those that come with the tool.
+    `built_in` are the codes of those that come with the tool; `families` are the codes of those
+    that lie in one folder, by its name.
     """
 
     rules: Mapping[str, Rule]
     folders: tuple[str, ...] = ()
     built_in: frozenset[str] = frozenset()
+    families: Mapping[str, frozenset[str]] = {}
 
     def page(self, code: str) -> Page | None:
         """The page of a rule, or None if its pack has none."""
@@ -73,47 +97,30 @@ class Catalog(NamedTuple):
             raise UsageError(f"no rule {wanted!r}{did_you_mean(wanted, [*self.rules, *by_name])}")
         return rule
 
-    def expand(self, selector: str) -> frozenset[str]:
-        """The codes that a selector matches: a code, a prefix of codes, or ALL.
+    def match(self, selector: str) -> Match:
+        """What a selector stands for: a code, a prefix of codes, a rule or family by name, or ALL.
 
-        Raises UsageError if it matches none.
+        Raises UsageError if that is nothing.
         """
-        wanted = selector.strip().upper()
-        codes = self.rules if wanted == "ALL" else [c for c in self.rules if c.startswith(wanted)]
-        if not codes or not wanted:
-            raise UsageError(f"no rule code starts with {selector.strip()!r}{self._hint(wanted)}")
-        return frozenset(codes)
+        wanted = selector.strip()
+        prefix, name = wanted.upper(), wanted.lower()
+        if prefix == "ALL":
+            return Match(frozenset(self.rules), 0)
+        codes = [code for code in self.rules if code.startswith(prefix)] if prefix else []
+        if codes:
+            return Match(frozenset(codes), len(prefix))
+        by_name = {rule.name: code for code, rule in self.rules.items()}
+        if name in by_name:
+            return Match(frozenset({by_name[name]}), _WHOLE_CODE)
+        if name in self.families:
+            return Match(self.families[name], _LETTERS)
+        prefixes = sorted({code[:_LETTERS] for code in self.rules})
+        hint = did_you_mean(wanted, [*self.rules, *prefixes, "ALL", *by_name, *self.families])
+        raise UsageError(f"{wanted!r} is no rule, no family and no beginning of a code{hint}")
 
-    def select(self, select: Sequence[str], ignore: Sequence[str]) -> frozenset[str]:
-        """The codes of active rules; where `select` and `ignore` both match, the longer wins."""
-        chosen = self._lengths(select)
-        dropped = self._lengths(ignore)
-        for code in NOT_IGNORABLE & dropped.keys():
-            if code in (selector.strip().upper() for selector in ignore):
-                raise UsageError(f"{code} can't be ignored: it says that the job was not done")
-        if not select:
-            chosen = {code: 0 for code, rule in self.rules.items() if rule.default}
-        on = {code for code, length in chosen.items() if length > dropped.get(code, -1)}
-        return frozenset(on) | NOT_IGNORABLE
-
-    def _hint(self, wanted: str) -> str:
-        by_name = {rule.name.upper(): code for code, rule in self.rules.items()}
-        families = sorted({code[:3] for code in self.rules})
-        hint = did_you_mean(wanted, [*self.rules, *families, "ALL"])
-        return hint or did_you_mean(by_name.get(wanted, ""), self.rules)
-
-    def _lengths(self, selectors: Sequence[str]) -> dict[str, int]:
-        lengths: dict[str, int] = {}
-        for selector in selectors:
-            for code in self.expand(selector):
-                lengths[code] = max(length(selector), lengths.get(code, 0))
-        return lengths
-
-
-def length(selector: str) -> int:
-    """How specific a selector is: the longer of two that match a code wins; ALL counts as 0."""
-    stripped = selector.strip()
-    return 0 if stripped.upper() == "ALL" else len(stripped)
+    def expand(self, selector: str) -> frozenset[str]:
+        """The codes that a selector stands for; raises UsageError if there are none."""
+        return self.match(selector).codes
 
 
 def load(packs: Sequence[str] = ()) -> Catalog:
@@ -125,6 +132,7 @@ def load(packs: Sequence[str] = ()) -> Catalog:
     built_in: frozenset[str] = frozenset()
     rules = {rule.code: rule for rule in ENGINE_RULES}
     names = {rule.name: rule for rule in ENGINE_RULES}
+    families = {"lint": set(rules)}
     for package, folder in found:
         for rule in import_rules(package, folder):
             same_code = rules.setdefault(rule.code, rule)
@@ -135,5 +143,29 @@ def load(packs: Sequence[str] = ()) -> Catalog:
                         f"rule pack {folder!r}: {rule.code} ({rule.name}) takes the code or "
                         f"name of another rule, {other.code} ({other.name})"
                     )
+            if family := _family(rule, package):
+                families.setdefault(family, set()).add(rule.code)
         built_in = built_in or frozenset(rules)  # the first pack is
-    return Catalog(dict(sorted(rules.items())), tuple(folder for _, folder in found), built_in)
+    return Catalog(
+        dict(sorted(rules.items())),
+        tuple(folder for _, folder in found),
+        built_in,
+        {family: frozenset(codes) for family, codes in families.items()},
+    )
+
+
+def load_for(config: Config) -> Catalog:
+    """The rules with the packs of a configuration; raises UsageError that says who names one."""
+    for pack in config.packs:
+        if not isdir(pack):
+            where = config.origins.words("packs", pack)
+            raise UsageError(
+                f"{where}: there is no folder {quoted(pack)}, which is to be a rule pack"
+            )
+    return load(config.packs)
+
+
+def _family(rule: Rule, package: str) -> str:
+    """The name of the folder of a pack that a rule lies in; "" if it lies in none."""
+    folders = rule.check.__module__.removeprefix(f"{package}.").split(".")[:-1]
+    return folders[-1].replace("_", "-").lower() if folders else ""

@@ -149,6 +149,7 @@ def _run(run: RunInfo, stages: Iterable[StageResult]) -> dict[str, object]:
         "date": run.date,
         "command": run.command,
         "config_file": run.config_file,
+        "config_extends": run.config_extends,
         "seconds": round(run.seconds, 6),
         "jobs": run.jobs,
         "shard": None,

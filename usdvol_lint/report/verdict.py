@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from usdvol_lint.model import Severity, Status
 from usdvol_lint.report import Options
 from usdvol_lint.report.numbers import count, counts, duration
-from usdvol_lint.results import BaselineUse, Report, State, Summary
+from usdvol_lint.results import BaselineUse, Report, RunInfo, State, Summary
 from usdvol_lint.words import printable
 
 MANY_CAUSES = 20
@@ -116,6 +116,8 @@ def _checked_counts(stats: Mapping[str, int]) -> str:
 def advice(report: Report, options: Options) -> Iterator[str]:
     """The lines below the verdict."""
     verbose = options.verbose
+    if verbose:
+        yield _configuration(report.run)
     if report.baseline:
         yield from _moved(report.baseline.moved, verbose)
         if verbose:
@@ -133,6 +135,12 @@ def _again(report: Report, *added: str) -> str:
     if len(said) > _LONGEST_COMMAND:
         return f"{_typed(('usdvol-lint', *added))} and the same arguments"
     return said
+
+
+def _configuration(run: RunInfo) -> str:
+    """Which configuration file was used."""
+    extended = f", which extends {', '.join(run.config_extends)}" if run.config_extends else ""
+    return f"configuration: {printable((run.config_file or 'none') + extended)}"
 
 
 def _kept(command: Sequence[str]) -> Iterator[str]:

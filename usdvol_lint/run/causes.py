@@ -76,6 +76,8 @@ class Causes:
 
     `root` is the folder that layers go by, `versions` a pattern for what is folded in their paths,
     and `reason_for` says why a finding on a stage is suppressed, or None.
+    `verdict_on` gives another severity to all findings of a code with some source, or says why they
+    are suppressed.
     """
 
     def __init__(
@@ -84,9 +86,11 @@ class Causes:
         versions: re.Pattern[str] | None = None,
         most: int = MAX_PLACES,
         reason_for: Callable[[str, Finding, Source], str | None] | None = None,
+        verdict_on: Callable[[str, Source], Severity | str | None] | None = None,
     ) -> None:
         self._most = most
         self._reason_for = reason_for
+        self._verdict_on = verdict_on
         self._found: dict[tuple[str, Source], _Gathered] = {}
         self._shown: dict[int, dict[tuple[str, Source], Severity | None]] = {}
 
@@ -113,9 +117,7 @@ class Causes:
             gathered = self._found.get(key)
             if gathered is None:
                 gathered = self._found[key] = _Gathered()
-            if finding.ignored is None and self._reason_for:
-                reason = self._reason_for(path, finding, source)
-                finding = finding if reason is None else finding._replace(ignored=reason)
+            finding = self._judged(path, finding, source)
             met = _Met(stage, number, finding)
             worst = shown.setdefault(key, None)
             if finding.ignored is None:
@@ -125,6 +127,18 @@ class Causes:
             else:
                 gathered.suppressed = gathered.suppressed or _Places()
                 gathered.suppressed.add(met, self._most)
+
+    def _judged(self, path: str, finding: Finding, source: Source) -> Finding:
+        """A finding on a stage as the configuration takes it."""
+        verdict = self._verdict_on(finding.code, source) if self._verdict_on else None
+        if isinstance(verdict, Severity):
+            finding = finding._replace(severity=verdict)
+        if finding.ignored is not None:
+            return finding
+        reason = self._reason_for(path, finding, source) if self._reason_for else None
+        if reason is None and isinstance(verdict, str):
+            reason = verdict
+        return finding if reason is None else finding._replace(ignored=reason)
 
     def result(self) -> tuple[tuple[Cause, ...], Mapping[tuple[str, Source], int]]:
         """The causes in the order of their first places, and the number of each."""

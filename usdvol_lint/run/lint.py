@@ -13,7 +13,7 @@ from usdvol_lint import __version__
 from usdvol_lint.config import Config
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
-from usdvol_lint.packs.catalog import load
+from usdvol_lint.packs.catalog import load_for
 from usdvol_lint.paths import below, canonical
 from usdvol_lint.results import Cause, Report, RunInfo, StageResult
 from usdvol_lint.run.causes import Causes
@@ -25,6 +25,9 @@ from usdvol_lint.run.suppressing import in_stages, reasons
 
 if TYPE_CHECKING:
     from subprocess import Popen
+
+    from usdvol_lint.packs.catalog import Catalog
+    from usdvol_lint.run.layer_levels import VerdictOn
 
 
 _SHAPING = (
@@ -74,10 +77,10 @@ def lint(
     try:
         settled = config() if callable(config) else config or Config()
         root, versions, repository = naming(settled) if naming else Naming()
-        catalog = load(settled.packs)
+        catalog = load_for(settled)
         active = activate(settled, catalog)
         jobs = settled.jobs or os.cpu_count() or 1
-        causes = Causes(root, versions, settled.max_places, reasons(settled, catalog, root))
+        causes = _causes(settled, catalog, root, versions)
         named = tuple(paths)
         reports = stage_reports(pool, discover(named), settled, active, jobs, progress, repository)
         stages, found = _folded(causes, reports)
@@ -138,6 +141,22 @@ def _folded(
     return tuple(causes.stage(*each, numbers) for each in enumerate(kept)), found
 
 
+def _causes(
+    config: Config, catalog: Catalog, root: str | None, versions: re.Pattern[str] | None
+) -> Causes:
+    """No causes yet, and how findings become some."""
+    taken_out = reasons(config, catalog, root)
+    return Causes(root, versions, config.max_places, taken_out, _verdicts(config, catalog))
+
+
+def _verdicts(config: Config, catalog: Catalog) -> VerdictOn | None:
+    if not config.per_path:
+        return None
+    from usdvol_lint.run.layer_levels import verdicts  # few configurations say any
+
+    return verdicts(config, catalog)
+
+
 def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
     """The settings that shape the findings, as reports and `--show-settings` print them."""
     chosen = config._asdict()
@@ -145,4 +164,5 @@ def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
         "rules": {code: severity.label for code, severity in active.severities.items()},
         **{key: chosen[key] for key in _SHAPING},
         "suppress": [each.as_written() for each in config.suppress],
+        "per_path": [each.as_written() for each in config.per_path],
     }

@@ -1,14 +1,15 @@
-"""What the tables `[[suppress]]` of a configuration take out of a run, and why."""
+"""What a configuration takes out of a run by its tables, and why."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 from usdvol_lint.config import Config
-from usdvol_lint.model import Finding, Source, UsageError
+from usdvol_lint.model import Finding, Source
 from usdvol_lint.packs.catalog import NOT_IGNORABLE, Catalog
+from usdvol_lint.packs.selection import ignored_by
 from usdvol_lint.paths import below, canonical
 from usdvol_lint.suppressions import InStages, Suppression, matching
 from usdvol_lint.words import quoted
@@ -19,7 +20,7 @@ ReasonFor: TypeAlias = Callable[[str, Finding, Source], str | None]
 _KEPT = 4096
 """How many answers of a pattern are kept: neighbours ask for the same layer, stage and prim."""
 
-_Matcher: TypeAlias = Callable[[str], bool]
+Matcher: TypeAlias = Callable[[str], bool]
 
 
 class _Table(NamedTuple):
@@ -27,9 +28,9 @@ class _Table(NamedTuple):
 
     reason: str
     codes: frozenset[str] | None
-    layer: _Matcher | None
-    stage: _Matcher | None
-    prim: _Matcher | None
+    layer: Matcher | None
+    stage: Matcher | None
+    prim: Matcher | None
 
     def takes(self, stage: str, finding: Finding, source: Source) -> bool:
         """Whether a finding on a stage, named as layers are, is meant."""
@@ -92,7 +93,7 @@ def _table(table: Suppression, codes: frozenset[str] | None) -> _Table:
     return _Table(
         table.reason,
         codes,
-        _of_layers(table.files),
+        of_layers(table.files),
         _matcher(table.stages),
         _matcher(table.prims),
     )
@@ -101,27 +102,19 @@ def _table(table: Suppression, codes: frozenset[str] | None) -> _Table:
 def _codes(table: Suppression, catalog: Catalog) -> frozenset[str] | None:
     if not table.rules:
         return None
-    return frozenset().union(*(_expanded(table.where, name, catalog) for name in table.rules))
+    where = f"{table.where}: rules"
+    return frozenset().union(*(ignored_by(name, catalog, where).codes for name in table.rules))
 
 
-def _expanded(where: str, selector: str, catalog: Catalog) -> Iterable[str]:
-    """The codes that a code, a prefix of codes, ALL, or the name of a rule stands for."""
-    by_name = {rule.name: code for code, rule in catalog.rules.items()}
-    named = by_name.get(selector.strip().lower(), selector)
-    if named.strip().upper() in NOT_IGNORABLE:
-        raise UsageError(f"{where}: {selector} can't be ignored: it says that the job was not done")
-    try:
-        return catalog.expand(named) - NOT_IGNORABLE
-    except UsageError as error:
-        raise UsageError(f"{where}: rules: {error}") from error
-
-
-def _matcher(patterns: tuple[str, ...]) -> _Matcher | None:
+def _matcher(patterns: tuple[str, ...]) -> Matcher | None:
     return lru_cache(_KEPT)(matching(patterns)) if patterns else None
 
 
-def _of_layers(patterns: tuple[str, ...]) -> _Matcher | None:
-    """A layer in a package matches where it does, or its package."""
+def of_layers(patterns: tuple[str, ...]) -> Matcher | None:
+    """Whether a layer, named in relation to the root, is meant; None if all are.
+
+    A layer in a package matches where it does, or its package.
+    """
     matches = _matcher(patterns)
     if matches is None:
         return None
