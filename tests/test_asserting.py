@@ -36,6 +36,8 @@ gone.usda
   /smoke/density
     AST002 error: no file at './gone.vdb'
       --> gone.usda:11:26
+      11 | asset filePath = @./gone.vdb@
+         |                  ^
       at filePath
       help: write or copy it there, or name a file that is there
 """
@@ -112,7 +114,7 @@ def test_only_a_configuration_that_is_named_counts(here: Path) -> None:
     ("call", "words"),
     [
         ("assert_clean()", "assert_clean: nothing to check: name a stage or a folder"),
-        ("assert_clean('gone.usda', ignore='AST02')", "no rule code starts with 'AST02'"),
+        ("assert_clean('gone.usda', ignore='AST02')", "'AST02' is no rule"),
         ("assert_clean('gone.usda', fail_on='warn')", "fail_on must be one of"),
         ("assert_clean('gone.usda', config='no.toml')", "no.toml: No such file or directory"),
     ],

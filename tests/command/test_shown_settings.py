@@ -26,6 +26,7 @@ select = ["STU", "asset"]
 ignore = ["STU002", "file-missing"]
 packs = ['{STUDIO}']
 fail-on = "warning"
+fail-on-unchecked = false
 output-format = "concise"
 show = ["info", "known"]
 jobs = 2

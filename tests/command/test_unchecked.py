@@ -97,7 +97,7 @@ def test_the_verdict_counts_it(tmp_path: Path) -> None:
 
 def test_a_configuration_can_ask_for_it(tmp_path: Path, tool: Callable[..., Ran]) -> None:
     (tmp_path / "usdvol-lint.toml").write_text("fail-on-unchecked = true", encoding="utf-8")
-    assert settings(tool("--show-settings"))["fail_on_unchecked"] is True
+    assert settings(tool("--show-settings", "--output-format", "json"))["fail_on_unchecked"] is True
     assert run("--quiet", "uri.usda", cwd=uri(tmp_path)).code == 1
     assert run("--quiet", "--isolated", "uri.usda", cwd=tmp_path) == Ran(0, "", "")
 
@@ -129,8 +129,8 @@ def test_every_format_knows_that_it_fails_the_run(tmp_path: Path) -> None:
             )
             for name in ("content off", "content first", "times ends", "load none")
         ),
-        ("--ignore LNT005", "LNT005 can't be ignored with --fail-on-unchecked: leave one out"),
-        ("--ignore lnt004", "lnt004 can't be ignored with --fail-on-unchecked: leave one out"),
+        ("--ignore LNT005", "--ignore: LNT005 can't be ignored with --fail-on-unchecked: leave one out"),
+        ("--ignore lnt004", "--ignore: lnt004 can't be ignored with --fail-on-unchecked: leave one out"),
     ],
 )
 def test_it_excludes_what_leaves_something_out(
