@@ -78,6 +78,20 @@ def display(path: str) -> str:
     return relative.replace(os.sep, "/") + inner
 
 
+def named(path: str) -> str:
+    """A path as a user named it: an absolute one as it is, others as `display` has them."""
+    return path.replace(os.sep, "/") if os.path.isabs(path) else display(path)
+
+
+def display_beside(stage: str, path: str) -> str:
+    """A path as `display` has it; that of a file outside of the working directory is absolute
+    where the stage that shows it was named so.
+    """
+    shown = display(path)
+    is_outside = shown.startswith("../") and os.path.isabs(stage)
+    return path.replace(os.sep, "/") if is_outside and os.path.isabs(path) else shown
+
+
 def split_package(path: str) -> tuple[str, str]:
     """The path of a file, and what is named in it if it is a package."""
     package = re.fullmatch(_IN_PACKAGE, path) if path.endswith("]") else None

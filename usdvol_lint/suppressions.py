@@ -117,7 +117,7 @@ def _read(where: str, table: dict[str, Any]) -> Suppression:
         raise UsageError(f"{where}: name what is suppressed, with one of {', '.join(_LISTS)}")
     lists = {key: _list(f"{where}: {key}", table[key]) for key in _LISTS if key in table}
     for key in lists.keys() - {"rules"}:
-        _check_patterns(f"{where}: {key}", lists[key])
+        check_patterns(f"{where}: {key}", lists[key])
     until = date_of(f"{where}: until", table["until"]) if "until" in table else None
     return Suppression(where, reason.strip(), until=until, **lists)
 
@@ -131,7 +131,8 @@ def _list(where: str, value: Any) -> tuple[str, ...]:
     return tuple(texts)
 
 
-def _check_patterns(where: str, patterns: tuple[str, ...]) -> None:
+def check_patterns(where: str, patterns: tuple[str, ...]) -> None:
+    """Raises UsageError, which `where` begins, for a text that is no pattern."""
     for pattern in patterns:
         try:
             matching([pattern])

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
 import click
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Glob
 from usdvol_lint.config.files import find_config_file, read_config
-from usdvol_lint.config.values import CHECKS, level, shown
+from usdvol_lint.config.values import CHECKS, globs, level, shown
 from usdvol_lint.model import UsageError
 
 _REPLACING = (
     *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
-    *("max-places", "root", "baseline", "today"),
+    *("max-places", "root", "baseline", "today", "frames"),
 )
 """The options that replace what the file says; the others add to it."""
 
@@ -31,6 +32,8 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
     changes: dict[str, Any] = {
         "packs": base.packs + given["pack"],
         "show": base.show + shown("--show", list(given["show"])),
+        "exclude": base.exclude + _excluded(given["exclude"]),
+        "search_path": base.search_path + _folders("--search-path", given["search_path"]),
     }
     for key in _REPLACING:
         name = key.replace("-", "_")
@@ -83,6 +86,17 @@ def _still_ignored(ignored: tuple[str, ...], select: tuple[str, ...]) -> tuple[s
     """What the file ignores, without the codes that the command line selects by name."""
     selected = {code.upper() for code in select}
     return tuple(code for code in ignored if code.strip().upper() not in selected)
+
+
+def _excluded(patterns: tuple[str, ...]) -> tuple[Glob, ...]:
+    return tuple(Glob(os.curdir, each) for each in globs("--exclude", list(patterns)))
+
+
+def _folders(option: str, named: tuple[str, ...]) -> tuple[str, ...]:
+    for folder in named:
+        if not os.path.isdir(folder):
+            raise UsageError(f"{option} {folder}: no such folder")
+    return named
 
 
 def _codes(lists: tuple[str, ...]) -> tuple[str, ...]:

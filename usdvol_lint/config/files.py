@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from os.path import isfile
+from os.path import isfile, join
 from typing import TYPE_CHECKING, Any
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Glob
 from usdvol_lint.config.values import CHECKS, table
 from usdvol_lint.model import UsageError
 from usdvol_lint.nearest import did_you_mean
@@ -48,11 +48,22 @@ def read_config(path: Path) -> Config:
         if key not in CHECKS:
             raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
         values[key.replace("-", "_")] = CHECKS[key](f"{path}: {key}", value)
-    config = Config(**values)
-    packs = tuple(str(path.parent / pack) for pack in config.packs)
-    root = None if config.root is None else str(path.parent / config.root)
-    baseline = None if config.baseline is None else str(path.parent / config.baseline)
-    return config._replace(packs=packs, root=root, baseline=baseline)
+    return Config(**{name: _anchored(name, value, path.parent) for name, value in values.items()})
+
+
+def _anchored(name: str, value: Any, folder: Path) -> Any:
+    """A setting whose paths are relative to the folder of the file, as it holds anywhere."""
+    match name:
+        case "root" | "baseline":
+            return str(folder / value)
+        case "packs" | "search_path":
+            return tuple(str(folder / path) for path in value)
+        case "exclude" | "stages":
+            return tuple(Glob(str(folder), pattern) for pattern in value)
+        case "path_map":
+            return {start: join(folder, to) for start, to in value.items()}
+        case _:
+            return value
 
 
 def _own_table(project: Path) -> Any | None:

@@ -74,7 +74,12 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Ass
     if not isinstance(value, Sdf.AssetPath):
         return AssetSample(time, str(value), "", "", AssetState.MISTYPED)
     path, resolved = value.path, value.resolvedPath
-    if FORMAT_ARGUMENTS in path:
+    if path and disk.storage.knows_any:
+        names = _names(attribute, time, path)
+        if disk.storage.is_assumed(*names):
+            return AssetSample(time, authored_path(value) or path, path, "", AssetState.ASSUMED)
+        resolved = disk.storage.mapped(*names) or resolved
+    elif FORMAT_ARGUMENTS in path:
         resolved = _resolved_without_arguments(attribute, time, path)
     fault = disk.fault(resolved) if resolved else None
     if fault is FileFault.BROKEN_LINK:
@@ -86,6 +91,11 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Ass
         return AssetSample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault)
     state, detail = _why_unresolved(attribute, time, authored, path)
     return AssetSample(time, authored, path, "", state, detail)
+
+
+def _names(attribute: Any, time: float | None, path: str) -> tuple[str, str]:
+    """A path as it is written, and its absolute form, both without file format arguments."""
+    return path.partition(FORMAT_ARGUMENTS)[0], anchored(attribute, time, path)
 
 
 def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
