@@ -126,7 +126,7 @@ def test_a_clone_without_the_history(repository: Path, tmp_path: Path) -> None:
 
 
 def test_no_repository(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="it is in no git repository"):
+    with pytest.raises(UsageError, match="the arguments lie in no git repository"):
         changed(tmp_path)
 
 

@@ -23,6 +23,9 @@ def changes_since(revision: str, arguments: Sequence[str], settings: Iterable[st
     `settings` are the files and folders that concern every stage: configuration, packs, baseline.
     Raises UsageError, never says that nothing changed, where git can't tell.
     """
+    # A revision never begins like an option, and behind `--verify` none is a file's name.
+    if not revision or revision.startswith("-") or not revision.isprintable():
+        raise UsageError(f"--changed-since: {quoted(revision)} is no revision")
     git = _Git(_shared_folder(arguments))
     base = git.merge_base(revision)
     changed = frozenset(name for path in git.changed(base) for name in names_of(path))
@@ -54,15 +57,12 @@ class _Git:
         code, top, said = self._call("rev-parse", "--show-toplevel")
         if code:
             is_none = b"not a git repository" in said or not said
-            why = "it is in no git repository" if is_none else _first_line(said)
-            raise UsageError(f"--changed-since: {folder}: {why}")
+            why = "the arguments lie in no git repository" if is_none else _first_line(said)
+            raise UsageError(f"--changed-since: {why}")
         self._folder = _path(top.removesuffix(b"\n"))
 
     def merge_base(self, revision: str) -> str:
         """The last commit that HEAD and a revision have in common."""
-        # A revision never begins like an option, and behind `--verify` none is a file's name.
-        if not revision or revision.startswith("-") or not revision.isprintable():
-            raise UsageError(f"--changed-since: {quoted(revision)} is no revision")
         code, commit, _ = self._call("rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
         if code:
             raise UsageError(f"--changed-since: git finds no revision {quoted(revision)}; {_FETCH}")
