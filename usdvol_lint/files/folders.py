@@ -33,7 +33,11 @@ def found_at(path: str) -> Found:
     """A path that was named, whether or not a stage is there."""
     real = os.path.realpath(path)
     folder = os.path.realpath(os.path.dirname(path) or os.curdir)
-    return Found(path, (folder, real), os.path.normcase(os.path.abspath(path)) != real)
+    return Found(path, (folder, real), _is_linked(path, real))
+
+
+def _is_linked(path: str, real: str) -> bool:
+    return os.path.normcase(os.path.abspath(path)) != os.path.normcase(real)
 
 
 def stages_in(folder: str, skips: Callable[[str], bool] = lambda folder: False) -> Search:

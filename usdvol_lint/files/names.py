@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator
 
-from usdvol_lint.paths import canonical
+from usdvol_lint.paths import composed
+
+_HAS_CASE = sys.platform not in ("darwin", "win32")
 
 
 def names_of(path: str) -> tuple[str, ...]:
-    """The absolute names of a path, with `/`: as it is, and without links."""
-    absolute = os.path.abspath(path).replace(os.sep, "/")
-    return tuple(dict.fromkeys((absolute, canonical(path))))
+    """The absolute names of a path by which it is compared: as it is, and without links.
+
+    They are in lower case where the case of letters does not matter.
+    """
+    names = (_comparable(os.path.abspath(path)), _comparable(os.path.realpath(path)))
+    return tuple(dict.fromkeys(names))
+
+
+def _comparable(path: str) -> str:
+    name = composed(path.replace(os.sep, "/"))
+    return name if _HAS_CASE else name.casefold()
 
 
 def is_among(path: str, changed: frozenset[str]) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fieldtexts import write
+from fieldtexts import sampled, write
 from pxr import Ar
 from stages import volume
 
@@ -107,3 +107,24 @@ def test_where_usd_searches(lint: Lint, tmp_path: Path, monkeypatch: pytest.Monk
         assert codes(lint(storage, "sub/fog.vdb")) == []
     finally:
         Ar.DefaultResolver.SetDefaultSearchPath([])
+
+
+def test_frames_that_are_missing_elsewhere(
+    catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether a file is there is asked where it is, or not at all."""
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, *(f"share/a.{number:04}.vdb" for number in range(1, 9)))
+    there = [1, 2, 3, 4, 6, 7, 8]
+    text = sampled((number, f"P:/a.{number:04}.vdb") for number in there)
+    (tmp_path / "stage.usda").write_text(text, encoding="utf-8")
+
+    def advice(storage: Storage) -> list[str | None]:
+        active = activate(Config(select=("AST011",)), catalog)
+        report = Engine(catalog.rules, active, Depth(storage=storage)).lint("stage.usda")
+        return [each.suggestion for each in report.findings]
+
+    mapped_there = Storage(path_map={"P:/": str(tmp_path / "share")})
+    assert advice(mapped_there) == ["add 5: @P:/a.0005.vdb@ (the file is there)"]
+    assumed = Storage(assume_present=("P:/**",))
+    assert advice(assumed) == ["add the samples, or write the frames that are missing"]

@@ -34,12 +34,10 @@ class AssetState(Enum):
     """A value that is no asset path."""
 
 
-ON_DISK = frozenset(
-    {AssetState.FILE, AssetState.NOT_A_FILE, AssetState.MISSING, AssetState.ASSUMED}
-)
+ON_DISK = frozenset({AssetState.FILE, AssetState.NOT_A_FILE, AssetState.MISSING})
 """The states of values that name a path on disk, whether or not a file is there."""
-ON_DISK_OR_PATTERN = ON_DISK | {AssetState.PATTERN}
-"""The same, with those of paths that have a placeholder."""
+ON_DISK_OR_PATTERN = ON_DISK | {AssetState.ASSUMED, AssetState.PATTERN}
+"""The same, with those of paths that nobody looks at, or that have a placeholder."""
 
 
 class PathMark(Enum):
