@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from functools import cache
 from itertools import groupby
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -52,10 +53,14 @@ class _Group:
 
     def verdict(self, path: str) -> bool | None:
         end = os.sep if path.endswith(os.sep) else ""
-        names = (os.path.abspath(path), os.path.realpath(path))
+        folder, name = os.path.split(os.path.abspath(path))
+        names = (os.path.join(folder, name), os.path.join(_real(folder), name))
         relative = map(_relative, names, self._folders)
         said = [self._spec.check_file(each + end).include for each in dict.fromkeys(relative)]
         return next((each for each in said if each is not None), None)
+
+
+_real = cache(os.path.realpath)
 
 
 def _relative(path: str, folder: str) -> str:

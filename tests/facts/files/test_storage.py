@@ -128,3 +128,20 @@ def test_frames_that_are_missing_elsewhere(
     assert advice(mapped_there) == ["add 5: @P:/a.0005.vdb@ (the file is there)"]
     assumed = Storage(assume_present=("P:/**",))
     assert advice(assumed) == ["add the samples, or write the frames that are missing"]
+
+
+def test_a_layer_that_is_assumed_was_not_checked(
+    catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = '#usda 1.0\ndef Volume "smoke" (references = @/mnt/show/smoke.usda@) {\n}\n'
+    (tmp_path / "stage.usda").write_text(text, encoding="utf-8")
+    active = activate(Config(select=("STG", "LNT")), catalog)
+    depth = Depth(storage=Storage(assume_present=("/mnt/show/**",)))
+    report = Engine(catalog.rules, active, depth).lint("stage.usda")
+    (finding,) = (each for each in report.findings if "smoke.usda" in each.message)
+    assert (finding.code, finding.severity.label) == ("LNT005", "info")
+    assert finding.message == (
+        "the reference '/mnt/show/smoke.usda' is assumed present; what it holds was not checked"
+    )
+    assert report.stats["files_assumed"] == 1

@@ -103,6 +103,10 @@ class Files(Wing):
         not_meant, reader = ((by.realPath, root), "") if by else ((), root)
         return find_absence(self._disk, path, authored, not_meant, reader)
 
+    def is_assumed(self, *names: str) -> bool:
+        """Whether the configuration takes a file that goes by these names to be there."""
+        return self._disk.storage.is_assumed(*names)
+
     def what_to_write(self, field: Any) -> str:
         """What to do about missing files; where frames of a sequence are there, which ones."""
         from usdvol_lint.facts.files.absences import what_to_write
