@@ -80,7 +80,7 @@ def test_what_leads_nowhere_is_told_at_once() -> None:
     said = refused("shot", "", "shots/b.usd", "gone/*.usda", "empty", "shots", "xyzzy")
     assert said == (
         "no such file or folder: 'shot' (did you mean 'shots'?); an argument is empty; "
-        f"no such file or folder: 'shots/b.usd' (did you mean {os.path.join('shots', 'a.usda')!r}?)"
+        f"no such file or folder: 'shots/b.usd' (did you mean 'shots{os.sep}a.usda'?)"
         "; 'gone/*.usda' matches no stage; "
         "'empty' holds no stage (.usd, .usda, .usdc, .usdz), hidden ones aside; "
         "no such file or folder: 'xyzzy'"
@@ -91,7 +91,7 @@ def test_what_leads_nowhere_is_told_at_once() -> None:
 def test_the_nearest_folder_is_offered_with_what_is_in_it() -> None:
     touch("shots/deep/a.usda")
     meant = os.path.join("shots", "deep", "a.usda")
-    assert refused("shts/deep/a.usda").endswith(f"(did you mean {meant!r}?)")
+    assert refused("shts/deep/a.usda").endswith(f"(did you mean '{meant}'?)")
 
 
 @LINKS
