@@ -27,7 +27,7 @@ PACKAGES = (
     {"results", "releases"},
     {"suppressions"},
     {"schema", "paths", "config"},
-    {"spelling"},
+    {"spelling", "files"},
     {"volumefile"},
     {"layertext"},
     {"facts"},

@@ -52,7 +52,10 @@ def test_version() -> None:
     assert "click" not in done.stderr.split()
 
 
-@pytest.mark.parametrize("arguments", [["--list-rules"], ["stage.usda"], ["--test", str(STUDIO)]])
+@pytest.mark.parametrize(
+    "arguments",
+    [["--list-rules"], ["stage.usda"], ["--test", str(STUDIO)], ["--show-files", "stage.usda"]],
+)
 def test_only_workers_import_usd(
     arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -64,6 +67,9 @@ def test_only_workers_import_usd(
     assert "usdvol_lint.command.cli" in imported
     assert imported.isdisjoint({"pxr", "numpy", "rich"})
     assert ("usdvol_lint.run.testing" in imported) == ("--test" in arguments)
+    assert imported.isdisjoint({"pathspec", "usdvol_lint.files.changes", "usdvol_lint.files.lists"})
+    if "--show-files" in arguments:
+        assert "usdvol_lint.child" not in imported
 
 
 def test_a_mistake_on_the_command_line_waits_for_no_worker() -> None:

@@ -250,4 +250,41 @@ KEYS: Mapping[str, Key] = {
         "`today = 2026-12-31`",
         _DATE,
     ),
+    "exclude": Key(
+        "patterns as in a .gitignore of stages that are not checked, relative to this file: see "
+        "[Which files are checked](files.md)",
+        "`[]`",
+        '`exclude = ["archive/"]`',
+        _list_of({"type": "string", "minLength": 1}),
+    ),
+    "stages": Key(
+        "patterns of the stages that are wholes; all others are parts, which lack nothing",
+        "every stage",
+        '`stages = ["shots/**/shot.usda"]`',
+        _list_of({"type": "string", "minLength": 1}),
+    ),
+    "frames": Key(
+        "the production's range, in place of that of each stage",
+        "none",
+        '`frames = "1001-1100"`',
+        {"type": "string", "pattern": r"^\s*-?\d+(\.\d+)?\s*-\s*-?\d+(\.\d+)?\s*$"},
+    ),
+    "search-path": Key(
+        "folders where USD's resolver looks, relative to this file",
+        "`[]`",
+        '`search-path = ["library"]`',
+        _list_of({"type": "string", "minLength": 1}),
+    ),
+    "assume-present": Key(
+        "patterns of the absolute paths of volume files that are taken to be there",
+        "`[]`",
+        '`assume-present = ["/mnt/show/**"]`',
+        _list_of({"type": "string", "minLength": 1}),
+    ),
+    "path-map": Key(
+        "table of beginnings of paths, and where volume files with them really are",
+        "`{}`",
+        '`path-map = { "P:/" = "/mnt/show/" }`',
+        {"type": "object", "additionalProperties": {"type": "string", "minLength": 1}},
+    ),
 }

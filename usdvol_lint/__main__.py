@@ -12,6 +12,7 @@ from usdvol_lint import __version__
 
 _STARTS_NO_CHILD = {
     *("--version", "-h", "--help", "--explain", "--list-rules", "--show-settings"),
+    "--show-files",
     "--test",  # it starts its own, in another working directory
 }
 

@@ -181,6 +181,7 @@ class StageReport(NamedTuple):
     `stats` are counts by name, such as `volumes`; `seconds` is wall-clock time by phase.
     `particle_fields` is None unless statistics were asked for.
     `completes` is None where no layer lacks what the stage has.
+    One that `is_unchanged` was not checked, for it uses none of the files that changed.
     """
 
     path: str
@@ -192,6 +193,7 @@ class StageReport(NamedTuple):
     seconds: Mapping[str, float] = {}
     particle_fields: tuple[ParticleFieldStats, ...] | None = None
     completes: Completion | None = None
+    is_unchanged: bool = False
 
 
 def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:

@@ -29,7 +29,7 @@ def canonical(path: str) -> str:
     outer = os.path.realpath(outer)
     if sys.platform == "darwin":  # elsewhere `realpath` does it, or letters have one case
         outer = as_spelt(outer)
-    return _composed(outer.replace(os.sep, "/") + inner)
+    return composed(outer.replace(os.sep, "/") + inner)
 
 
 def as_spelt(path: str, names_in: Callable[[str], Iterable[str]] = os.listdir) -> str:
@@ -48,10 +48,10 @@ def as_spelt(path: str, names_in: Callable[[str], Iterable[str]] = os.listdir) -
 
 
 def _folded(name: str) -> str:
-    return _composed(name).casefold()
+    return composed(name).casefold()
 
 
-def _composed(text: str) -> str:
+def composed(text: str) -> str:
     """A text in NFC."""
     if text.isascii():
         return text
@@ -76,6 +76,21 @@ def display(path: str) -> str:
     except ValueError:  # another drive
         relative = os.path.abspath(outer)
     return relative.replace(os.sep, "/") + inner
+
+
+def named(path: str) -> str:
+    """A path as a user named it: an absolute one as it is, others as `display` has them."""
+    return path.replace(os.sep, "/") if os.path.isabs(path) else display(path)
+
+
+def display_beside(stage: str, path: str) -> str:
+    """A path as `display` has it, or absolute where the stage that shows it was named so.
+
+    A file below the working directory is named in relation to that in any case.
+    """
+    shown = display(path)
+    is_outside = shown.startswith("../") and os.path.isabs(stage)
+    return path.replace(os.sep, "/") if is_outside and os.path.isabs(path) else shown
 
 
 def split_package(path: str) -> tuple[str, str]:

@@ -87,7 +87,8 @@ class Cause(NamedTuple):
 class StageResult(NamedTuple):
     """What came of one stage.
 
-    `path` is the stage as the user named it or as it was found in a folder.
+    `path` is the stage as the user named it or as it was found in a folder; of what is only a
+    `part` of others, nothing counts for being absent.
     `completes` names layers as `source` of causes does, but for versions, which stay apart.
     `causes` are the numbers of the causes that it shows, ascending, and `worst` how bad each is
     here, None where a suppression takes it out; `levels` are the numbers of causes by level as
@@ -103,6 +104,7 @@ class StageResult(NamedTuple):
     causes: tuple[int, ...] = ()
     worst: tuple[Severity | None, ...] = ()
     levels: Mapping[Severity, int] = {}
+    part: bool = False
 
     def judged(self, causes: Sequence[Cause]) -> StageResult:
         """The same with the levels that follow from the states of the causes."""
@@ -112,7 +114,10 @@ class StageResult(NamedTuple):
 
 
 class Summary(NamedTuple):
-    """Counts over all stages; causes that are known or suppressed are in `by_state` alone."""
+    """Counts over all stages; causes that are known or suppressed are in `by_state` alone.
+
+    `parts` are those of the stages that are declared to be only parts of others.
+    """
 
     stages: int
     errors: int
@@ -123,6 +128,7 @@ class Summary(NamedTuple):
     by_status: dict[str, int]
     stats: dict[str, int]
     stages_with_findings: int
+    parts: int = 0
 
     @property
     def findings(self) -> int:
@@ -170,6 +176,8 @@ class Report(NamedTuple):
 
     `root` is the folder that layers go by in fingerprints; None where they go by absolute path.
     `arguments` are the files and folders that the run was asked to check, named as layers are.
+    `left_out` says, where the run looks at what changed, what it therefore did not check, and
+    `nothing` why there was no stage at all.
     `failure` says why the run could not do its job, where that is no finding: then a report has
     what was found until then, most often nothing.
     """
@@ -184,6 +192,8 @@ class Report(NamedTuple):
     baseline: BaselineUse | None = None
     arguments: tuple[str, ...] = ()
     failure: str = ""
+    left_out: str = ""
+    nothing: str = ""
 
     def with_causes(self, causes: Sequence[Cause]) -> Report:
         """The same with other states of its causes, whose number and order stay."""
@@ -207,4 +217,5 @@ class Report(NamedTuple):
             by_status=dict(sorted(Counter(str(stage.status) for stage in self.stages).items())),
             stats=dict(sorted(stats.items())),
             stages_with_findings=sum(1 for stage in self.stages if stage.levels),
+            parts=sum(stage.part for stage in self.stages),
         )

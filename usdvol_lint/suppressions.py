@@ -142,9 +142,14 @@ def texts(where: str, value: Any) -> tuple[str, ...]:
 def patterns(where: str, value: Any) -> tuple[str, ...]:
     """The value, if it is a pattern as in a .gitignore, or a list of such."""
     given = texts(where, value)
-    for pattern in given:
+    check_patterns(where, given)
+    return given
+
+
+def check_patterns(where: str, patterns: tuple[str, ...]) -> None:
+    """Raises UsageError, which `where` begins, for a text that is no pattern."""
+    for pattern in patterns:
         try:
             matching([pattern])
         except ValueError as error:
             raise UsageError(f"{where}: {pattern!r} is no pattern as in a .gitignore") from error
-    return given

@@ -8,7 +8,8 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     sequence = facts.files.sequence(field)
     if sequence is None or facts.layers.time_range is None or not sequence.is_animated:
         return
-    start, end = facts.layers.time_range
+    wanted = facts.layers.time_range
+    start, end = wanted
     far_off = sequence.far_off((start, end))
     samples = "the samples"
     if far_off:
@@ -17,15 +18,15 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     first, last = sequence.times[0], sequence.times[-1]
     ranges = (
         f"{samples} are at {format_time(first)}-{format_time(last)}, "
-        f"the stage's range is {format_time(start)}-{format_time(end)}"
+        f"{wanted.whose} range is {format_time(start)}-{format_time(end)}"
     )
     if last < start or first > end:
         is_held = sequence.holds_last if last < start else sequence.holds_first
         effects = {"one file is held throughout" if is_held else "no file is shown": (start, end)}
         advice, severity = f"if they are to begin with the stage, {sequence.advice_on_shift(start - first)}", None
     else:
-        effects, severity = {}, INFO
-        advice = "write the frames that are missing, or correct the range of the stage"
+        effects, severity = {}, None if wanted.is_asked else INFO
+        advice = "write the frames that are missing" + ", or correct the range of the stage" * (not wanted.is_asked)
         # A sample holds until the next would come, so every second frame covers the one after it.
         if first - start > sequence.step - 1e-6 and sequence.holds_first:
             effects[f"the first file is held until {format_time(first)}"] = start, first - 1e-6
@@ -40,7 +41,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{ranges}: {' and '.join(found)}",
             at=attribute,
-            spec=facts.layers.time_range.meeting_samples(attribute, first, last),
+            spec=wanted.meeting_samples(attribute, first, last),
             fold=alike and f"{alike} {found}",
             suggestion=sequence.rate_at_fault((start, end)) or advice,
             severity=severity,

@@ -36,7 +36,8 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
         message = f"all samples name {still.affected.shown}, though {there}"
     else:
         start, end = map(format_time, time_range or ())
-        message = f"{still.affected.shown} is held at all times, though {there} and the stage's range is {start}-{end}"
+        whose = time_range.whose if time_range else ""
+        message = f"{still.affected.shown} is held at all times, though {there} and {whose} range is {start}-{end}"
     yield Problem(
         message,
         at=still.affected,

@@ -13,15 +13,15 @@ def layer_not_found(root: Prim, facts: Facts) -> Problems:
         what = f"the {first.arc} {quoted(first.asset)}{f' and {len(others)} more' if others else ''}"
         said = f"no plugin here reads {first.extension!r} files: what {what} should bring was not checked"
         yield NotChecked(said, at=first.prim, spec=first.spec, asset=first.asset, machine=first.extension)
-    for missing in facts.layers.missing:
-        if missing.extension:
-            continue
+    for missing in (each for each in facts.layers.missing if not each.extension):
         layer = f"the {missing.arc} {quoted(missing.asset)}"
         where = f" (on {len(missing.prims)} prims)" if len(missing.prims) > 1 else ""
         scheme = missing.file_scheme
-        if missing.is_schema or (missing.is_uri and not scheme):
+        is_assumed = facts.files.is_assumed(missing.asset, missing.path)
+        if is_assumed or missing.is_schema or (missing.is_uri and not scheme):
             who = "resolver here answers for" if missing.is_uri else "search path here leads to"
-            said = f"no {who} {layer}; what it holds was not checked{where}"
+            said = f"{layer} is assumed present" if is_assumed else f"no {who} {layer}"
+            said += f"; what it holds was not checked{where}"
             yield NotChecked(said, at=missing.prim, spec=missing.spec, asset=missing.asset, subject=missing.asset)
             continue
         reason = f"can't be read: {missing.reason}" if missing.reason else "does not exist"

@@ -103,6 +103,10 @@ def test_what_is_all_frames_stays_so(tmp_path: Path) -> None:
         ({"times": 5}, {"times": 7}, "--times 7 instead of 5"),
         ({"times": 5}, {"times": 5}, ""),
         ({"times": 5}, {"times": "all"}, ""),
+        ({}, {"exclude": ["old"]}, "exclude = ['old']"),
+        ({"exclude": ["old"]}, {"exclude": ["old"]}, ""),
+        ({"exclude": ["old"], "stages": ["*"]}, {}, ""),
+        ({"stages": ["a"]}, {"stages": ["b"]}, "stages = ['b']"),
         (
             {"content": "all", "arguments": ["assets", "shots", "shots2", ".cache/x"]},
             {"content": "off", "arguments": []},

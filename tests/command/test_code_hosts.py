@@ -110,7 +110,10 @@ def test_a_clean_run_is_written(repository: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("--ignore", "XYZ", "shots"), "--ignore: 'XYZ' is no rule, no family and no beginning of a code"),
+        (
+            ("--ignore", "XYZ", "shots"),
+            "--ignore: 'XYZ' is no rule, no family and no beginning of a code",
+        ),
         (("--config", "nope.toml", "shots"), "nope.toml: No such file or directory"),
         (("--baseline", "nope.jsonl", "shots"), "nope.jsonl: "),
     ],

@@ -109,11 +109,11 @@ def test_severity(
         ("fog.usda --severity STU=warning --fail-on warning", 1),
         ("fog.usda --severity STU=info --fail-on warning", 0),
         ("fog.usda --severity STU=info --fail-on info", 1),
-        ("fog.usda smoke.usda gone.usda --fail-on never", 2),
+        ("fog.usda smoke.usda garbage.usda --fail-on never", 2),
     ],
 )
 def test_exit_code(arguments: str, code: int, tmp_path: Path) -> None:
-    write(tmp_path, fog=volume("fog"), smoke=volume("smoke"))
+    write(tmp_path, fog=volume("fog"), smoke=volume("smoke"), garbage="garbage")
     ran = run(*ONLY_STUDIO, "--ignore", "STU002", *arguments.split(), cwd=tmp_path)
     assert (ran.code, ran.err) == (code, "")
 

@@ -45,6 +45,12 @@ required-version = ">=0.0.1,<99"
 rules-as-of = "0.1"
 suppressions = "configuration"
 today = 2026-12-31
+exclude = ["archive/", "!archive/kept.usda"]
+stages = ["**/shot.usda"]
+frames = "1001-1100.5"
+search-path = ["here"]
+assume-present = ["/mnt/show/**"]
+path-map = {{ "P:/" = "/mnt/show/" }}
 severity = {{ STU001 = "info", volume-name = "warning", STU = "error" }}
 options.volume-name = {{ allowed = ["fög", 'a"\\b'], share = inf, strict = true, longest = 3 }}
 options.STU001.prefix = "\\u0000\\u007f\\u202e"

@@ -12,8 +12,8 @@ from badinput import GOOD, POSIX, STUDIO_ONLY, statuses, troubles
 from process import run, volume, write
 
 from usdvol_lint.engine.engine import Engine
+from usdvol_lint.files.listing import list_stages
 from usdvol_lint.paths import display
-from usdvol_lint.run.discovery import discover
 
 
 @pytest.mark.skipif(not POSIX, reason="needs symbolic links")
@@ -104,7 +104,7 @@ def test_a_folder_that_can_not_be_listed_is_not_passed_over(
 
     monkeypatch.setattr(os, "scandir", deny(os.scandir))
     monkeypatch.setattr(os, "listdir", deny(os.listdir))
-    found = discover(["."])
+    found = [stage.path for stage in list_stages(["."]).stages]
     assert [display(path) for path in found] == ["closed", "open/fog.usda"]
     (finding,) = engine.lint(found[0]).findings
     assert (finding.code, finding.message) == ("LNT001", "can't be read: Permission denied")
@@ -114,7 +114,7 @@ def test_names_with_brackets(tmp_path: Path) -> None:
     """They are how USD names layers inside packages, and legal in file names all the same."""
     write(tmp_path / "[1]", **{"[2]": volume("fog"), "a[3]b": volume("fog")})
     ran = run(*STUDIO_ONLY, "--root", tmp_path, tmp_path, cwd=tmp_path)
-    assert set(troubles(ran)) == {"[1]/[2].usda", "[1]/a[3]b.usda"}
+    assert set(troubles(ran)) == {f"{tmp_path}/[1]/[2].usda", f"{tmp_path}/[1]/a[3]b.usda"}
     layers = [cause["source"]["layer"] for cause in ran.json["causes"]]
     assert layers == ["[1]/[2].usda", "[1]/a[3]b.usda"]
 

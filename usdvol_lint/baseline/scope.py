@@ -14,12 +14,14 @@ from usdvol_lint.results import Report, State
 from usdvol_lint.words import printable
 
 _NAMED = 3
+_NARROWING = ("exclude", "stages", "frames", "assume_present")
 
 
 class Scope(NamedTuple):
     """What a run looked at: its arguments, named as layers are, the rules in force, and how deep.
 
     `arguments` is None where nobody said.
+    `narrowing` are settings that leave something out, each as a configuration has it.
     """
 
     arguments: tuple[str, ...] | None
@@ -29,6 +31,7 @@ class Scope(NamedTuple):
     times: str | int = "all"
     variants: str = "selected"
     variant_limit: int = 0
+    narrowing: tuple[str, ...] = ()
 
 
 def scope_of(report: Report) -> Scope:
@@ -52,7 +55,17 @@ def scope_from_json(
         times=_times(where, settings),
         variants=_one_of(where, settings, "variants", VARIANTS),
         variant_limit=limit,
+        narrowing=tuple(_narrowing(settings)),
     )
+
+
+def _narrowing(settings: Mapping[str, Any]) -> Iterator[str]:
+    """What a run leaves out; the first line of a baseline has it as it was found."""
+    for each in settings.get("narrowing", ()):
+        yield str(each)
+    for key in _NARROWING:
+        if value := settings.get(key):
+            yield f"{key.replace('_', '-')} = {value}"
 
 
 def arguments_from_json(where: str, table: Mapping[str, Any]) -> tuple[str, ...]:
@@ -79,6 +92,8 @@ def scope_as_json(scope: Scope) -> dict[str, object]:
     """The scope as the first line of a baseline has it."""
     settings = scope._asdict()
     arguments = settings.pop("arguments")
+    if not scope.narrowing:
+        del settings["narrowing"]
     return {"arguments": arguments, "settings": settings}
 
 
@@ -93,6 +108,7 @@ def widest(one: Scope, other: Scope) -> Scope:
         times=_more_times(one.times, other.times),
         variants=max(one.variants, other.variants, key=VARIANTS.index),
         variant_limit=max(one.variant_limit, other.variant_limit),
+        narrowing=tuple(each for each in one.narrowing if each in other.narrowing),
     )
 
 
@@ -143,6 +159,7 @@ def lacking(was: Scope, now: Scope, root: str | None) -> Iterator[str]:
     if not _has_times(now.times, was.times):
         yield _instead("times", now.times, was.times)
     yield from _lacking_variants(was, now)
+    yield from (each for each in now.narrowing if each not in was.narrowing)
 
 
 def _unchecked(was: Scope, now: Scope, root: str | None) -> Iterator[str]:

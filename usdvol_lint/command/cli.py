@@ -89,6 +89,18 @@ class _Command(click.Command):
               help="Colour the report; auto asks the terminal, NO_COLOR and FORCE_COLOR.")
 @click.option("--quiet", "-q", is_flag=True, help="Print findings only; nothing when healthy.")
 @click.option("--verbose", "-v", is_flag=True, help="Add infos, timings, counts and tracebacks.")
+@click.option("--exclude", multiple=True, metavar="GLOB",
+              help="Not these stages, as in a .gitignore here, named or not; may be repeated.")
+@click.option("--files-from", metavar="FILE|-",
+              help="Check the paths in a list too: a line each, or NUL between them.")
+@click.option("--changed-since", metavar="REV",
+              help="Only stages that use a file changed since git's merge base with REV; each is "
+                   "opened to see that.")
+@click.option("--show-files", is_flag=True, help="Print which stages would be checked and exit.")
+@click.option("--frames", metavar="FIRST-LAST",
+              help="The production's range of frames, in place of that of each stage.")
+@click.option("--search-path", multiple=True, type=click.Path(), metavar="FOLDER",
+              help="Where USD's resolver looks for paths without a folder; may be repeated.")
 @click.option("--config", "config_file", type=click.Path(), metavar="FILE",
               help="Use this configuration file.")
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")
@@ -128,7 +140,7 @@ class _Command(click.Command):
 @click.option("--root", type=click.Path(), metavar="FOLDER",
               help="The folder that layers go by in fingerprints (default: the repository's).")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), metavar="N",
-              help="Worker processes (default: one for each processor).")
+              help="Worker processes (default: one for each processor that it may use).")
 @click.option("--timeout", type=float, metavar="SECONDS",
               help="Time limit for one stage (default: 300).")
 @click.option("--show-settings", is_flag=True,
@@ -143,7 +155,8 @@ class _Command(click.Command):
 def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> int:
     """Find what is broken in the volumes and particle fields of USD stages.
 
-    PATHS are .usd, .usda, .usdc and .usdz files, or folders that are searched for them.
+    PATHS are .usd, .usda, .usdc and .usdz files, folders that are searched for them, or quoted
+    patterns such as "shots/**/*.usda".
     """
     if given["explain"] is not None:
         return _explain(given)
@@ -153,8 +166,10 @@ def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> 
         return _test(given)
     if given["show_settings"]:
         return _show_settings(given)
-    if not paths:
+    if not paths and given["files_from"] is None:
         raise click.UsageError("nothing to check: name a stage or a folder")
+    if given["show_files"]:
+        return _show_files(paths, given)
     from usdvol_lint.command.linting import lint_stages
 
     return lint_stages(paths, given, context.obj)
@@ -246,6 +261,16 @@ def _show_settings(given: dict[str, Any]) -> int:
         output.print_text([about.show_settings_as_json(config, settings)])
     else:
         output.print_text([about.show_settings(config, catalog, settings)])
+    return CLEAN
+
+
+def _show_files(paths: tuple[str, ...], given: dict[str, Any]) -> int:
+    from usdvol_lint.command import choosing, output
+
+    lines, remark = choosing.shown(paths, given)
+    output.print_text(lines)
+    if remark and not given["quiet"]:
+        click.echo(f"usdvol-lint: {remark}", err=True)
     return CLEAN
 
 

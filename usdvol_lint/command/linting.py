@@ -11,6 +11,7 @@ import click
 
 from usdvol_lint import __version__
 from usdvol_lint.command import output
+from usdvol_lint.command.choosing import arguments, changes
 from usdvol_lint.command.codes import CLEAN, exit_code
 from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.settings import read_settings
@@ -21,6 +22,7 @@ from usdvol_lint.report import FOR_HOSTS
 from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import versions_in
 from usdvol_lint.run.lint import Naming, lint
+from usdvol_lint.run.processors import owned
 from usdvol_lint.run.roots import checkout_of, root_of
 from usdvol_lint.words import quoted
 
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 
     from usdvol_lint.baseline.use import Prepared
     from usdvol_lint.command.output import Destination
+    from usdvol_lint.files import Changes
     from usdvol_lint.report import Options
 
 
@@ -42,8 +45,9 @@ def lint_stages(
     """
     job = _Job(paths, given)
     try:
+        paths = job.read_list()
         with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
-            report = lint(paths, job.settle, progress, child, job.naming)
+            report = lint(paths, job.settle, progress, child, job.naming, job.changes)
     except Exception as error:
         job.write_failure(error)
         raise
@@ -72,9 +76,19 @@ class _Job:
         self._paths = paths
         self._given = given
 
+    def read_list(self) -> tuple[str, ...]:
+        """The arguments, with those in a list."""
+        self._paths = arguments(self._paths, self._given)
+        return self._paths
+
+    def changes(self, config: Config) -> Changes | None:
+        return changes(self._paths, self._given, config, self.file)
+
     def settle(self) -> Config:
         given = self._given
         self.config, self.file = read_settings(given)
+        if self.config.jobs > (most := owned()) and not given["quiet"]:
+            click.echo(f"usdvol-lint: {_more_jobs(self.config.jobs, most)}", err=True)
         destinations = output.pair(
             given["output_format"], given["output"], self.config.output_format
         )
@@ -113,6 +127,11 @@ class _Job:
         self.repository = self.repository or checkout_of(self._paths)
         report = _failed(self._paths, error, self.config)
         output.write(report, destinations, self.options())
+
+
+def _more_jobs(jobs: int, most: int) -> str:
+    own = "one processor" if most == 1 else f"{most} processors"
+    return f"{jobs} jobs are no faster than {most} here, where this process may use {own}"
 
 
 def _failed(paths: tuple[str, ...], error: Exception, config: Config) -> Report:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
@@ -9,15 +10,15 @@ from typing import Any
 
 import click
 
-from usdvol_lint.config import SUMMARIES, Config
+from usdvol_lint.config import SUMMARIES, Config, Glob
 from usdvol_lint.config.files import find_config_file, read_config
 from usdvol_lint.config.layers import laid_over
-from usdvol_lint.config.values import CHECKS, level, one_of, shown
+from usdvol_lint.config.values import CHECKS, globs, level, one_of, shown
 from usdvol_lint.model import UsageError
 
 _REPLACING = (
     *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
-    *("max-places", "root", "baseline", "today", "fail-on-unchecked"),
+    *("max-places", "root", "baseline", "today", "fail-on-unchecked", "frames"),
 )
 """The options that replace what the file says."""
 
@@ -110,6 +111,17 @@ def _packs(given: tuple[str, ...]) -> tuple[str, ...]:
     return given
 
 
+def _excluded(patterns: tuple[str, ...]) -> tuple[Glob, ...]:
+    return tuple(Glob(os.curdir, each) for each in globs("--exclude", list(patterns)))
+
+
+def _folders(option: str, named: tuple[str, ...]) -> tuple[str, ...]:
+    for folder in named:
+        if not os.path.isdir(folder):
+            raise UsageError(f"{option} {folder}: no such folder")
+    return named
+
+
 def _codes(option: str, given: tuple[str, ...]) -> tuple[str, ...]:
     """The selectors in lists that are separated by commas; raises UsageError for an empty list."""
     return tuple(code for codes in given for code in _parts(f"--{option}", codes))
@@ -144,6 +156,8 @@ def _severities(given: tuple[str, ...]) -> dict[str, str]:
 _ADDING: tuple[tuple[str, str, Callable[[tuple[str, ...]], Any]], ...] = (
     ("packs", "pack", _packs),
     ("show", "show", _shown),
+    ("exclude", "exclude", _excluded),
+    ("search-path", "search_path", partial(_folders, "--search-path")),
     ("select", "select", partial(_codes, "select")),
     ("ignore", "ignore", partial(_codes, "ignore")),
     ("severity", "severity", _severities),

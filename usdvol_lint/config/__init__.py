@@ -27,6 +27,26 @@ TIMES = ("all", "first", "ends")
 LEVELS = tuple(severity.label for severity in reversed(Severity))
 
 
+class Glob(NamedTuple):
+    """A pattern as in a .gitignore, and the folder that it is relative to."""
+
+    folder: str
+    pattern: str
+
+
+class Storage(NamedTuple):
+    """Where the files of stages are on this machine.
+
+    `search_path` are folders for USD's own resolver.
+    `assume_present` are patterns of absolute paths that are neither looked for nor opened;
+    `path_map` says by the beginnings of paths where volume files really are.
+    """
+
+    search_path: tuple[str, ...] = ()
+    assume_present: tuple[str, ...] = ()
+    path_map: Mapping[str, str] = {}
+
+
 class Config(NamedTuple):
     """The settings of a run.
 
@@ -43,8 +63,10 @@ class Config(NamedTuple):
     `suppressions` are those that are heeded: those in stages are not the `configuration`'s own,
     `suppress`; `today` is a date in place of the real one, for those that expire.
     `per_path` has other severities for some layers.
+    `exclude` takes stages off the list; where `stages` says which are wholes, all others are parts.
     `origins` is where all of this is said.
-    See `Depth` for `load`, `content`, `times` and `statistics`.
+    See `Storage` for `search_path`, `assume_present` and `path_map`, and `Depth` for `frames`,
+    `load`, `content`, `times` and `statistics`.
     """
 
     select: tuple[str, ...] | None = None
@@ -76,6 +98,12 @@ class Config(NamedTuple):
     suppress: tuple[Suppression, ...] = ()
     per_path: tuple[PerPath, ...] = ()
     today: str | None = None
+    exclude: tuple[Glob, ...] = ()
+    stages: tuple[Glob, ...] = ()
+    frames: tuple[float, float] | None = None
+    search_path: tuple[str, ...] = ()
+    assume_present: tuple[str, ...] = ()
+    path_map: Mapping[str, str] = {}
     origins: Origins = Origins()
 
     @property
@@ -87,17 +115,23 @@ class Config(NamedTuple):
     def depth(self) -> Depth:
         """How much of each stage is checked."""
         selections = self.variant_limit if self.variants == "all" else 0
-        return Depth(self.load, self.content, self.times, self.statistics, selections)
+        storage = Storage(self.search_path, self.assume_present, self.path_map)
+        return Depth(
+            *(self.load, self.content, self.times, self.statistics),
+            *(selections, self.frames, storage),
+        )
 
 
 class Depth(NamedTuple):
-    """How much of each stage is checked.
+    """How much of each stage is checked, and against what.
 
     `load`: whether payloads are loaded (all, none).
     `content`: how many of a field's files are opened (all, first, off).
     `times`: which time samples of particles are read (all, first, ends, or their number).
     `statistics`: whether the figures of particle fields are collected.
     `selections`: how many variant selections at most, besides the authored ones.
+    `frames`: the first and the last frame of the production, in place of the stage's own range.
+    `storage`: where files are on this machine.
     """
 
     load: str = "all"
@@ -105,3 +139,5 @@ class Depth(NamedTuple):
     times: str | int = "all"
     statistics: bool = False
     selections: int = 0
+    frames: tuple[float, float] | None = None
+    storage: Storage = Storage()

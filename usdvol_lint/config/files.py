@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from os.path import isfile, realpath
+from os.path import isfile, join, realpath
 from typing import TYPE_CHECKING, Any
 
-from usdvol_lint.config import Config
+from usdvol_lint.config import Config, Glob
 from usdvol_lint.config.layers import laid_over
 from usdvol_lint.config.misnamed import FILE_NAME, TABLE, check_keys, check_names, check_tables
 from usdvol_lint.config.values import CHECKS, table
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _PROJECT = "pyproject.toml"
 EXTEND = "extend"
-PATHS = frozenset({"packs", "root", "baseline"})
+PATHS = frozenset({"packs", "root", "baseline", "search-path"})
 """The keys with paths in relation to the file."""
 
 
@@ -90,17 +90,27 @@ def _read_values(path: Path, where: str) -> dict[str, Any]:
 def _value(path: Path, key: str, value: Any) -> Any:
     if key not in CHECKS:
         raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
-    checked = CHECKS[key](_in(path)(key), value)
-    if key not in PATHS:
-        return checked
-    if isinstance(checked, tuple):
-        return tuple(str(path.parent / each) for each in checked)
-    return str(path.parent / checked)
+    return _anchored(key, CHECKS[key](_in(path)(key), value), path.parent)
 
 
 def _in(file: Path) -> Callable[[str], str]:
     """How messages name a key of a file."""
     return lambda key: f"{file}: {key}"
+
+
+def _anchored(key: str, value: Any, folder: Path) -> Any:
+    """A setting whose paths are relative to the folder of the file, as it holds anywhere."""
+    match key:
+        case "root" | "baseline":
+            return str(folder / value)
+        case "packs" | "search-path":
+            return tuple(str(folder / path) for path in value)
+        case "exclude" | "stages":
+            return tuple(Glob(str(folder), pattern) for pattern in value)
+        case "path-map":
+            return {start: join(folder, to) for start, to in value.items()}
+        case _:
+            return value
 
 
 def _own_table(project: Path) -> Any | None:

@@ -8,7 +8,7 @@ from typing import Any
 from usdvol_lint.config import Config
 from usdvol_lint.config.origins import Origin, entries
 
-_OWN_FIRST = frozenset({"suppress"})
+_OWN_FIRST = frozenset({"suppress", "search-path"})
 """Lists of which the first that matches counts."""
 
 

@@ -51,4 +51,5 @@ def entries(where: str, value: Any) -> Iterator[tuple[str, str]]:
             for entry, words in entries(f"{where}{joint}{name}", inner):
                 yield f"{name}.{entry}" if entry else name, words
     elif isinstance(value, tuple):
-        yield from ((item, where) for item in value if isinstance(item, str))
+        texts = (getattr(item, "pattern", item) for item in value)
+        yield from ((text, where) for text in texts if isinstance(text, str))

@@ -149,6 +149,34 @@ def _times(where: str, value: Any) -> str | int:
     return value  # type: ignore[no-any-return]
 
 
+def globs(where: str, value: Any) -> tuple[str, ...]:
+    """The value, if it is a list of patterns as in a .gitignore."""
+    patterns = filled(where, value)
+    if patterns:
+        from usdvol_lint.suppressions import check_patterns  # few configurations have one
+
+        check_patterns(where, patterns)
+    return patterns
+
+
+def _path_map(where: str, value: Any) -> dict[str, str]:
+    return {start: _text(f"{where}.{start}", to) for start, to in table(where, value).items()}
+
+
+def _frames(where: str, value: Any) -> tuple[float, float]:
+    """The value, if it is a range of frames, FIRST-LAST."""
+    import re  # few runs have one
+
+    number = r"(-?\d+(?:\.\d+)?)"
+    found = re.fullmatch(rf"\s*{number}\s*-\s*{number}\s*", value) if type(value) is str else None
+    if not found:
+        raise UsageError(f"{where}: write it as FIRST-LAST, such as 1001-1100, not {value!r}")
+    first, last = map(float, found.groups())
+    if first > last:
+        raise UsageError(f"{where}: {value!r} ends before it begins")
+    return first, last
+
+
 CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "extend": _text,
     "select": filled,
@@ -178,6 +206,12 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "suppress": _suppress,
     "per-path": _per_path,
     "today": _day,
+    "exclude": globs,
+    "stages": globs,
+    "frames": _frames,
+    "search-path": filled,
+    "assume-present": globs,
+    "path-map": _path_map,
 }
 """For each key of a configuration a function that returns the value for the `Config`.
 

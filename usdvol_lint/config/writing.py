@@ -11,7 +11,7 @@ from usdvol_lint.config import Config
 from usdvol_lint.config.files import EXTEND, PATHS
 from usdvol_lint.config.values import CHECKS
 from usdvol_lint.model import UsageError
-from usdvol_lint.words import printable
+from usdvol_lint.words import format_time, printable
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _LONE = range(0xD800, 0xE000)
@@ -35,13 +35,23 @@ def as_toml(config: Config) -> Iterator[str]:
 
 
 def _value(config: Config, key: str) -> Any:
-    """The value of a setting, with absolute paths, which mean the same in every file."""
+    """The value of a setting as a file says it, with absolute paths, which mean the same in each.
+
+    A pattern stays relative to the folder of the file that it comes from.
+    """
     value = getattr(config, key.replace("-", "_"))
-    if key not in PATHS or value is None:
-        return value
-    return (
-        tuple(map(os.path.abspath, value)) if isinstance(value, tuple) else os.path.abspath(value)
-    )
+    match key:
+        case "exclude" | "stages":
+            return tuple(glob.pattern for glob in value)
+        case "frames":
+            return value and "-".join(map(format_time, value))
+        case "path-map":
+            return {start: os.path.abspath(to) for start, to in value.items()}
+        case _ if key in PATHS and value is not None:
+            is_list = isinstance(value, tuple)
+            return tuple(map(os.path.abspath, value)) if is_list else os.path.abspath(value)
+        case _:
+            return value
 
 
 def _is_of_tables(value: Any) -> bool:

@@ -17,11 +17,12 @@ from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
+from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.model import Completion, Finding, StageReport, Status, in_order
 from usdvol_lint.packs.activation import ActiveRules
-from usdvol_lint.paths import display
+from usdvol_lint.paths import named
 from usdvol_lint.rule import Rule
 from usdvol_lint.suppressions import InStages
 from usdvol_lint.volumefile.cache import VolumeFiles
@@ -67,6 +68,10 @@ class Engine:
         self._repository = repository
         self._volume_files = VolumeFiles()
         self._folders = Folders()
+        if self._depth.storage.search_path:
+            from usdvol_lint.engine.search_path import set_search_path
+
+            set_search_path(self._depth.storage.search_path)
 
     def lint(self, path: str) -> StageReport:
         """The report on one stage; never raises for what the stage holds or a rule does."""
@@ -107,6 +112,7 @@ class Engine:
             self._suppressions,
             self._is_alone,
             self._repository,
+            path,
         )
         check = StageCheck(context, self._rules, self._active.options, stamp)
         walked = check.walk()
@@ -115,7 +121,7 @@ class Engine:
         found += self._sent(chain(check.usd_version(facts), check.unknown_types(facts)))
         found += self._sent(check.selection(walked, facts))
         completes = _completion(facts)
-        stats = _stats(walked, facts, context.disk.checked)
+        stats = _stats(walked, facts, context.disk)
         particle_fields = facts.particles.statistics() if depth.statistics else None
         if depth.selections:
             clock.lap("check")
@@ -126,7 +132,7 @@ class Engine:
         findings = in_order(_still(found))
         clock.lap("check")
         return StageReport(
-            display(path),
+            named(path),
             Status.CHECKED,
             stats,
             findings,
@@ -177,11 +183,13 @@ class _Stopwatch:
         self._since = now
 
 
-def _stats(walked: Walked, facts: Facts, files_checked: int) -> dict[str, int]:
+def _stats(walked: Walked, facts: Facts, disk: Disk) -> dict[str, int]:
+    assumed = len(disk.storage.assumed)
     return {
         "prims": walked.prims,
         "volumes": len(facts.prims.of(schema.VOLUME)),
         "fields": len(facts.prims.of(schema.FIELD)),
         "particle_fields": len(facts.prims.of(schema.PARTICLE_FIELD)),
-        "files_checked": files_checked,
+        "files_checked": disk.checked,
+        **({"files_assumed": assumed} if assumed else {}),
     }

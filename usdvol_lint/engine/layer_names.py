@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from usdvol_lint.paths import canonical, display, split_package
+from usdvol_lint.paths import canonical, display_beside, split_package
 
 ANONYMOUS = "anon:"
 
 
-def shown_name(layer: Any) -> str:
-    """The path relative to the working directory; the identifier of a layer without a file."""
-    return display(layer.realPath or layer.identifier)
+def shown_name(layer: Any, stage: str = "") -> str:
+    """The path relative to the working directory; the identifier of a layer without a file.
+
+    It is as `display_beside` has it where the stage is known, as its user named it.
+    """
+    return display_beside(stage, layer.realPath or layer.identifier)
 
 
 def real_name(layer: Any) -> str:

@@ -43,10 +43,12 @@ class _Layer(NamedTuple):
 class Sites:
     """Finds the sites of problems; a text layer is read once, and only if a problem is in it.
 
+    `stage` is the path of the stage as its user named it.
     With a `repository`, sites in layers outside it say where the stage's own file brings these in.
     """
 
-    def __init__(self, repository: str | None = None) -> None:
+    def __init__(self, repository: str | None = None, stage: str = "") -> None:
+        self._stage = stage
         self._texts = LayerTexts()
         self._entries = Entries(repository, self._texts) if repository else None
         self._layers: dict[str, _Layer] = {}
@@ -85,7 +87,7 @@ class Sites:
         key = layer.identifier
         if key not in self._layers:
             text = self._texts.of(layer)
-            self._layers[key] = _Layer(shown_name(layer), real_name(layer), text)
+            self._layers[key] = _Layer(shown_name(layer, self._stage), real_name(layer), text)
         return self._layers[key]
 
 

@@ -37,7 +37,7 @@ class Stamp:
     `several_selections` says whether findings need an identity, because more than one variant
     selection is checked; `is_alone` whether no other stage may complete this one.
     `rules` are all there are, by code, and `asked` how suppressions in the stage are taken.
-    `repository` is as for `Sites`.
+    `repository` and `stage` are as for `Sites`.
     """
 
     def __init__(
@@ -48,8 +48,9 @@ class Stamp:
         asked: InStages,
         is_alone: bool = False,
         repository: str | None = None,
+        stage: str = "",
     ) -> None:
-        self.sites = Sites(repository)
+        self.sites = Sites(repository, stage)
         self._active = active
         self._several_selections = several_selections
         self._rules = rules

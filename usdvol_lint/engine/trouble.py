@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from usdvol_lint.model import Cover, Finding, Severity, Site, Source, StageReport, Status, in_order
 from usdvol_lint.packs.catalog import STAGE_UNREADABLE, help_for
-from usdvol_lint.paths import canonical, display
+from usdvol_lint.paths import canonical, display_beside, named
 
 
 class Trouble(NamedTuple):
@@ -45,11 +45,13 @@ def report_trouble(
         name=STAGE_UNREADABLE.name,
         severity=Severity.ERROR,
         message=trouble.message,
-        site=Site(display(trouble.layer or path), line=trouble.line, column=trouble.column),
+        site=Site(
+            display_beside(path, trouble.layer or path), line=trouble.line, column=trouble.column
+        ),
         source=Source(canonical(trouble.layer or path)),
         cover=Cover(Severity.ERROR),
         suggestion=trouble.suggestion,
         help=help_for(STAGE_UNREADABLE),
         detail=trouble.detail,
     )
-    return StageReport(display(path), status, {}, in_order([finding, *found]), seconds or {})
+    return StageReport(named(path), status, {}, in_order([finding, *found]), seconds or {})

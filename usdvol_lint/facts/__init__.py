@@ -55,13 +55,15 @@ class Context(NamedTuple):
     ) -> Context:
         """The context of a stage with empty caches, but for `volume_files` and `folders`."""
         from usdvol_lint.facts.files.disk import Disk
+        from usdvol_lint.facts.files.storage import Whereabouts
         from usdvol_lint.facts.usd.kinds import PrimKinds
         from usdvol_lint.facts.volumes.usage import UsedFields
         from usdvol_lint.volumefile.cache import VolumeFiles
 
         kinds = PrimKinds(stage.GetMetadata("fallbackPrimTypes"))
         files = volume_files or VolumeFiles()
-        return cls(stage, kinds, depth, Disk(folders), files, UsedFields(), advance, telling)
+        disk = Disk(folders, Whereabouts(depth.storage))
+        return cls(stage, kinds, depth, disk, files, UsedFields(), advance, telling)
 
 
 class Walked(NamedTuple):
@@ -106,9 +108,9 @@ class Facts:
         self.kinds = kinds
         self.tables = tables
         self.prims = Prims(tables, kinds, clips, walked.drawn)
-        self.files = Files(tables, stage, clips, disk, advance)
+        self.files = Files(tables, stage, clips, disk, advance, bool(depth.frames))
         overs = Overs(stage, kinds, tables, walked.undefined, walked.overs, walked.drawn)
-        self.layers = Layers(tables, stage, clips, kinds, overs, walked.drawn)
+        self.layers = Layers(tables, stage, clips, kinds, overs, walked.drawn, depth.frames)
         self.grids = Grids(tables, self.files, depth.content, volume_files, advance)
         self.volumes = Volumes(
             tables,

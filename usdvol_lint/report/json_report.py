@@ -164,6 +164,7 @@ def _stage(stage: StageResult) -> dict[str, object]:
         "path": stage.path,
         "status": stage.status,
         "partial": False,
+        "part": stage.part,
         "stats": stage.stats,
         **({} if figures is None else {"particle_fields": [one._asdict() for one in figures]}),
         "completes": stage.completes and _completion(stage.completes),

@@ -24,7 +24,7 @@ def verdict(report: Report, options: Options) -> str:
     """The result of the run in one line."""
     summary = report.summary
     if not summary.stages:
-        return "no stages checked"
+        return f"nothing to check: {report.nothing}" if report.nothing else "no stages checked"
     return "; ".join(_parts(report, summary, options))
 
 
@@ -40,6 +40,10 @@ def _parts(report: Report, summary: Summary, options: Options) -> Iterator[str]:
         yield uncounted
     if report.baseline:
         yield from _baseline(report.baseline)
+    if assumed := summary.stats.get("files_assumed"):
+        yield f"{count(assumed, 'file')} assumed present"
+    if report.left_out:
+        yield report.left_out
     yield f"{_checked_counts(summary.stats)} in {duration(report.run.seconds)}"
     unread = summary.stages - summary.by_status.get(Status.CHECKED, 0)
     if unread:
@@ -56,13 +60,20 @@ def _unchecked(report: Report, options: Options) -> int:
 def _finding_counts(report: Report, summary: Summary, threshold: Severity) -> str:
     numbers = [(summary.errors, "error"), (summary.warnings, "warning"), (summary.infos, "info")]
     found = counts(*(numbers[:2] if threshold > Severity.INFO else numbers))
-    stages = count(summary.stages, "stage")
+    stages = _stage_counts(summary)
     if not found:
         sought = "errors or warnings" if threshold > Severity.INFO and summary.infos else "findings"
         return f"no {'new ' if State.KNOWN in summary.by_state else ''}{sought} in {stages}"
     if summary.stages == 1:
         return f"{found} in {stages}"
+    if summary.parts:
+        return f"{found} in {_stages_with(report, threshold):,} of {summary.stages:,}: {stages}"
     return f"{found} in {_stages_with(report, threshold):,} of {stages}"
+
+
+def _stage_counts(summary: Summary) -> str:
+    """`12 stages, 340 parts`: what is a part is not counted twice."""
+    return counts((summary.stages - summary.parts, "stage"), (summary.parts, "part"))
 
 
 def _stages_with(report: Report, threshold: Severity) -> int:

@@ -147,7 +147,11 @@ class Causes:
         return causes, {key: number for number, key in enumerate(keys)}
 
     def stage(
-        self, number: int, report: StageReport, numbers: Mapping[tuple[str, Source], int]
+        self,
+        number: int,
+        report: StageReport,
+        numbers: Mapping[tuple[str, Source], int],
+        is_part: bool = False,
     ) -> StageResult:
         """What came of a stage, once all findings were added."""
         shown = self._shown.get(number, {})
@@ -161,6 +165,7 @@ class Causes:
             completes=report.completes and self._named(report.completes),
             causes=tuple(number for number, _ in ordered),
             worst=tuple(worst for _, worst in ordered),
+            part=is_part,
         )
 
     def _named(self, completion: Completion) -> Completion:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import time
 from collections import deque
@@ -11,17 +10,19 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from usdvol_lint import __version__
 from usdvol_lint.config import Config
-from usdvol_lint.model import Finding, StageReport
+from usdvol_lint.files import Changes
+from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
-from usdvol_lint.packs.catalog import load_for
-from usdvol_lint.paths import below, canonical
-from usdvol_lint.results import Cause, Report, RunInfo, StageResult
+from usdvol_lint.packs.catalog import Catalog, load_for
+from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import Causes
-from usdvol_lint.run.discovery import discover
-from usdvol_lint.run.parts import completed_by
+from usdvol_lint.run.chosen import Chosen, choose
+from usdvol_lint.run.folding import folded
 from usdvol_lint.run.pool import Pool
+from usdvol_lint.run.processors import owned
 from usdvol_lint.run.protocol import Setup
 from usdvol_lint.run.suppressing import in_stages, reasons
+from usdvol_lint.words import format_time
 
 if TYPE_CHECKING:
     from subprocess import Popen
@@ -64,39 +65,78 @@ def lint(
     progress: Progress | None = None,
     child: Popen[bytes] | None = None,
     naming: Callable[[Config], Naming] | None = None,
+    changes: Callable[[Config], Changes | None] = lambda config: None,
 ) -> Report:
-    """Checks the stages at `paths`, files or folders.
+    """Checks the stages at `paths`: files, folders or patterns.
 
     `config` may be a function: the first worker process then imports USD while it runs.
     `child` is that process, if it was started already.
-    Raises UsageError for mistakes in the configuration; whatever is wrong with a stage is in the
-    report.
+    Where there are `changes`, only stages that use one of the files are checked.
+    Raises UsageError for mistakes in the configuration and the arguments; whatever is wrong with a
+    stage is in the report.
     """
     began = time.perf_counter()
     pool = Pool(child)
     try:
         settled = config() if callable(config) else config or Config()
-        root, versions, repository = naming(settled) if naming else Naming()
-        catalog = load_for(settled)
-        active = activate(settled, catalog)
-        jobs = settled.jobs or os.cpu_count() or 1
-        causes = _causes(settled, catalog, root, versions)
-        named = tuple(paths)
-        reports = stage_reports(pool, discover(named), settled, active, jobs, progress, repository)
-        stages, found = _folded(causes, reports)
-        report = Report(
-            version=__version__,
-            usd_version=pool.usd_version,
-            settings=settings_of(settled, active),
-            root=root,
-            stages=stages,
-            causes=(),
-            run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs),
-            arguments=tuple(below(canonical(path), root) for path in named),
-        )
-        return report.with_causes(found)
+        named = naming(settled) if naming else Naming()
+        return _checked(pool, settled, named, tuple(paths), changes(settled), progress, began)
     finally:
         pool.close()
+
+
+def _checked(
+    pool: Pool,
+    config: Config,
+    naming: Naming,
+    paths: tuple[str, ...],
+    changed: Changes | None,
+    progress: Progress | None,
+    began: float,
+) -> Report:
+    """The report on the stages at these paths."""
+    root, versions, repository = naming
+    catalog = load_for(config)
+    active = activate(config, catalog)
+    jobs = config.jobs or owned()
+    causes = _causes(config, catalog, root, versions)
+    chosen = choose(paths, config, changed)
+    judged = _judged(pool, chosen, config, active, jobs, progress, repository)
+    stages, found = folded(causes, judged, are_declared=bool(config.stages))
+    left_out, nothing = chosen.left_out(stages)
+    report = Report(
+        version=__version__,
+        usd_version=pool.usd_version or None,
+        settings=settings_of(config, active),
+        root=root,
+        stages=stages,
+        causes=(),
+        run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs),
+        arguments=chosen.looked_at(stages, root),
+        left_out=left_out,
+        nothing=nothing,
+    )
+    return report.with_causes(found)
+
+
+def _judged(
+    pool: Pool,
+    chosen: Chosen,
+    config: Config,
+    active: ActiveRules,
+    jobs: int,
+    progress: Progress | None,
+    repository: str | None,
+) -> Iterator[tuple[StageReport, bool]]:
+    """The reports on the stages that use what changed, each with whether it is on a part."""
+    stages = chosen.listing.stages
+    paths = (stage.path for stage in stages)
+    reports = stage_reports(
+        pool, paths, config, active, jobs, progress, repository, chosen.changed_files
+    )
+    for stage, report in zip(stages, reports, strict=True):
+        if not report.is_unchanged:
+            yield report, stage.is_part
 
 
 def stage_reports(
@@ -107,38 +147,22 @@ def stage_reports(
     jobs: int,
     progress: Progress | None = None,
     repository: str | None = None,
+    changed: frozenset[str] | None = None,
 ) -> Iterator[StageReport]:
     """The reports on stages, in their order, each as soon as it is there."""
     shown = progress or _Silent()
     futures = deque(pool.submit(path) for path in paths)
+    if not futures:
+        return
     for future in futures:
         future.add_done_callback(lambda _: shown.stage_done())
     shown.begin(len(futures))
-    is_alone = len(futures) == 1
-    setup = Setup(active, config.packs, config.depth, in_stages(config), is_alone, repository)
+    is_alone = len(futures) == 1 and not config.stages
+    stages = in_stages(config)
+    setup = Setup(active, config.packs, config.depth, stages, is_alone, repository, changed)
     pool.run(setup, jobs, config.timeout, shown.advance)
     while futures:
         yield futures.popleft().result()
-
-
-def _folded(
-    causes: Causes, reports: Iterable[StageReport]
-) -> tuple[tuple[StageResult, ...], tuple[Cause, ...]]:
-    """The stages and the causes; of the findings only those are kept that may be completed."""
-    kept: list[StageReport] = []
-    waiting: list[tuple[int, int, Finding]] = []
-    for stage, report in enumerate(reports):
-        numbered = list(enumerate(report.findings))
-        causes.add(stage, report.path, (pair for pair in numbered if not pair[1].absent))
-        absent = [(stage, *pair) for pair in numbered if pair[1].absent]
-        waiting += absent
-        kept.append(report._replace(findings=tuple(finding for *_, finding in absent)))
-    is_completed = completed_by(kept)
-    for stage, number, finding in waiting:
-        if not is_completed(kept[stage], finding):
-            causes.add(stage, kept[stage].path, [(number, finding)])
-    found, numbers = causes.result()
-    return tuple(causes.stage(*each, numbers) for each in enumerate(kept)), found
 
 
 def _causes(
@@ -160,9 +184,14 @@ def _verdicts(config: Config, catalog: Catalog) -> VerdictOn | None:
 def settings_of(config: Config, active: ActiveRules) -> dict[str, object]:
     """The settings that shape the findings, as reports and `--show-settings` print them."""
     chosen = config._asdict()
+    frames = config.frames and "-".join(map(format_time, config.frames))
     return {
         "rules": {code: severity.label for code, severity in active.severities.items()},
         **{key: chosen[key] for key in _SHAPING},
         "suppress": [each.as_written() for each in config.suppress],
         "per_path": [each.as_written() for each in config.per_path],
+        "exclude": [glob.pattern for glob in config.exclude],
+        "stages": [glob.pattern for glob in config.stages],
+        "frames": frames,
+        **{key: chosen[key] for key in ("search_path", "assume_present", "path_map")},
     }

@@ -19,6 +19,7 @@ class Setup(NamedTuple):
 
     `is_alone` says that there is but one stage in the run, `repository` that findings in layers
     outside that folder need a line in the stage's own file.
+    Where some files are `changed`, a stage that uses none of them is not checked.
     """
 
     active: ActiveRules
@@ -27,6 +28,7 @@ class Setup(NamedTuple):
     suppressions: InStages
     is_alone: bool = False
     repository: str | None = None
+    changed: frozenset[str] | None = None
 
 
 class Ready(NamedTuple):

@@ -6,10 +6,10 @@ import gc
 import os
 import pickle
 import signal
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from usdvol_lint.model import Finding, StageReport, UsageError
+from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
@@ -46,8 +46,10 @@ def main() -> None:
     answers = _Answers(replies)
     engine = _engine(rules, setup, answers)
     _send(replies, Ready(usd_version()))
+    concerns = _concerned(setup)
     while path := _next(requests):
-        answers.end(engine.lint(path))
+        is_checked = concerns is None or concerns(path)
+        answers.end(engine.lint(path) if is_checked else _unchanged(path))
         gc.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
@@ -66,6 +68,19 @@ def _engine(rules: Mapping[str, Rule], setup: Setup, answers: _Answers) -> Engin
         setup.suppressions,
         setup.repository,
     )
+
+
+def _unchanged(path: str) -> StageReport:
+    return StageReport(path, Status.CHECKED, is_unchanged=True)
+
+
+def _concerned(setup: Setup) -> Callable[[str], bool] | None:
+    """Whether what changed concerns a stage; None where all stages are checked."""
+    if setup.changed is None:
+        return None
+    from usdvol_lint.engine.dependencies import concerned
+
+    return concerned(setup.changed, setup.depth.storage)
 
 
 class _Answers:

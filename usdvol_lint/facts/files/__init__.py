@@ -35,16 +35,24 @@ class Files(Wing):
     """The files that the `filePath` of fields names.
 
     `disk` looks at files and folders; `advance` is told of progress in long sequences.
+    `has_range` says that there is a range of frames beside that of the stage.
     """
 
     def __init__(
-        self, tables: Tables, stage: Any, clips: Clips, disk: Disk, advance: Callable[[int], None]
+        self,
+        tables: Tables,
+        stage: Any,
+        clips: Clips,
+        disk: Disk,
+        advance: Callable[[int], None],
+        has_range: bool,
     ) -> None:
         super().__init__(tables)
         self._stage = stage
         self._clips = clips
         self._disk = disk
         self._advance = advance
+        self._has_range = has_range
 
     @column
     def paths(self, table: Table) -> Sequence[AssetSamples]:
@@ -94,6 +102,10 @@ class Files(Wing):
         root = self._stage.GetRootLayer().realPath
         not_meant, reader = ((by.realPath, root), "") if by else ((), root)
         return find_absence(self._disk, path, authored, not_meant, reader)
+
+    def is_assumed(self, *names: str) -> bool:
+        """Whether the configuration takes a file that goes by these names to be there."""
+        return self._disk.storage.is_assumed(*names)
 
     def what_to_write(self, field: Any) -> str:
         """What to do about missing files; where frames of a sequence are there, which ones."""
@@ -204,7 +216,7 @@ class Files(Wing):
         return PathMarks(
             self._disk,
             has_packages=self._has_packages,
-            has_range=self._stage.HasAuthoredTimeCodeRange(),
+            has_range=self._has_range or self._stage.HasAuthoredTimeCodeRange(),
         )
 
     @cached_property

@@ -17,6 +17,7 @@ from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import Occurrences
 from usdvol_lint.words import frame_ranges, quoted
 
+MAPPED = "mapped"
 _LAYERS_NAMED = 3
 _NOTHING = frozenset({AssetState.EMPTY, AssetState.BLOCKED})
 _PATH_OF = attrgetter("path")
@@ -29,7 +30,8 @@ class AssetSample(NamedTuple):
     `authored` is the text in the layer; where that is an expression, `path` is what it evaluates
     to, elsewhere the same text.
     `resolved` is the file that USD finds, without file format arguments; empty if it finds none.
-    `detail` depends on the state: the fault, the error, the variable, the scheme or the pattern.
+    `detail` depends on the state: the fault, the error, the variable, the scheme, the pattern, or
+    MAPPED for a file that the configuration leads to.
     """
 
     time: float | None
@@ -38,6 +40,11 @@ class AssetSample(NamedTuple):
     resolved: str
     state: AssetState
     detail: str = ""
+
+    @property
+    def is_arranged(self) -> bool:
+        """Whether the configuration says where it is, whatever the path is on this machine."""
+        return self.state is AssetState.ASSUMED or self.detail == MAPPED
 
     @property
     def is_there(self) -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 
 from pxr import Ar, Sdf, Usd
 
-from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
+from usdvol_lint.facts.files.assets import MAPPED, AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.paths import anchored, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
@@ -74,18 +74,31 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Ass
     if not isinstance(value, Sdf.AssetPath):
         return AssetSample(time, str(value), "", "", AssetState.MISTYPED)
     path, resolved = value.path, value.resolvedPath
-    if FORMAT_ARGUMENTS in path:
+    detail = ""
+    if path and disk.storage.knows_any:
+        names = _names(attribute, time, path)
+        if disk.storage.is_assumed(*names):
+            return AssetSample(time, authored_path(value) or path, path, "", AssetState.ASSUMED)
+        if mapped := disk.storage.mapped(*names):
+            resolved, detail = mapped, MAPPED
+    if FORMAT_ARGUMENTS in path and not detail:
         resolved = _resolved_without_arguments(attribute, time, path)
     fault = disk.fault(resolved) if resolved else None
     if fault is FileFault.BROKEN_LINK:
         resolved, fault = "", None  # USD resolves a link without asking where it leads
     if resolved and not fault:
-        return AssetSample(time, authored_path(value) or path, path, resolved, AssetState.FILE)
+        authored = authored_path(value) or path
+        return AssetSample(time, authored, path, resolved, AssetState.FILE, detail)
     authored = authored_path(value) or _authored_in_layer(attribute, time) or path
     if fault:
         return AssetSample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault)
     state, detail = _why_unresolved(attribute, time, authored, path)
     return AssetSample(time, authored, path, "", state, detail)
+
+
+def _names(attribute: Any, time: float | None, path: str) -> tuple[str, str]:
+    """A path as it is written, and its absolute form, both without file format arguments."""
+    return path.partition(FORMAT_ARGUMENTS)[0], anchored(attribute, time, path)
 
 
 def _authored_in_layer(attribute: Any, time: float | None) -> str | None:

@@ -8,10 +8,12 @@ from typing import Any
 
 from pxr import Ar
 
+from usdvol_lint.config import Storage
 from usdvol_lint.facts.files.folders import Folders, Listing
 from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.places import folders_above
 from usdvol_lint.facts.files.states import FileFault
+from usdvol_lint.facts.files.storage import Whereabouts
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
@@ -22,10 +24,12 @@ class Disk:
     """Looks at files and folders, and keeps what it saw for all variant selections of a stage.
 
     What it says of a folder it says of a package, `package.usdz`, too.
-    `folders` know what is in them, for the stages before and after this one too.
+    `folders` know what is in them, for the stages before and after this one too, and `storage`
+    which files are elsewhere, or are not looked for.
     """
 
-    def __init__(self, folders: Folders | None = None) -> None:
+    def __init__(self, folders: Folders | None = None, storage: Whereabouts | None = None) -> None:
+        self.storage = storage or Whereabouts(Storage())
         self._all_folders = folders or Folders()
         self._faults: dict[str, str | None] = {}
         self._listings: dict[str, Listing] = {}

@@ -56,6 +56,8 @@ def hides_file(sample: AssetSample) -> bool:
 
 def _defects(sample: AssetSample) -> Iterator[PathDefect]:
     path = sample.path
+    if sample.is_arranged:
+        return
     if path[1:2] == ":" and path[0].isalpha():
         yield PathDefect.DRIVE
     if _HOME.match(path) and not sample.is_there:  # a file may well be called so

@@ -12,7 +12,7 @@ from operator import attrgetter, sub
 
 from pxr import Ar
 
-from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
+from usdvol_lint.facts.files.assets import MAPPED, AssetSample, AssetSamples
 from usdvol_lint.facts.files.numbering import Numbering, find_numbering
 from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.states import AssetState
@@ -106,6 +106,8 @@ class SampleSequence:
     def exists(self, sample: AssetSample, path: str) -> bool:
         """Whether there would be a file if the sample had this path."""
         folder, name = split_path(path)
+        if sample.detail == MAPPED and folder == split_path(sample.path)[0]:
+            return os.path.isfile(f"{os.path.dirname(sample.resolved)}/{name}")
         key = (sample.time, folder)
         if key not in self._folders:
             anchored = self.paths.anchored(sample._replace(path=path))

@@ -12,6 +12,8 @@ class AssetState(Enum):
     """A readable file with content."""
     MISSING = auto()
     """Nothing is there."""
+    ASSUMED = auto()
+    """A path whose file the configuration takes to be there, and that is not looked at."""
     PATTERN = auto()
     """Nothing is there, and the path has a placeholder such as `$F4` or `####`."""
     NOT_A_FILE = auto()
@@ -34,8 +36,8 @@ class AssetState(Enum):
 
 ON_DISK = frozenset({AssetState.FILE, AssetState.NOT_A_FILE, AssetState.MISSING})
 """The states of values that name a path on disk, whether or not a file is there."""
-ON_DISK_OR_PATTERN = ON_DISK | {AssetState.PATTERN}
-"""The same, with those of paths that have a placeholder."""
+ON_DISK_OR_PATTERN = ON_DISK | {AssetState.ASSUMED, AssetState.PATTERN}
+"""The same, with those of paths that nobody looks at, or that have a placeholder."""
 
 
 class PathMark(Enum):

@@ -42,6 +42,7 @@ class Layers(Wing):
         kinds: PrimKinds,
         overs: Overs,
         drawn: Drawn,
+        frames: tuple[float, float] | None,
     ) -> None:
         super().__init__(tables)
         self._stage = stage
@@ -49,6 +50,7 @@ class Layers(Wing):
         self._kinds = kinds
         self.overs = overs
         self._drawn = drawn
+        self._frames = frames
 
     @property
     def missing(self) -> tuple[MissingLayer, ...]:
@@ -174,18 +176,16 @@ class Layers(Wing):
 
     @cached_property
     def time_range(self) -> TimeRange | None:
-        """startTimeCode and endTimeCode; None unless both are authored, in ascending order."""
-        from usdvol_lint.facts.layers.ranges import TimeRange
+        """The production's range, else startTimeCode to endTimeCode; None if these are not said."""
+        from usdvol_lint.facts.layers.ranges import time_range
 
-        authored = self.authored_time_range
-        return TimeRange(*authored) if authored and authored[0] <= authored[1] else None
+        return time_range(self.authored_time_range, self._frames)
 
     @cached_property
     def authored_time_range(self) -> tuple[float, float] | None:
         """startTimeCode and endTimeCode, in whatever order; None unless both are authored."""
-        if not self._stage.HasAuthoredTimeCodeRange():
-            return None
-        return self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
+        is_said, stage = self._stage.HasAuthoredTimeCodeRange(), self._stage
+        return (stage.GetStartTimeCode(), stage.GetEndTimeCode()) if is_said else None
 
     @cached_property
     def unsaid_rates(self) -> tuple[UnsaidRate, ...]:

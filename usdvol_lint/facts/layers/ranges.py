@@ -10,11 +10,30 @@ from usdvol_lint.facts.usd.opinions import strongest_opinion
 _KEYS = ("startTimeCode", "endTimeCode")
 
 
+def time_range(
+    authored: tuple[float, float] | None, asked: tuple[float, float] | None
+) -> TimeRange | None:
+    """The range that was asked for, or that of the stage, if that is in ascending order."""
+    if asked:
+        return AskedRange(*asked)
+    return TimeRange(*authored) if authored and authored[0] <= authored[1] else None
+
+
 class TimeRange(NamedTuple):
     """The first and the last time code of a stage."""
 
     start: float
     end: float
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether it is that of the production, which no layer says."""
+        return False
+
+    @property
+    def whose(self) -> str:
+        """What it is, before the word `range`."""
+        return "the production's" if self.is_asked else "the stage's"
 
     def meeting(
         self,
@@ -66,6 +85,19 @@ class TimeRange(NamedTuple):
             return first > other.start or last < other.end
 
         return self.meeting(attribute, first, are_far if are_far(self) else leave_part)
+
+
+class AskedRange(TimeRange):
+    """The range of the production: what does not suit it is to blame itself."""
+
+    @property
+    def is_asked(self) -> bool:
+        return True
+
+    def meeting(
+        self, attribute: Any, time: float | None, is_wrong: Callable[[TimeRange], bool]
+    ) -> Any | None:
+        return None
 
 
 def _said_by(layer: Any, offset: Any) -> TimeRange | None:

@@ -1,0 +1,170 @@
+"""What changed since a revision, as git itself says."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+from process import run
+
+from usdvol_lint.files.changes import changes_since
+from usdvol_lint.model import UsageError
+
+pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+
+STAGE = '#usda 1.0\n(\n    upAxis = "Y"\n    metersPerUnit = 1\n%s)\ndef Xform "x"\n{\n%s}\n'
+FIELD = '    def OpenVDBAsset "d"\n    {\n        asset filePath = @./%s@\n    }\n'
+
+
+def git(folder: Path, *arguments: str) -> str:
+    who = {f"GIT_{who}_{what}": "a@b.c" for who in ("AUTHOR", "COMMITTER")
+           for what in ("NAME", "EMAIL")}  # fmt: skip
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    environment = {**kept, **who, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
+    command = ["git", "-C", str(folder), *arguments]
+    done = subprocess.run(command, env=environment, capture_output=True, check=True)
+    return done.stdout.decode().strip()
+
+
+@pytest.fixture(autouse=True)
+def _no_other_repository(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever runs the tests may be a git hook."""
+    for name in [name for name in os.environ if name.startswith("GIT_")]:
+        monkeypatch.delenv(name)
+
+
+@pytest.fixture
+def repository(tmp_path: Path) -> Path:
+    """A stage for each way to use a file, on a branch `topic` beside `main`."""
+    folder = tmp_path / "repository"
+    folder.mkdir()
+    texts = {
+        "alone": STAGE % ("", ""),
+        "sub": STAGE % ("", ""),
+        "shot": STAGE % ("    subLayers = [@./sub.usda@]\n", ""),
+        "fog": STAGE % ("", FIELD % "fog.1.vdb"),
+    }
+    for name, text in texts.items():
+        (folder / f"{name}.usda").write_text(text, encoding="utf-8")
+    (folder / "fog.1.vdb").write_text("fog")
+    (folder / ".gitignore").write_text("ignored*\n")
+    git(folder, "init", "--quiet", "--initial-branch", "main")
+    git(folder, "add", "--all")
+    git(folder, "commit", "--quiet", "--message", "one")
+    git(folder, "checkout", "--quiet", "-b", "topic")
+    return folder
+
+
+def changed(folder: Path, revision: str = "main", settings: Iterable[str] = ()) -> set[str]:
+    found = changes_since(revision, [str(folder)], settings)
+    real = Path(os.path.realpath(folder)).as_posix()
+    return {path.removeprefix(f"{real}/") for path in found.paths if path.startswith(real)}
+
+
+def test_all_that_differs_from_the_merge_base(repository: Path) -> None:
+    assert changed(repository) == set()
+    (repository / "committed").touch()
+    git(repository, "add", "--all")
+    git(repository, "commit", "--quiet", "--message", "two")
+    git(repository, "checkout", "--quiet", "main")
+    (repository / "of main").touch()
+    git(repository, "add", "--all")
+    git(repository, "commit", "--quiet", "--message", "three")
+    git(repository, "checkout", "--quiet", "topic")
+    (repository / "staged").touch()
+    git(repository, "add", "staged")
+    (repository / "staged").unlink()
+    (repository / "alone.usda").unlink()
+    (repository / "sub.usda").write_text("changed")
+    (repository / "a b\n\u00e9.usda").touch()
+    (repository / "ignored.usda").touch()
+    expected = {"committed", "staged", "alone.usda", "sub.usda", "a b\n\u00e9.usda"}
+    assert changed(repository) == expected
+    inside = repository / "inside"
+    inside.mkdir()
+    assert changes_since("main", [str(inside)], []) == changes_since("main", [str(repository)], [])
+
+
+@pytest.mark.parametrize("revision", ["nope", "sub.usda", "main..topic", "HEAD~7"])
+def test_a_revision_that_is_none(revision: str, repository: Path) -> None:
+    (repository / "sub.usda").write_text("changed")
+    with pytest.raises(UsageError, match=r"git finds no revision '.*'; .* 'fetch-depth: 0'"):
+        changed(repository, revision)
+
+
+@pytest.mark.parametrize("revision", ["", "-p", "--output=x", "main\nx"])
+def test_what_could_be_an_option_is_none(revision: str, repository: Path) -> None:
+    before = sorted(os.listdir(repository))
+    with pytest.raises(UsageError, match="is no revision"):
+        changed(repository, revision)
+    assert sorted(os.listdir(repository)) == before
+
+
+def test_a_revision_that_is_a_files_name_too(repository: Path) -> None:
+    git(repository, "branch", "sub.usda")
+    (repository / "sub.usda").write_text("changed")
+    assert changed(repository, "sub.usda") == {"sub.usda"}
+
+
+def test_a_clone_without_the_history(repository: Path, tmp_path: Path) -> None:
+    """Neither a branch that was not fetched, nor one whose common commit is cut off."""
+    git(repository, "commit", "--quiet", "--allow-empty", "--message", "two")
+    git(repository, "checkout", "--quiet", "main")
+    git(repository, "commit", "--quiet", "--allow-empty", "--message", "three")
+    url = repository.as_uri()
+    git(tmp_path, "clone", "--quiet", "--depth", "1", "--branch", "topic", url, "shallow")
+    shallow = tmp_path / "shallow"
+    with pytest.raises(UsageError, match=r"no revision 'origin/main'; .*'fetch-depth: 0'"):
+        changed(shallow, "origin/main")
+    git(shallow, "fetch", "--quiet", "--depth", "1", "origin", "main:other")
+    with pytest.raises(UsageError, match=r"'other' and HEAD have in common; .*'fetch-depth: 0'"):
+        changed(shallow, "other")
+
+
+def test_no_repository(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="the arguments lie in no git repository"):
+        changed(tmp_path)
+
+
+def test_settings_concern_every_stage(repository: Path) -> None:
+    def concerns(*paths: str) -> bool:
+        named = [str(repository / path) for path in paths]
+        return changes_since("main", [str(repository)], named).everything
+
+    (repository / "pack").mkdir()
+    (repository / "pack" / "rule.py").touch()
+    assert not concerns("sub.usda", "usdvol-lint.toml")
+    assert concerns("pack")
+    assert concerns("pack/rule.py")
+
+
+def test_stages_that_use_what_changed(repository: Path) -> None:
+    chosen = ("--isolated", "--select", "STG003", "--changed-since", "main")
+
+    def checked() -> set[str]:
+        ran = run(*chosen, "--output-format", "json", ".", cwd=repository)
+        assert (ran.code, ran.err) == (0, "")
+        return {stage["path"] for stage in ran.json["stages"]}
+
+    ran = run(*chosen, ".", cwd=repository)
+    assert (ran.code, ran.out, ran.err) == (
+        0,
+        "nothing to check: nothing changed since 'main'\n",
+        "",
+    )
+    (repository / "notes.txt").touch()
+    ran = run(*chosen, ".", cwd=repository)
+    said = "nothing to check: none of 4 stages uses a file that changed since 'main'\n"
+    assert (ran.code, ran.out, ran.err) == (0, said, "")
+    (repository / "sub.usda").write_text(STAGE % ("", "    # more\n"), encoding="utf-8")
+    assert checked() == {"shot.usda", "sub.usda"}
+    git(repository, "checkout", "--quiet", "sub.usda")
+    (repository / "fog.1.vdb").unlink()
+    assert checked() == {"fog.usda"}
+    (repository / "usdvol-lint.toml").touch()
+    ran = run("--select", "STG003", "--changed-since", "main", ".", cwd=repository)
+    assert "no findings in 4 stages; " in ran.out

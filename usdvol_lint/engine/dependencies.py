@@ -1,0 +1,66 @@
+"""Whether a stage uses a file that changed, seen from its layers alone: nothing is composed."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+
+from pxr import UsdUtils
+
+from usdvol_lint.config import Storage
+from usdvol_lint.facts.files.storage import mapped
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
+from usdvol_lint.files.names import is_among, names_of
+from usdvol_lint.paths import split_package
+
+_NUMBER = re.compile(r"[0-9]+|<[A-Za-z]+>|#+")
+
+
+def concerned(changed: frozenset[str], storage: Storage) -> Callable[[str], bool]:
+    """Whether one of the files that changed is used by the stage at a path, in any variant.
+
+    A file counts also where a stage names it and it is gone, or was a further frame of a sequence
+    of which it uses others.  A stage that USD can't read is concerned.
+    """
+    gone = [path for path in changed if not os.path.lexists(path)]
+    families = {_family(path) for path in gone}
+    endings = tuple(changed)
+
+    @cache
+    def is_changed(path: str) -> bool:
+        if not os.path.isabs(path):  # for a search path, or a file that is gone
+            return any(each.endswith(f"/{path}") for each in endings)
+        names = names_of(path)
+        return is_among(path, changed) or any(_family(name) in families for name in names)
+
+    def concerns(stage: str) -> bool:
+        if is_changed(os.path.abspath(stage)):
+            return True
+        used = _used(stage)
+        return used is None or any(map(is_changed, _on_disk(used, storage)))
+
+    return concerns
+
+
+def _used(stage: str) -> Iterable[str] | None:
+    """All that a stage's layers name, directly or not; None where USD can't say."""
+    try:
+        layers, assets, unresolved = UsdUtils.ComputeAllDependencies(os.path.abspath(stage))
+    except UNREADABLE:
+        return None
+    return [*(layer.realPath for layer in layers), *assets, *unresolved] if layers else None
+
+
+def _on_disk(paths: Iterable[str], storage: Storage) -> Iterator[str]:
+    """The files that paths are, of what is in a package the package."""
+    for path in paths:
+        if path:
+            yield split_package(mapped(path, storage.path_map) or path)[0]
+
+
+def _family(path: str) -> str:
+    """A path without the numbers of its name, which the frames of a sequence share."""
+    folder, _, name = path.rpartition("/")
+    return f"{folder}/{_NUMBER.sub('#', name)}" if _NUMBER.search(name) else path

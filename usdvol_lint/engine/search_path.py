@@ -1,0 +1,17 @@
+"""Where USD's own resolver looks for paths that begin with neither `/` nor `.`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+from pxr import Ar
+
+_VARIABLE = "PXR_AR_DEFAULT_SEARCH_PATH"
+
+
+def set_search_path(folders: Iterable[str]) -> None:
+    """Sets the search path of this process: these folders, then those of the environment."""
+    given = os.environ.get(_VARIABLE, "").split(os.pathsep)
+    absolute = map(os.path.abspath, folders)
+    Ar.DefaultResolver.SetDefaultSearchPath([*absolute, *filter(None, given)])
