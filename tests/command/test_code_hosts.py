@@ -133,13 +133,14 @@ def test_a_run_that_could_not_begin_is_written(
 
 
 def test_a_stage_that_can_not_be_read_is_no_success(repository: Path) -> None:
-    ran = run(*ONLY, "--fail-on", "never", "gone.usda", cwd=repository)
+    (repository / "cut.usda").write_text("#usda 1.0\ndef Volume", encoding="utf-8")
+    ran = run(*ONLY, "--fail-on", "never", "cut.usda", cwd=repository)
     assert ran.code == 2
     sarif, (entry,) = read(repository)
     assert sarif["invocations"][0]["executionSuccessful"] is False
     (result,) = sarif["results"]
     assert (result["ruleId"], entry["check_name"]) == ("LNT001", "LNT001")
-    assert entry["location"]["path"] == "gone.usda"
+    assert entry["location"]["path"] == "cut.usda"
 
 
 def test_a_run_that_fails_at_its_end_is_no_success(repository: Path) -> None:

@@ -83,7 +83,7 @@ def test_mistakes(
     [
         ("exclude = 'old'", "exclude must be a list of strings, not 'old'"),
         ("exclude = ['!']", "exclude: '!' is no pattern as in a .gitignore"),
-        ("stages = ['']", "stages: one of its texts is empty"),
+        ("stages = ['']", "stages has an empty string, which names nothing: leave it out"),
         ("frames = 1001", "frames: write it as FIRST-LAST, such as 1001-1100, not 1001"),
         ("search-path = [3]", "search-path must be a list of strings, not [3]"),
         ("path-map = ['P:/']", "path-map must be a table, not ['P:/']"),
@@ -104,7 +104,17 @@ def test_settings_are_relative_to_their_file(tree: Path, tool: Callable[..., Ran
         'assume-present = ["/mnt/**"]\npath-map = { "P:/" = "share" }\n'
     )
     (tree / "usdvol-lint.toml").write_text(text, encoding="utf-8")
-    shown = settings(tool("--show-settings", "--frames", "-5-7.5", "--exclude", "*.usdz"))
+    shown = settings(
+        tool(
+            "--show-settings",
+            "--output-format",
+            "json",
+            "--frames",
+            "-5-7.5",
+            "--exclude",
+            "*.usdz",
+        )
+    )
     names = ("exclude", "stages", "frames", "search_path", "assume_present", "path_map")
     assert {name: shown[name] for name in names} == {
         "exclude": ["old/", "*.usdz"],

@@ -10,6 +10,8 @@ from usdvol_lint.config.origins import Origin, entries
 
 _OWN_FIRST = frozenset({"suppress", "search-path"})
 """Lists of which the first that matches counts."""
+_REPLACED = frozenset({"select", "frames"})
+"""What is replaced as a whole, though it has several parts."""
 
 
 def laid_over(
@@ -33,7 +35,7 @@ def laid_over(
 def _merged(key: str, below: Any, value: Any) -> Any:
     if isinstance(value, Mapping) and isinstance(below, Mapping):
         return _merged_tables(below, value)
-    if isinstance(value, tuple) and key != "select":
+    if isinstance(value, tuple) and key not in _REPLACED:
         return value + below if key in _OWN_FIRST else below + value
     return value
 

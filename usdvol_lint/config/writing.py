@@ -46,7 +46,7 @@ def _value(config: Config, key: str) -> Any:
         case "frames":
             return value and "-".join(map(format_time, value))
         case "path-map":
-            return {start: os.path.abspath(to) for start, to in value.items()}
+            return {start: os.path.join(os.getcwd(), to) for start, to in value.items()}
         case _ if key in PATHS and value is not None:
             is_list = isinstance(value, tuple)
             return tuple(map(os.path.abspath, value)) if is_list else os.path.abspath(value)
