@@ -40,6 +40,7 @@ class Blaming:
     """Finds what is to blame for the problems of one stage; the clips of a prim are read once."""
 
     def __init__(self) -> None:
+        self._has_variables: bool | None = None
         self._clip_sets: dict[Any, list[tuple[ClipSet, frozenset[str]]]] = {}
 
     def blame(self, problem: Problem | NotChecked) -> Blame:
@@ -92,7 +93,7 @@ class Blaming:
         spec, offset = strongest
         prim = attribute.GetPrim()
         local = None if time is None else offset.GetInverse() * time
-        if top := deciding_layer(prim, spec, local):
+        if self._says_variables(prim) and (top := deciding_layer(prim, spec, local)):
             return Blame(top.pseudoRoot, attribute.GetName(), subject or str(spec.path))
         if time is None:
             return Blame(spec, attribute.GetName(), subject, None, offset)
@@ -102,6 +103,13 @@ class Blaming:
             bearer, offset = clips.opinion_with(clips.key)
             return Blame(bearer, "clips", subject or str(path), None, offset, clips.named(clip))
         return Blame(spec, attribute.GetName(), subject, local, offset)
+
+    def _says_variables(self, prim: Any) -> bool:
+        """Whether any layer of the stage has expression variables, of which few stages have one."""
+        if self._has_variables is None:
+            layers = prim.GetStage().GetUsedLayers()
+            self._has_variables = any(layer.HasExpressionVariables() for layer in layers)
+        return self._has_variables
 
     def _clips_with(self, prim: Any, layer: Any) -> ClipSet | None:
         """The clip set that has a layer among its clips, of a prim or the next one above it."""

@@ -24,11 +24,12 @@ _DIGITS = 6
 
 
 class Located(NamedTuple):
-    """A site, what is to blame, and how many instances show it on the stage."""
+    """A site, what is to blame and its layer, and how many instances show it on the stage."""
 
     site: Site
     source: Source
     blame: Blame
+    layer: Any
     instances: int
 
 
@@ -56,11 +57,13 @@ class Sites:
 
     def locate(self, problem: Problem | NotChecked) -> Located:
         """The site of a problem, what is to blame for it, and how many instances show it."""
-        prim = problem.at.GetPrim()
+        at = problem.at
+        prim = at.GetPrim()
         on_stage = shown(prim)
         blame = self._blaming.blame(problem)
         spec = blame.spec
-        layer = self._layer(spec.layer if spec else prim.GetStage().GetRootLayer())
+        blamed = spec.layer if spec else prim.GetStage().GetRootLayer()
+        layer = self._layer(blamed)
         path = str(spec.path) if spec else "/"
         asset = blame.clip or blame.asset or problem.asset
         position = layer.text.find(path, time=blame.time, asset=asset) if layer.text else None
@@ -68,7 +71,7 @@ class Sites:
             layer=layer.shown,
             variant=_variants(spec.path) if spec and "{" in path else None,
             prim=None if prim.IsPseudoRoot() else on_stage.path,
-            property=problem.at.GetName() if isinstance(problem.at, Usd.Property) else None,
+            property=at.GetName() if isinstance(at, Usd.Property) else None,
             times=problem.times,
             at_default=problem.at_default,
             line=position.line if position else None,
@@ -81,7 +84,7 @@ class Sites:
         else:
             prim_path = _path_of_prim(spec, path) if spec else None
             source = Source(layer.real, prim_path, blame.property, blame.subject)
-        return Located(site, source, blame, on_stage.instances)
+        return Located(site, source, blame, blamed, on_stage.instances)
 
     def _layer(self, layer: Any) -> _Layer:
         key = layer.identifier

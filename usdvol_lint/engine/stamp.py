@@ -134,10 +134,8 @@ class Stamp:
         if not self._asked.heeded:
             yield _shown_by(finding, located.instances)
             return
-        prim, layer = problem.at.GetPrim(), None
-        if finding.source.layer is not None:
-            spec = located.blame.spec
-            layer = spec.layer if spec else prim.GetStage().GetRootLayer()
+        prim = problem.at.GetPrim()
+        layer = None if finding.source.layer is None else located.layer
         if not prim.IsInPrototype():
             reason = self._suppressions.reason(prim, layer, finding.code)
             yield finding if reason is None else finding._replace(ignored=reason)

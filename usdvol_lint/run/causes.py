@@ -112,7 +112,7 @@ class Causes:
         for number, finding in findings:
             source = finding.source
             if source.layer is not None:
-                source = source._replace(layer=self._name_of(source.layer))
+                source = Source(self._name_of(source.layer), *source[1:])
             key = finding.code, source
             gathered = self._found.get(key)
             if gathered is None:
