@@ -3,6 +3,12 @@
 from __future__ import annotations
 
 from bench.case import Case
-from bench.cases import particles, stages, startup, volumes
+from bench.cases import library, particles, stages, startup, volumes
 
-CASES: tuple[Case, ...] = (*startup.CASES, *stages.CASES, *volumes.CASES, *particles.CASES)
+CASES: tuple[Case, ...] = (
+    *startup.CASES,
+    *stages.CASES,
+    *library.CASES,
+    *volumes.CASES,
+    *particles.CASES,
+)
