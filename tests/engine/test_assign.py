@@ -11,7 +11,7 @@ from process import ROOT
 from pxr import Usd
 from walks import CLOUD, INSTANCE, LIVE, asks, instancer, write_stage
 
-from usdvol_lint.engine.assign import assign
+from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts, Walked
@@ -25,7 +25,7 @@ def assigned(stage: Usd.Stage, found: Walked, rules: list[Rule]) -> list[tuple[R
     """Each rule with each prim that it is handed; no precondition fails."""
     facts = Facts(Context.of(stage), found)
     failed: list[object] = []
-    pairs = list(assign(found, rules, facts, {}, lambda *failure: failed.append(failure)))
+    pairs = list(Assignment(rules, {}).pairs(found, facts, lambda *failure: failed.append(failure)))
     assert failed == []
     return pairs
 

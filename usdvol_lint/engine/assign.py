@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from enum import Enum
 from operator import itemgetter
 from typing import Any, TypeAlias
 
@@ -20,41 +21,44 @@ Options: TypeAlias = Mapping[str, Mapping[str, Any]]
 Failed: TypeAlias = Callable[[Sequence[Rule], BaseException], None]
 """Called with rules whose precondition raised; they are handed the prims all the same."""
 
+_MOST_KEYS = 10_000
+"""So many keys are kept over all stages."""
 
-def assign(
-    walked: Walked, rules: Iterable[Rule], facts: Facts, options: Options, failed: Failed
-) -> Iterator[tuple[Rule, Any]]:
-    """Each rule with each kept prim of its schemas that passes its precondition.
+
+class Assignment:
+    """Hands prims to rules: what a kind or a key of prims decides is decided once for all stages.
 
     `Rule.when` is evaluated once for all prims that share a key, and keys are computed only for
     prims that some rule with a precondition asks for.
     """
-    rules = list(rules)
-    subscriptions = {
-        key: _Subscription(facts.kinds.names(key), rules, facts, options, failed)
-        for key in walked.kept
-    }
-    for key, chunk in _fields_first(walked, facts):
-        for prim in chunk.prims:
-            for rule in subscriptions[key].always:
-                yield rule, prim
-        if subscriptions[key].by_keys:
-            for table in facts.tables.tables(chunk):
-                for rules_by_key in subscriptions[key].by_keys:
-                    yield from rules_by_key.chosen(table)
+
+    def __init__(self, rules: Iterable[Rule], options: Options) -> None:
+        self._rules = list(rules)
+        self._options = options
+        self._subscriptions: dict[frozenset[str], _Subscription] = {}
+
+    def pairs(self, walked: Walked, facts: Facts, failed: Failed) -> Iterator[tuple[Rule, Any]]:
+        """Each rule with each kept prim of its schemas that passes its precondition."""
+        for key, chunk in _fields_first(walked, facts):
+            wanted = self._subscription(facts.kinds.names(key))
+            for prim in chunk.prims:
+                for rule in wanted.always:
+                    yield rule, prim
+            if wanted.by_keys:
+                for table in facts.tables.tables(chunk):
+                    for rules_by_key in wanted.by_keys:
+                        yield from rules_by_key.chosen(table, facts, failed)
+
+    def _subscription(self, names: frozenset[str]) -> _Subscription:
+        if names not in self._subscriptions:
+            self._subscriptions[names] = _Subscription(names, self._rules, self._options)
+        return self._subscriptions[names]
 
 
 class _Subscription:
     """The rules for prims of one kind: without a precondition, and the others by their keys."""
 
-    def __init__(
-        self,
-        names: frozenset[str],
-        rules: Iterable[Rule],
-        facts: Facts,
-        options: Options,
-        failed: Failed,
-    ) -> None:
+    def __init__(self, names: frozenset[str], rules: Iterable[Rule], options: Options) -> None:
         self.always: list[Rule] = []
         narrowed: dict[Any, list[tuple[Rule, When]]] = defaultdict(list)
         for rule in rules:
@@ -65,72 +69,84 @@ class _Subscription:
             else:
                 self.always.append(rule)
         self.by_keys = [
-            _RulesByKey(declared, facts, chosen, options, failed)
-            for declared, chosen in narrowed.items()
+            _RulesByKey(declared, chosen, options) for declared, chosen in narrowed.items()
         ]
 
 
 class _RulesByKey:
     """The rules whose preconditions look at one column of keys, evaluated once for each key."""
 
-    def __init__(
-        self,
-        declared: Any,
-        facts: Facts,
-        rules: list[tuple[Rule, When]],
-        options: Options,
-        failed: Failed,
-    ) -> None:
+    def __init__(self, declared: Any, rules: list[tuple[Rule, When]], options: Options) -> None:
         self._declared = declared
-        self._wing = facts.wing(declared.owner)
         self._rules = rules
-        self._options = options
-        self._failed = failed
+        self._given = {rule.code: _given(rule, when, options) for rule, when in rules}
         self._chosen: dict[Any, list[Rule]] = {}
 
-    def chosen(self, table: Table) -> Iterator[tuple[Rule, Any]]:
+    def chosen(self, table: Table, facts: Facts, failed: Failed) -> Iterator[tuple[Rule, Any]]:
         """The prims of a table, each with every rule that its key passes."""
-        keys = self._keys(table)
+        keys = self._keys(table, facts, failed)
         if keys is None:
-            yield from self._one_by_one(table)
+            yield from self._one_by_one(table, facts, failed)
             return
         # In the order of the prims: if a precondition fails on several keys, it reports the first.
-        rules = {key: self._rules_for(key) for key in dict.fromkeys(keys)}
+        rules = {key: self._rules_for(key, failed) for key in dict.fromkeys(keys)}
         if any(rules.values()):
             for prim, key in zip(table.prims, keys, strict=True):
                 for rule in rules[key]:
                     yield rule, prim
 
-    def _one_by_one(self, table: Table) -> Iterator[tuple[Rule, Any]]:
+    def _one_by_one(self, table: Table, facts: Facts, failed: Failed) -> Iterator[tuple[Rule, Any]]:
         """The same, prim by prim; a prim whose key can't be computed is handed to all rules."""
         if len(table.prims) == 1:
             yield from ((rule, table.prims[0]) for rule, _ in self._rules)
             return
         for row in range(len(table.prims)):
-            yield from self.chosen(table.alone(row))
+            yield from self.chosen(table.alone(row), facts, failed)
 
-    def _keys(self, table: Table) -> list[Any] | None:
+    def _keys(self, table: Table, facts: Facts, failed: Failed) -> list[Any] | None:
         try:
-            return list(self._declared.keys(self._wing, table))
+            return list(self._declared.keys(facts.wing(self._declared.owner), table))
         except UNREADABLE:
             pass  # the rules meet the same error, and report it
         except PACK_FAILURES as error:  # reported once it fails on one prim alone
             if len(table.prims) == 1:
-                self._failed([rule for rule, _ in self._rules], error)
+                failed([rule for rule, _ in self._rules], error)
         return None
 
-    def _rules_for(self, key: Any) -> list[Rule]:
-        if key not in self._chosen:
-            self._chosen[key] = [rule for rule, when in self._rules if self._holds(rule, when, key)]
-        return self._chosen[key]
+    def _rules_for(self, key: Any, failed: Failed) -> list[Rule]:
+        known = self._chosen.get(key)
+        if known is not None:
+            return known
+        failures: list[tuple[Rule, BaseException]] = []
+        found = [rule for rule, when in self._rules if self._holds(rule, when, key, failures)]
+        for rule, error in failures:
+            failed([rule], error)
+        # What fails is told on each stage, and a key that is of one stage would keep it in memory.
+        if not failures and len(self._chosen) < _MOST_KEYS and _lasts(key):
+            self._chosen[key] = found
+        return found
 
-    def _holds(self, rule: Rule, when: When, key: Any) -> bool:
-        given = {**rule.options, **self._options.get(rule.code, {})}
+    def _holds(
+        self, rule: Rule, when: When, key: Any, failures: list[tuple[Rule, BaseException]]
+    ) -> bool:
         try:
-            return bool(when.holds(key, **{name: given[name] for name in when.options}))
+            return bool(when.holds(key, **self._given[rule.code]))
         except PACK_FAILURES as error:
-            self._failed([rule], error)
+            failures.append((rule, error))
             return True
+
+
+def _lasts(key: Any) -> bool:
+    """Whether a key is plain data, or says that it is of no stage."""
+    if isinstance(key, tuple | frozenset):
+        return all(map(_lasts, key))
+    return key is None or isinstance(key, bool | int | float | str | Enum) or hasattr(key, "LASTS")
+
+
+def _given(rule: Rule, when: When, options: Options) -> dict[str, Any]:
+    """The options that a precondition is given."""
+    given = {**rule.options, **options.get(rule.code, {})}
+    return {name: given[name] for name in when.options}
 
 
 def _fields_first(walked: Walked, facts: Facts) -> Iterator[tuple[KindKey, Chunk]]:

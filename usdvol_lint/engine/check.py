@@ -7,7 +7,7 @@ from typing import Any
 
 from usdvol_lint import schema
 from usdvol_lint.engine.asked_types import unknown_types
-from usdvol_lint.engine.assign import Options, assign
+from usdvol_lint.engine.assign import Assignment, Options
 from usdvol_lint.engine.failures import PACK_FAILURES, Failures
 from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.stamp import Stamp, Stamped
@@ -24,11 +24,17 @@ class StageCheck:
     """Checks one stage; findings come from generators, so that they can be sent as they come."""
 
     def __init__(
-        self, context: Context, rules: Sequence[Rule], options: Options, stamp: Stamp
+        self,
+        context: Context,
+        rules: Sequence[Rule],
+        options: Options,
+        assignment: Assignment,
+        stamp: Stamp,
     ) -> None:
         self._context = context
         self._rules = rules
         self._options = options
+        self._assignment = assignment
         self._stamp = stamp
 
     def walk(self) -> Walked:
@@ -107,7 +113,7 @@ class StageCheck:
         def failed(rules: Sequence[Rule], error: BaseException) -> None:
             failures.add_precondition(rules, root, error)
 
-        yield from assign(walked, self._rules, facts, self._options, failed)
+        yield from self._assignment.pairs(walked, facts, failed)
         for rule in self._rules:
             if STAGE in rule.on:
                 yield rule, root

@@ -10,6 +10,7 @@ from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
+from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.failures import still_holding, unreadable
 from usdvol_lint.engine.stage import open_stage
@@ -61,6 +62,7 @@ class Engine:
         self._suppressions = suppressions or InStages()
         self._rules = [rules[code] for code in active.severities]
         self._active = active
+        self._assignment = Assignment(self._rules, active.options)
         self._depth = depth or Depth()
         self._advance = advance
         self._send = send
@@ -114,7 +116,7 @@ class Engine:
             self._repository,
             path,
         )
-        check = StageCheck(context, self._rules, self._active.options, stamp)
+        check = StageCheck(context, self._rules, self._active.options, self._assignment, stamp)
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)

@@ -6,6 +6,7 @@ import gc
 import os
 import pickle
 import signal
+import time
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -16,6 +17,12 @@ from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal,
 
 if TYPE_CHECKING:
     from usdvol_lint.engine.engine import Engine
+
+
+_LONG = 0.05
+"""Seconds of a stage after which the time that looking for garbage takes does not count."""
+_MANY = 50_000
+"""So many objects of small stages together are as much as those of a large one."""
 
 
 def main() -> None:
@@ -47,10 +54,13 @@ def main() -> None:
     engine = _engine(rules, setup, answers)
     _send(replies, Ready(usd_version()))
     concerns = _concerned(setup)
+    gc.freeze()  # what all stages share is never garbage
     while path := _next(requests):
         is_checked = concerns is None or concerns(path)
+        began = time.perf_counter()
         answers.end(engine.lint(path) if is_checked else _unchanged(path))
-        gc.collect()
+        if time.perf_counter() - began > _LONG or gc.get_count()[0] > _MANY:
+            gc.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 from pxr import Sdf
 
@@ -43,6 +43,8 @@ class Authored:
     `is_clipped`: whether value clips apply to them.
     """
 
+    LASTS: ClassVar = True
+
     schemas: frozenset[str]
     declared: Mapping[str, schema.Attribute]
     types: tuple[tuple[str, Any], ...]
@@ -56,13 +58,17 @@ class Authored:
     is_clipped: bool
 
 
+_MOST_SHARED = 10_000
+_SHARED: dict[tuple[KindKey, frozenset[str], Shape], Authored] = {}
+"""What is authored on prims of a kind and shape is the same on all stages."""
+
+
 class AuthoredReader:
     """Reads what is authored on prims, once for all prims of one kind and shape."""
 
     def __init__(self, kinds: PrimKinds, clips: Clips) -> None:
         self._kinds = kinds
         self._clips = clips
-        self._shared: dict[tuple[KindKey, Shape], Authored] = {}
 
     def shapes(self, batch: PrimBatch, key: KindKey) -> list[Shape]:
         """The shapes of prims of one kind; attributes with values in clips count as authored."""
@@ -79,11 +85,12 @@ class AuthoredReader:
 
     def read(self, prim: Any, key: KindKey, shape: Shape) -> Authored:
         """What is authored on the prims of a kind and shape; `prim` is one of them."""
-        authored = self._shared.get((key, shape))
+        schemas = self._kinds.names(key)
+        authored = _SHARED.get((key, schemas, shape))
         if authored is None:
-            authored = self._shared[key, shape] = _sort_by_schema(
-                prim, self._kinds.names(key), *shape
-            )
+            if len(_SHARED) >= _MOST_SHARED:
+                _SHARED.clear()
+            authored = _SHARED[key, schemas, shape] = _sort_by_schema(prim, schemas, *shape)
         return authored
 
     def read_alone(self, prim: Any) -> Authored:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any, TypeAlias
 
 from pxr import Usd
@@ -75,16 +76,19 @@ class PrimKinds:
         return name in self.names(self.key(prim))
 
 
+@cache
 def is_registered(type_name: str) -> bool:
     """Whether a plugin declares a schema of that name, a prim type or an applied API."""
     return not Usd.SchemaRegistry.GetTypeFromSchemaTypeName(type_name).isUnknown
 
 
+@cache
 def is_concrete(type_name: str) -> bool:
     """Whether prims can have that type: it is registered and not abstract."""
     return Usd.SchemaRegistry().FindConcretePrimDefinition(type_name) is not None
 
 
+@cache
 def type_names(type_name: str) -> frozenset[str]:
     """The schema names of a prim type and its bases; UNKNOWN_TYPE or ABSTRACT_TYPE if it is one."""
     if not type_name:
