@@ -14,6 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 from usdvol_lint.child import start_child
 from usdvol_lint.engine.trouble import Trouble, report_trouble
 from usdvol_lint.model import Finding, StageReport, Status, UsageError
+from usdvol_lint.run.deadline import Deadline
 from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ class Worker:
 
     def __init__(self, child: subprocess.Popen[bytes] | None = None) -> None:
         self.usd_version = ""
+        self._deadline = Deadline(self.kill)
         self._adopt(child or start_child())
 
     def _adopt(self, child: subprocess.Popen[bytes]) -> None:
@@ -102,25 +104,18 @@ class Worker:
 
         `hear` is called with each message that comes before the reply.
         """
-        expired = threading.Event()
-        timer = threading.Timer(limit, self._expire, (expired,))
-        timer.daemon = True
-        timer.start()
+        self._deadline.set(limit)
         try:
             with suppress(OSError):  # a child that has gone may have said why
                 pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
                 self._stdin.flush()
             while isinstance(reply := pickle.load(self._stdout), Advance | NewFindings):
                 hear(reply)
-            return reply, expired.is_set()
+            return reply, self._deadline.is_expired
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
-            return None, expired.is_set()
+            return None, self._deadline.is_expired
         finally:
-            timer.cancel()
-
-    def _expire(self, expired: threading.Event) -> None:
-        expired.set()
-        self._process.kill()
+            self._deadline.clear()
 
     @property
     def _stdin(self) -> IO[bytes]:
