@@ -52,7 +52,7 @@ def _lint(arguments: list[str]) -> None:
     # than making these.
     gc.disable()
     # A signal that ends this process, as a CI host sends it, has to end the workers too.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    signal.signal(signal.SIGTERM, _terminate)
     try:
         from usdvol_lint.command.cli import main as run_command
 
@@ -60,6 +60,10 @@ def _lint(arguments: list[str]) -> None:
     finally:
         child.kill()
     _leave(code)
+
+
+def _terminate(number: int, frame: object) -> None:
+    raise KeyboardInterrupt(number)
 
 
 def _leave(code: int) -> None:

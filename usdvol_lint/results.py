@@ -180,6 +180,7 @@ class Report(NamedTuple):
     `nothing` why there was no stage at all.
     `failure` says why the run could not do its job, where that is no finding: then a report has
     what was found until then, most often nothing.
+    `interrupted` is the number of the signal that ended it before its time, 0 if none did.
     """
 
     version: str
@@ -194,6 +195,7 @@ class Report(NamedTuple):
     failure: str = ""
     left_out: str = ""
     nothing: str = ""
+    interrupted: int = 0
 
     def with_causes(self, causes: Sequence[Cause]) -> Report:
         """The same with other states of its causes, whose number and order stay."""

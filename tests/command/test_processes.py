@@ -71,15 +71,29 @@ def test_each_stage_once_in_the_order_given(two: Path) -> None:
     ]
 
 
+AS_JSON = ("--output-format", "json", "--output", "report.json")
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 @pytest.mark.parametrize("end", ["ctrl-c", "terminate"])
 def test_interrupted(end: str, tmp_path: Path) -> None:
     """No process stays behind, not even one that hangs."""
-    write(tmp_path, hang=volume("hang"))
+    gone = '#usda 1.0\ndef OpenVDBAsset "a"\n{\n    asset filePath = @./gone.vdb@\n}\n'
+    write(tmp_path, hang=volume("hang"), done=gone)
     # Under `make test &` and nohup it would be ignored, and inherited as ignored.
     previous = signal.signal(signal.SIGINT, signal.default_int_handler)
     with subprocess.Popen(
-        [*PROGRAM, "--isolated", "--pack", str(ROUGH), "hang.usda"],
+        [
+            *PROGRAM,
+            "--isolated",
+            "--pack",
+            str(ROUGH),
+            "--jobs",
+            "1",
+            *AS_JSON,
+            "done.usda",
+            "hang.usda",
+        ],
         cwd=tmp_path,
         env=environment(),
         stdout=subprocess.PIPE,
@@ -97,7 +111,15 @@ def test_interrupted(end: str, tmp_path: Path) -> None:
             process.terminate()
         out, err = process.communicate(timeout=60)
     signal.signal(signal.SIGINT, previous)
-    assert (process.returncode, out, err.strip()) == (2, b"", b"usdvol-lint: interrupted")
+    name, code = ("SIGINT", 130) if end == "ctrl-c" else ("SIGTERM", 143)
+    said = f"usdvol-lint: interrupted by {name} after 1 of 2 stages; what was found is reported\n"
+    assert (process.returncode, err.decode()) == (code, said)
+    assert b"AST002 error" in out
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert (report["partial"], [stage["path"] for stage in report["stages"]]) == (
+        True,
+        ["done.usda"],
+    )
     with pytest.raises(ProcessLookupError):
         os.killpg(process.pid, 0)
 

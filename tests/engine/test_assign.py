@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import shutil
 from collections import Counter
 from pathlib import Path
@@ -15,6 +16,7 @@ from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts, Walked
+from usdvol_lint.facts.grids.contents import ContentClass
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.model import Severity
 from usdvol_lint.packs.catalog import Catalog
@@ -159,3 +161,19 @@ def test_an_instanced_finding_says_where_and_how_often(
     (finding,) = engine.lint("stage.usda").findings
     assert finding.message == message
     assert (finding.site.prim, finding.site.layer, finding.site.line) == (prim, "lib.usda", 4)
+
+
+def test_no_key_of_a_stage_is_kept_in_memory(engine: Engine, tmp_path: Path) -> None:
+    """What a file holds is a key of one stage: with it the stage would stay."""
+    stage = tmp_path / "cloud.usda"
+    shutil.copy(ROOT / "rules" / "assets" / "cloud.vdb", tmp_path)
+    field = 'def OpenVDBAsset "cloud"\n{\n    asset filePath = @./cloud.vdb@\n}\n'
+    stage.write_text(f"#usda 1.0\n{field}", encoding="utf-8")
+
+    def classes() -> int:
+        gc.collect()
+        return sum(isinstance(each, ContentClass) for each in gc.get_objects())
+
+    before = classes()
+    engine.lint(str(stage))
+    assert classes() == before

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from usdvol_lint import __version__
-from usdvol_lint.command.codes import CLEAN, FAILED, FINDINGS
+from usdvol_lint.command.codes import CLEAN, FAILED, FINDINGS, ended_by, signal_of
 from usdvol_lint.model import UsageError
 
 if TYPE_CHECKING:
@@ -192,8 +192,9 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
         error.show()
     except UsageError as error:
         click.echo(f"usdvol-lint: error: {error}", err=True)
-    except (click.Abort, KeyboardInterrupt):
+    except (click.Abort, KeyboardInterrupt) as error:
         click.echo("usdvol-lint: interrupted", err=True)
+        return ended_by(signal_of(error))
     except Exception as error:  # a bug of ours must exit with 2 too: 1 would mean findings
         words = " ".join(f"{type(error).__name__}: {error}".split())
         click.echo(f"usdvol-lint: internal error: {words} (--verbose shows more)", err=True)

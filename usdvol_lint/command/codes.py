@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -9,6 +10,18 @@ if TYPE_CHECKING:
     from usdvol_lint.results import Report
 
 CLEAN, FINDINGS, FAILED = 0, 1, 2
+_SIGNALLED = 128
+
+
+def ended_by(number: int) -> int:
+    """What a run exits with that a signal ended, as a shell tells of one."""
+    return _SIGNALLED + number
+
+
+def signal_of(error: BaseException) -> int:
+    """The number of the signal that raised a KeyboardInterrupt."""
+    number = error.args[0] if error.args else None
+    return number if isinstance(number, int) else int(signal.SIGINT)
 
 
 def exit_code(report: Report, config: Config, fail_on_unpruned: bool = False) -> int:

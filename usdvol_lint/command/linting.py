@@ -12,7 +12,7 @@ import click
 from usdvol_lint import __version__
 from usdvol_lint.command import output
 from usdvol_lint.command.choosing import arguments, changes
-from usdvol_lint.command.codes import CLEAN, exit_code
+from usdvol_lint.command.codes import CLEAN, ended_by, exit_code, signal_of
 from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.settings import read_settings
 from usdvol_lint.config import Config
@@ -21,6 +21,7 @@ from usdvol_lint.packs.catalog import load_for
 from usdvol_lint.report import FOR_HOSTS
 from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import versions_in
+from usdvol_lint.run.interruption import Interruption
 from usdvol_lint.run.lint import Naming, lint
 from usdvol_lint.run.processors import owned
 from usdvol_lint.run.roots import checkout_of, root_of
@@ -46,12 +47,15 @@ def lint_stages(
     job = _Job(paths, given)
     try:
         paths = job.read_list()
-        with ProgressBar(enabled=not given["quiet"] and sys.stderr.isatty()) as progress:
-            report = lint(paths, job.settle, progress, child, job.naming, job.changes)
-    except Exception as error:
+        shows = not given["quiet"] and sys.stderr.isatty()
+        with Interruption() as signals, ProgressBar(enabled=shows) as progress:
+            report = lint(paths, job.settle, progress, child, job.naming, job.changes, signals)
+    except (Exception, KeyboardInterrupt) as error:
         job.write_failure(error)
         raise
     report = report._replace(run=_run_info(report.run, job.config))
+    if report.interrupted:
+        return job.end_early(report)
     report, failure = job.prepared.apply(report) if job.prepared else (report, "")
     output.write(report._replace(failure=failure), job.destinations, job.options())
     if job.config.suppress and not given["quiet"]:
@@ -118,7 +122,15 @@ class _Job:
             page_of=lambda code: load_for(self.config).page(code),
         )
 
-    def write_failure(self, error: Exception) -> None:
+    def end_early(self, report: Report) -> int:
+        """Writes the reports on what an interrupted run has; a baseline is only compared with."""
+        if self.prepared and not self.prepared.use.target:
+            report, _ = self.prepared.apply(report)
+        output.write(report, self.destinations, self.options())
+        click.echo(f"usdvol-lint: {report.failure}; what was found is reported", err=True)
+        return ended_by(report.interrupted)
+
+    def write_failure(self, error: BaseException) -> None:
         """Writes the reports for programs that were asked for: a missing one would seem clean."""
         asked = self.destinations or output.named_by(self._given)
         destinations = [each for each in asked if each.format in output.MACHINE_FORMATS]
@@ -134,9 +146,12 @@ def _more_jobs(jobs: int, most: int) -> str:
     return f"{jobs} jobs are no faster than {most} here, where this process may use {own}"
 
 
-def _failed(paths: tuple[str, ...], error: Exception, config: Config) -> Report:
+def _failed(paths: tuple[str, ...], error: BaseException, config: Config) -> Report:
     """The report on a run that could not begin."""
     words = error.format_message() if isinstance(error, click.ClickException) else str(error)
+    is_interrupted = isinstance(error, KeyboardInterrupt)
+    if is_interrupted:
+        words = "interrupted before any stage was checked"
     return Report(
         version=__version__,
         usd_version=None,
@@ -147,6 +162,7 @@ def _failed(paths: tuple[str, ...], error: Exception, config: Config) -> Report:
         run=_run_info(RunInfo(), config),
         arguments=paths,
         failure=" ".join(words.split()),
+        interrupted=signal_of(error) if is_interrupted else 0,
     )
 
 

@@ -110,7 +110,7 @@ def head(report: Report) -> dict[str, object]:
 def rest(report: Report) -> dict[str, Any]:
     """What is known after the last cause."""
     return {
-        "partial": False,
+        "partial": bool(report.interrupted),
         "failure": report.failure or None,
         "summary": _summary(report.summary),
         "baseline": report.baseline and _baseline(report.baseline),

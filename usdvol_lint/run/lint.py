@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
@@ -14,11 +15,13 @@ from usdvol_lint.files import Changes
 from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import Catalog, load_for
+from usdvol_lint.paths import below, canonical
 from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import Causes
 from usdvol_lint.run.chosen import Chosen, choose
 from usdvol_lint.run.folding import folded
-from usdvol_lint.run.pool import Pool
+from usdvol_lint.run.interruption import Interruption
+from usdvol_lint.run.pool import InterruptedRunError, Pool
 from usdvol_lint.run.processors import owned
 from usdvol_lint.run.protocol import Setup
 from usdvol_lint.run.suppressing import in_stages, reasons
@@ -66,12 +69,14 @@ def lint(
     child: Popen[bytes] | None = None,
     naming: Callable[[Config], Naming] | None = None,
     changes: Callable[[Config], Changes | None] = lambda config: None,
+    interruption: Interruption | None = None,
 ) -> Report:
     """Checks the stages at `paths`: files, folders or patterns.
 
     `config` may be a function: the first worker process then imports USD while it runs.
     `child` is that process, if it was started already.
     Where there are `changes`, only stages that use one of the files are checked.
+    After an `interruption` the report is on the stages that were done until then.
     Raises UsageError for mistakes in the configuration and the arguments; whatever is wrong with a
     stage is in the report.
     """
@@ -80,63 +85,80 @@ def lint(
     try:
         settled = config() if callable(config) else config or Config()
         named = naming(settled) if naming else Naming()
-        return _checked(pool, settled, named, tuple(paths), changes(settled), progress, began)
+        run = _Run(pool, settled, named, progress, interruption or Interruption())
+        return run.report(tuple(paths), changes(settled), began)
     finally:
         pool.close()
 
 
-def _checked(
-    pool: Pool,
-    config: Config,
-    naming: Naming,
-    paths: tuple[str, ...],
-    changed: Changes | None,
-    progress: Progress | None,
-    began: float,
-) -> Report:
-    """The report on the stages at these paths."""
-    root, versions, repository = naming
-    catalog = load_for(config)
-    active = activate(config, catalog)
-    jobs = config.jobs or owned()
-    causes = _causes(config, catalog, root, versions)
-    chosen = choose(paths, config, changed)
-    judged = _judged(pool, chosen, config, active, jobs, progress, repository)
-    stages, found = folded(causes, judged, are_declared=bool(config.stages))
-    left_out, nothing = chosen.left_out(stages)
-    report = Report(
-        version=__version__,
-        usd_version=pool.usd_version or None,
-        settings=settings_of(config, active),
-        root=root,
-        stages=stages,
-        causes=(),
-        run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs),
-        arguments=chosen.looked_at(stages, root),
-        left_out=left_out,
-        nothing=nothing,
-    )
-    return report.with_causes(found)
+class _Run(NamedTuple):
+    """What checks the stages of one run, and how."""
 
+    pool: Pool
+    config: Config
+    naming: Naming
+    progress: Progress | None
+    interruption: Interruption
 
-def _judged(
-    pool: Pool,
-    chosen: Chosen,
-    config: Config,
-    active: ActiveRules,
-    jobs: int,
-    progress: Progress | None,
-    repository: str | None,
-) -> Iterator[tuple[StageReport, bool]]:
-    """The reports on the stages that use what changed, each with whether it is on a part."""
-    stages = chosen.listing.stages
-    paths = (stage.path for stage in stages)
-    reports = stage_reports(
-        pool, paths, config, active, jobs, progress, repository, chosen.changed_files
-    )
-    for stage, report in zip(stages, reports, strict=True):
-        if not report.is_unchanged:
-            yield report, stage.is_part
+    def report(self, paths: tuple[str, ...], changed: Changes | None, began: float) -> Report:
+        """The report on the stages at these paths."""
+        config, (root, versions, _) = self.config, self.naming
+        catalog = load_for(config)
+        active = activate(config, catalog)
+        jobs = config.jobs or owned()
+        causes = _causes(config, catalog, root, versions)
+        chosen = choose(paths, config, changed)
+        judged = self._judged(chosen, active, jobs)
+        stages, found = folded(causes, judged, are_declared=bool(config.stages))
+        left_out, nothing = chosen.left_out(stages)
+        report = Report(
+            version=__version__,
+            usd_version=self.pool.usd_version or None,
+            settings=settings_of(config, active),
+            root=root,
+            stages=stages,
+            causes=(),
+            run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs),
+            arguments=chosen.looked_at(stages, root),
+            left_out=left_out,
+            nothing=nothing,
+        )
+        return self._ended(report.with_causes(found), chosen)
+
+    def _judged(
+        self, chosen: Chosen, active: ActiveRules, jobs: int
+    ) -> Iterator[tuple[StageReport, bool]]:
+        """The reports on the stages that use what changed, each with whether it is on a part."""
+        stages = chosen.listing.stages
+        reports = stage_reports(
+            self.pool,
+            (stage.path for stage in stages),
+            self.config,
+            active,
+            jobs,
+            self.progress,
+            self.naming.repository,
+            chosen.changed_files,
+            self.interruption,
+        )
+        for stage, report in zip(stages, reports, strict=True):
+            if report and not report.is_unchanged:
+                yield report, stage.is_part
+
+    def _ended(self, report: Report, chosen: Chosen) -> Report:
+        """The same, which says so if the run ended before its time."""
+        number = self.interruption.number
+        if not number:
+            return report
+        done, every = len(report.stages), len(chosen.listing.stages)
+        return report._replace(
+            interrupted=number,
+            failure=f"interrupted by {signal.Signals(number).name} after {done:,} of {every:,} "
+            f"stage{'' if every == 1 else 's'}",
+            left_out="",
+            nothing="",
+            arguments=tuple(below(canonical(stage.path), report.root) for stage in report.stages),
+        )
 
 
 def stage_reports(
@@ -148,8 +170,12 @@ def stage_reports(
     progress: Progress | None = None,
     repository: str | None = None,
     changed: frozenset[str] | None = None,
-) -> Iterator[StageReport]:
-    """The reports on stages, in their order, each as soon as it is there."""
+    interruption: Interruption | None = None,
+) -> Iterator[StageReport | None]:
+    """The reports on stages, in their order, each as soon as it is there.
+
+    None stands for a stage that an interruption left out.
+    """
     shown = progress or _Silent()
     futures = deque(pool.submit(path) for path in paths)
     if not futures:
@@ -161,8 +187,15 @@ def stage_reports(
     stages = in_stages(config)
     setup = Setup(active, config.packs, config.depth, stages, is_alone, repository, changed)
     pool.run(setup, jobs, config.timeout, shown.advance)
+    if interruption:
+        interruption.stops(pool.interrupt)
     while futures:
-        yield futures.popleft().result()
+        try:
+            yield futures.popleft().result()
+        except InterruptedRunError:
+            yield None
+    if interruption:
+        interruption.stops(None)
 
 
 def _causes(

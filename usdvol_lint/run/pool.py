@@ -6,7 +6,8 @@ import queue
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import Future, InvalidStateError
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from usdvol_lint.model import StageReport, UsageError
@@ -22,6 +23,10 @@ _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
 
 
+class InterruptedRunError(Exception):
+    """What a stage has in place of a report where the run ended before it."""
+
+
 class Pool:
     """Workers behind the interface of an executor: `submit` gives a Future of a StageReport.
 
@@ -34,6 +39,7 @@ class Pool:
         self._waiting: queue.SimpleQueue[tuple[str, Future[StageReport]]] = queue.SimpleQueue()
         self._workers: list[Worker] = [self._first]
         self._closed = False
+        self._submitted: list[Future[StageReport]] = []
 
     @property
     def usd_version(self) -> str:
@@ -42,6 +48,7 @@ class Pool:
     def submit(self, path: str) -> Future[StageReport]:
         """Queues a stage; nothing happens to it before `run`."""
         future: Future[StageReport] = Future()
+        self._submitted.append(future)
         self._waiting.put((path, future))
         return future
 
@@ -83,10 +90,22 @@ class Pool:
                 path, future = self._waiting.get_nowait()
             except queue.Empty:
                 return
-            try:
-                future.set_result(worker.lint(path, limit, advance))
-            except Exception as error:  # raised again where the result is asked for
-                future.set_exception(error)
+            with suppress(InvalidStateError):  # of a run that was interrupted
+                try:
+                    report = worker.lint(path, limit, advance)
+                except Exception as error:  # raised again where the result is asked for
+                    future.set_exception(error)
+                else:
+                    future.set_result(report)
+
+    def interrupt(self) -> None:
+        """Ends the run at once: no stage that is not done yet has a report any more."""
+        self._closed = True
+        for worker in self._workers:
+            worker.kill()
+        for future in self._submitted:
+            with suppress(InvalidStateError):  # of those that are done
+                future.set_exception(InterruptedRunError())
 
     def close(self) -> None:
         """Ends all workers."""

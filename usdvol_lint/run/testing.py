@@ -101,7 +101,11 @@ def findings_in(paths: Sequence[str], config: Config) -> list[tuple[Finding, ...
     pool = Pool()
     try:
         active = activate(config, load(config.packs))
-        reports = list(stage_reports(pool, paths, config, active, os.cpu_count() or 1))
+        reports = [
+            report
+            for report in stage_reports(pool, paths, config, active, os.cpu_count() or 1)
+            if report
+        ]
     finally:
         pool.close()
     is_completed = completed_by(reports)
