@@ -8,6 +8,10 @@ from __future__ import annotations
 import os
 import sys
 
+if __name__ == "__main__" and not sys.flags.safe_path:
+    # `python -m` puts the working directory first, which may be a stranger's checkout.
+    del sys.path[0]
+
 from usdvol_lint import __version__
 
 _STARTS_NO_CHILD = {
@@ -19,6 +23,7 @@ _STARTS_NO_CHILD = {
 
 def main() -> None:
     """Answers `--version` and `--help` itself; all else goes to the command line."""
+    _open_standard_streams()
     arguments = sys.argv[1:]
     if arguments == ["--version"]:
         _print(f"usdvol-lint {__version__}\n")
@@ -33,6 +38,17 @@ def main() -> None:
         _lint(arguments)
 
 
+def _open_standard_streams() -> None:
+    """Puts the null device in the place of what is closed, or else the next pipe would be there."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    if sys.stderr is None:
+        sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
+
+
 def _print(text: str) -> None:
     try:
         print(text, end="", flush=True)
@@ -44,7 +60,11 @@ def _lint(arguments: list[str]) -> None:
     """Starts the process that imports USD, and imports the command line meanwhile."""
     from usdvol_lint.child import start_child
 
-    child = start_child()
+    try:
+        child = start_child()
+    except OSError as error:  # no file handles or processes left
+        print(f"usdvol-lint: error: no process can be started: {error.strerror}", file=sys.stderr)
+        sys.exit(2)
     import gc
     import signal
 

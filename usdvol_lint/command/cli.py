@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -189,20 +190,27 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
         )
         return code
     except click.ClickException as error:
-        error.show()
+        with suppress(OSError):  # nobody reads, or the disk is full
+            error.show()
     except UsageError as error:
-        click.echo(f"usdvol-lint: error: {error}", err=True)
+        _tell(f"error: {error}")
     except (click.Abort, KeyboardInterrupt) as error:
-        click.echo("usdvol-lint: interrupted", err=True)
+        _tell("interrupted")
         return ended_by(signal_of(error))
     except Exception as error:  # a bug of ours must exit with 2 too: 1 would mean findings
         words = " ".join(f"{type(error).__name__}: {error}".split())
-        click.echo(f"usdvol-lint: internal error: {words} (--verbose shows more)", err=True)
+        _tell(f"internal error: {words} (--verbose shows more)")
         if not {"-v", "--verbose"}.isdisjoint(sys.argv if arguments is None else arguments):
             import traceback
 
             traceback.print_exc()
     return FAILED
+
+
+def _tell(words: str) -> None:
+    """Says on standard error what went wrong, if anybody can hear it."""
+    with suppress(OSError):
+        click.echo(f"usdvol-lint: {words}", err=True)
 
 
 def help_text() -> str:

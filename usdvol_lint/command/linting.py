@@ -96,7 +96,7 @@ class _Job:
         destinations = output.pair(
             given["output_format"], given["output"], self.config.output_format
         )
-        output.check_writable(destinations)
+        output.check_writable(destinations, self._inputs)
         self.destinations = destinations
         if any(each.format in FOR_HOSTS for each in destinations):
             self.repository = checkout_of(self._paths)
@@ -122,6 +122,12 @@ class _Job:
             page_of=lambda code: load_for(self.config).page(code),
         )
 
+    @property
+    def _inputs(self) -> tuple[str | None, ...]:
+        """The files that the run reads, as far as they are named."""
+        given = self._given
+        return (*self._paths, given["files_from"], given["baseline"], self.config.baseline)
+
     def end_early(self, report: Report) -> int:
         """Writes the reports on what an interrupted run has; a baseline is only compared with."""
         if self.prepared and not self.prepared.use.target:
@@ -132,7 +138,7 @@ class _Job:
 
     def write_failure(self, error: BaseException) -> None:
         """Writes the reports for programs that were asked for: a missing one would seem clean."""
-        asked = self.destinations or output.named_by(self._given)
+        asked = self.destinations or output.named_by(self._given, self._inputs)
         destinations = [each for each in asked if each.format in output.MACHINE_FORMATS]
         if not destinations:
             return

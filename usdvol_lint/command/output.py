@@ -12,12 +12,17 @@ from typing import Any, BinaryIO, NamedTuple
 from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_file
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
+from usdvol_lint.paths import SUFFIXES, canonical
 from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
 
 AUTO = "auto"
 TEXTS = frozenset({"full", "concise"})
 MACHINE_FORMATS = frozenset(FORMATS) - TEXTS
+
+
+_INPUTS = (*SUFFIXES, ".vdb", ".nvdb", ".f3d", ".toml", ".py")
+"""What stages, volume files, configurations and rules end with: a slip must not destroy one."""
 
 
 class Destination(NamedTuple):
@@ -68,18 +73,18 @@ def _expanded(destination: Destination) -> Iterator[Destination]:
             yield Destination("markdown", file, is_added=True)
 
 
-def named_by(given: dict[str, Any]) -> list[Destination]:
+def named_by(given: dict[str, Any], inputs: Sequence[str | None]) -> list[Destination]:
     """The reports that the command line asks for, if they can be written whatever else is wrong."""
     try:
         destinations = pair(given["output_format"], given["output"], AUTO)
     except UsageError:
         return []
-    return [each for each in destinations if each.format in FORMATS and _is_writable(each)]
+    return [each for each in destinations if each.format in FORMATS and _is_writable(each, inputs)]
 
 
-def _is_writable(destination: Destination) -> bool:
+def _is_writable(destination: Destination, inputs: Sequence[str | None]) -> bool:
     try:
-        check_writable([destination])
+        check_writable([destination], inputs)
     except UsageError:
         return False
     return True
@@ -89,12 +94,21 @@ def _times(number: int) -> str:
     return {0: "never", 1: "once", 2: "twice"}.get(number, f"{number} times")
 
 
-def check_writable(destinations: Sequence[Destination]) -> None:
-    """Raises UsageError, before any work, where a file can't be written."""
+def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | None]) -> None:
+    """Raises UsageError, before any work, where a file can't be written, or is an input."""
+    read = {canonical(each) for each in inputs if each}
     for destination in destinations:
         if destination.file is None or destination.is_added:
             continue
         file = Path(destination.file)
+        if os.path.isfile(file) and canonical(destination.file) in read:
+            said = "the run reads this file: name another one"
+            raise UsageError(f"--output {destination.file}: {said}")
+        if destination.file.lower().endswith(_INPUTS):
+            raise UsageError(
+                f"--output {destination.file}: a report is not written to a file that is called "
+                "like an input: name another one"
+            )
         if os.path.isdir(file):
             raise UsageError(f"--output {destination.file}: this is a folder, name a file")
         if not os.path.isdir(file.parent):
