@@ -187,6 +187,12 @@ def test_mistakes_in_a_configuration(
         ("usdvol-lint.toml", b"select = [", "Invalid value (at end of document)"),
         ("usdvol-lint.toml", b"a = 1\na = 2\n", "Cannot overwrite a value (at line 2, column 6)"),
         ("usdvol-lint.toml", b"# \xff\n", "not UTF-8 text"),
+        (
+            "usdvol-lint.toml",
+            b"a" + b".a" * 100_000 + b" = 1\n",
+            "no configuration has more than 4,194,304 bytes, ",
+        ),
+        ("usdvol-lint.toml", b"select = " + b"[" * 5_000, "has too many brackets in one another"),
         ("pyproject.toml", b"[tool\n", "Expected ']' at the end of a table declaration"),
         ("pyproject.toml", b"[tool]\nusdvol-lint = 3\n", "tool.usdvol-lint must be a table, not 3"),
     ],

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 _PROJECT = "pyproject.toml"
 EXTEND = "extend"
+_MOST_BYTES = 4 << 20
+_MOST_DOTS = 10_000
+"""What a file may have at most: keys of very many parts keep the parser for hours."""
 PATHS = frozenset({"packs", "root", "baseline", "search-path"})
 """The keys with paths in relation to the file."""
 
@@ -125,8 +128,14 @@ def _read_toml(path: Path) -> dict[str, Any]:
     import tomllib  # costs start-up time, and worker processes read no configuration
 
     try:
-        with path.open("rb") as file:
-            return tomllib.load(file)
+        text = path.read_bytes()
+        most_dots = max((line.count(b".") for line in text.splitlines()), default=0)
+        if len(text) > _MOST_BYTES or most_dots > _MOST_DOTS:
+            most = f"{_MOST_BYTES:,} bytes, or {_MOST_DOTS:,} dots in a line"
+            raise UsageError(f"{path}: no configuration has more than {most}")
+        return tomllib.loads(text.decode("utf-8"))
+    except RecursionError as error:
+        raise UsageError(f"{path}: has too many brackets in one another") from error
     except tomllib.TOMLDecodeError as error:
         raise UsageError(f"{path}: {error}") from error
     except UnicodeDecodeError as error:
