@@ -17,7 +17,15 @@ def printable(text: str) -> str:
     These are control characters, line breaks, bidirectional overrides, invisible characters,
     spaces other than U+0020, and bytes that could not be decoded (`\xff`).
     """
-    return text if text.isprintable() else "".join(map(_visible, text))
+    if not text.isprintable():
+        text = "".join(map(_visible, text))
+    # `##[` and `##vso[` are commands to CI hosts, wherever they stand in a line of a log.
+    return text.replace("##[", "#\\x23[").replace("##vso[", "#\\x23vso[") if "##" in text else text
+
+
+def without_commands(json: str) -> str:
+    """JSON in which no CI host finds a command of its own, in whatever log it is printed."""
+    return json.replace("##", "#\\u0023") if "##" in json else json
 
 
 def _visible(char: str) -> str:

@@ -9,6 +9,7 @@ import pytest
 from process import environment, run, volume, write
 
 from usdvol_lint.command.hosts import MOST_OF_A_SUMMARY, guarded
+from usdvol_lint.report import FORMATS
 
 ONLY = ("--isolated", "--select", "AST002")
 BROKEN = '#usda 1.0\ndef OpenVDBAsset "a"\n{\n    asset filePath = @./gone.vdb@\n}\n'
@@ -49,6 +50,31 @@ def test_a_full_summary_stays_as_it_is(tmp_path: Path) -> None:
     env = environment(GITHUB_ACTIONS="true", GITHUB_STEP_SUMMARY=str(summary))
     assert run(*ONLY, "broken.usda", cwd=tmp_path, env=env).code == 1
     assert summary.stat().st_size == MOST_OF_A_SUMMARY
+
+
+def test_a_summary_begins_on_a_line_of_its_own_or_is_told_to_be_missing(tmp_path: Path) -> None:
+    (tmp_path / "clean.usda").write_text("#usda 1.0\n")
+    summary = tmp_path / "summary.md"
+    summary.write_text("no end")
+    env = environment(GITHUB_ACTIONS="true", GITHUB_STEP_SUMMARY=str(summary))
+    assert run(*ONLY, "clean.usda", cwd=tmp_path, env=env).code == 0
+    assert summary.read_text().startswith("no end\n## usdvol-lint passed")
+    env["GITHUB_STEP_SUMMARY"] = str(tmp_path / "gone" / "summary.md")
+    ran = run(*ONLY, "clean.usda", cwd=tmp_path, env=env)
+    assert (ran.code, ran.out.count("##")) == (0, 0)
+    assert ran.err.startswith("usdvol-lint: the summary of the step (GITHUB_STEP_SUMMARY) can't be")
+
+
+@pytest.mark.parametrize("format", sorted(FORMATS))
+def test_no_host_takes_a_command_from_a_stage(format: str, tmp_path: Path) -> None:
+    """`##vso[` and `##[` count wherever they stand in a line of a log."""
+    text = BROKEN.replace("./gone", "./##vso[task.setvariable]x##[add-mask]")
+    (tmp_path / "a##[b].usda").write_text(text)
+    ran = run("--isolated", "--fail-on", "info", "--output-format", format, ".", cwd=tmp_path)
+    assert ran.code == 1
+    assert "vso[" in ran.out
+    assert "##[" not in ran.out
+    assert "##vso" not in ran.out
 
 
 @pytest.mark.parametrize("parts", [[], [""]])

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 import re
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -223,3 +225,49 @@ def test_foreign_text_is_harmless(format: str, tmp_path: Path) -> None:
             assert len(commands) == len(plain.splitlines())
         else:
             assert not re.search(r"^::", plain, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ("--bogus", "No such option '--bogus'"),
+        ("--fail-on", "Option '--fail-on' requires an argument"),
+        ("--jobs 0 .", "Invalid value for '--jobs'"),
+        ("", "nothing to check: name a stage or a folder"),
+        ("nope.usda", "no such file or folder: 'nope.usda'"),
+    ],
+)
+def test_whatever_is_wrong_no_report_of_before_stays(
+    arguments: str, said: str, tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    files = {"json": "r.json", "junit": "r.xml", "full": "r.txt"}
+    asked = [f"--output-format {format} --output {file}" for format, file in files.items()]
+    for file in files.values():
+        (tmp_path / file).write_text("no findings")
+    ran = tool("--isolated", *" ".join(asked).split(), *arguments.split())
+    assert (ran.code, ran.out) == (2, "")
+    for file in files.values():
+        assert said in html.unescape((tmp_path / file).read_text()), file
+
+
+def test_a_file_goes_with_the_format_beside_it(two: Path) -> None:
+    words = "--output-format concise --output-format json --output r.json"
+    ran = run(*ONLY_STUDIO, *words.split(), "fog.usda", cwd=two)
+    assert ran.out.startswith("fog.usda:2:1: STU001 error")
+    assert json.loads((two / "r.json").read_text())["schema_version"]
+    ran = run(*ONLY_STUDIO, *["--output", "-", "--output-format", "concise", "fog.usda"], cwd=two)
+    assert ran.out.startswith("fog.usda:2:1: STU001 error")
+    assert not (two / "-").exists()
+
+
+@pytest.mark.parametrize("option", ["--config", "--files-from", "--baseline"])
+def test_no_message_begins_a_line_of_its_own(option: str, tool: Callable[..., Ran]) -> None:
+    ran = tool(option, "x\n::error::", ".")
+    assert (ran.code, "\n::" in ran.err) == (2, False)
+
+
+def test_a_stage_of_a_commit_is_no_option(two: Path) -> None:
+    (two / "--quiet=fog.usda").write_bytes((two / "fog.usda").read_bytes())
+    env = environment(PRE_COMMIT="1")
+    ran = run(*ONLY_STUDIO, "--output-format", "concise", "--quiet=fog.usda", cwd=two, env=env)
+    assert ran.out.startswith("--quiet=fog.usda:2:1: STU001")

@@ -222,7 +222,7 @@ def test_infos_are_shown_to_those_who_ask(
         (
             "--output a --output b .",
             "--output is given twice, --output-format never: name a format for each file, "
-            "in the same order",
+            "before it",
         ),
         (
             "--output-format json --output-format full .",

@@ -151,5 +151,5 @@ def test_what_the_machine_lacks_has_no_place_to_edit() -> None:
     assert "LNT004 warning: " in text
     assert "-->" not in text
     assert render(subject, "concise", Options()) == (
-        "usdvol-lint: LNT004 warning OpenUSD 25.5 knows no particle fields\n"
+        "a.usda: LNT004 warning OpenUSD 25.5 knows no particle fields\n"
     )

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from usdvol_lint import __version__
+from usdvol_lint.command.arguments import OUTPUTS, Arguments
 from usdvol_lint.command.codes import CLEAN, FAILED, FINDINGS, ended_by, signal_of
 from usdvol_lint.model import UsageError
+from usdvol_lint.words import printable
 
 if TYPE_CHECKING:
     from subprocess import Popen
@@ -38,25 +40,9 @@ def _complete_from(constant: str) -> Any:
     return complete
 
 
-class _Command(click.Command):
-    """A command with an option whose value may be left out, though a path may follow it."""
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        from usdvol_lint.config import SUMMARIES
-
-        following = [*args, ""][1:]
-        return super().parse_args(
-            ctx,
-            [
-                f"{each}={SUMMARIES[0]}" if each == "--summary" and after not in SUMMARIES else each
-                for each, after in zip(args, following, strict=True)
-            ],
-        )
-
-
 # fmt: off
 @click.command(
-    cls=_Command,
+    cls=Arguments,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Exit code: 0 clean, 1 findings at or above --fail-on, 2 the job could not be done.",
 )
@@ -159,6 +145,7 @@ def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> 
     PATHS are .usd, .usda, .usdc and .usdz files, folders that are searched for them, or quoted
     patterns such as "shots/**/*.usda".
     """
+    given["outputs"] = context.meta[OUTPUTS]
     if given["explain"] is not None:
         return _explain(given)
     if given["list_rules"]:
@@ -190,9 +177,12 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
         )
         return code
     except click.ClickException as error:
+        _report(error, arguments)
+        context = error.ctx if isinstance(error, click.UsageError) else None
         with suppress(OSError):  # nobody reads, or the disk is full
-            error.show()
+            click.UsageError(printable(error.format_message()), context).show()
     except UsageError as error:
+        _report(error, arguments)
         _tell(f"error: {error}")
     except (click.Abort, KeyboardInterrupt) as error:
         _tell("interrupted")
@@ -207,10 +197,18 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
     return FAILED
 
 
+def _report(error: Exception, arguments: list[str] | None) -> None:
+    """Writes the reports that are asked for, which were not written where the error came early."""
+    from usdvol_lint.command.linting import report_misuse
+
+    with suppress(OSError, UsageError):
+        report_misuse(sys.argv[1:] if arguments is None else arguments, error)
+
+
 def _tell(words: str) -> None:
     """Says on standard error what went wrong, if anybody can hear it."""
     with suppress(OSError):
-        click.echo(f"usdvol-lint: {words}", err=True)
+        click.echo(f"usdvol-lint: {printable(words)}", err=True)
 
 
 def help_text() -> str:

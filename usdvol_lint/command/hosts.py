@@ -6,6 +6,7 @@ import os
 import secrets
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import BinaryIO
 
 from usdvol_lint.report import Options
 from usdvol_lint.results import Report
@@ -38,7 +39,14 @@ def add_summary(file: Path, report: Report, options: Options) -> None:
     """Adds the report to the summary of a step, as much as fits beside what others wrote."""
     from usdvol_lint.report.markdown import markdown
 
-    written = file.stat().st_size if file.exists() else 0
-    text = markdown(report, options, max(0, MOST_OF_A_SUMMARY - written))
-    with file.open("ab") as summary:
+    with file.open("ab+") as summary:
+        written = summary.seek(0, os.SEEK_END)
+        text = markdown(report, options, max(0, MOST_OF_A_SUMMARY - written - 1))
+        if text and written and not _ends_a_line(summary):
+            text = f"\n{text}"
         summary.write(text.encode("utf-8", "backslashreplace"))
+
+
+def _ends_a_line(file: BinaryIO) -> bool:
+    file.seek(-1, os.SEEK_END)
+    return file.read(1) == b"\n"

@@ -11,6 +11,7 @@ import click
 
 from usdvol_lint import __version__
 from usdvol_lint.command import output
+from usdvol_lint.command.arguments import outputs
 from usdvol_lint.command.choosing import arguments, changes
 from usdvol_lint.command.codes import CLEAN, ended_by, exit_code, signal_of
 from usdvol_lint.command.progress import ProgressBar
@@ -37,6 +38,10 @@ if TYPE_CHECKING:
     from usdvol_lint.report import Options
 
 
+_IS_REPORTED = "what is wrong is in the reports"
+_OTHER = frozenset({"--explain", "--list-rules", "--show-settings", "--show-files", "--test"})
+
+
 def lint_stages(
     paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] | None = None
 ) -> int:
@@ -44,6 +49,14 @@ def lint_stages(
 
     `given` are the options by their names in Python; `child` is the first worker process.
     """
+    try:
+        return _linted(paths, given, child)
+    except Exception as error:
+        error.add_note(_IS_REPORTED)
+        raise
+
+
+def _linted(paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] | None) -> int:
     job = _Job(paths, given)
     try:
         paths = job.read_list()
@@ -65,6 +78,24 @@ def lint_stages(
     if given["write_baseline"] is not None:
         return CLEAN
     return exit_code(report, job.config, given["fail_on_unpruned"])
+
+
+def report_misuse(arguments: Sequence[str], error: Exception) -> None:
+    """Writes the reports that a command line asks for which can't be followed.
+
+    None is written where it would be the report of another command, or was written already.
+    """
+    if _IS_REPORTED in getattr(error, "__notes__", ()) or not _OTHER.isdisjoint(arguments):
+        return
+    said = list(outputs(list(arguments)))
+    written = {value for _, value in said}
+    asked = output.named_by(said, [each for each in arguments if each not in written])
+    destinations = [each for each in asked if not each.is_text_to_read]
+    if not destinations:
+        return
+    options = output.options_for("never", quiet=False, verbose=False)
+    options = options._replace(repository=checkout_of(()))
+    output.write(_failed((), error, Config()), destinations, options)
 
 
 class _Job:
@@ -93,9 +124,7 @@ class _Job:
         self.config, self.file = read_settings(given)
         if self.config.jobs > (most := owned()) and not given["quiet"]:
             click.echo(f"usdvol-lint: {_more_jobs(self.config.jobs, most)}", err=True)
-        destinations = output.pair(
-            given["output_format"], given["output"], self.config.output_format
-        )
+        destinations = output.pair(given["outputs"], self.config.output_format)
         output.check_writable(destinations, self._inputs)
         self.destinations = destinations
         if any(each.format in FOR_HOSTS for each in destinations):
@@ -116,6 +145,7 @@ class _Job:
 
     def options(self) -> Options:
         return output.options_of(self._given, self.config)._replace(
+            fail_on_unpruned=self._given["fail_on_unpruned"],
             category=self._given["category"] or "",
             summary=self._given["summary"] or "",
             repository=self.repository,
@@ -126,7 +156,8 @@ class _Job:
     def _inputs(self) -> tuple[str | None, ...]:
         """The files that the run reads, as far as they are named."""
         given = self._given
-        return (*self._paths, given["files_from"], given["baseline"], self.config.baseline)
+        named = (given["files_from"], given["baseline"], given["write_baseline"])
+        return (*self._paths, *named, self.config.baseline)
 
     def end_early(self, report: Report) -> int:
         """Writes the reports on what an interrupted run has; a baseline is only compared with."""
@@ -137,9 +168,9 @@ class _Job:
         return ended_by(report.interrupted)
 
     def write_failure(self, error: BaseException) -> None:
-        """Writes the reports for programs that were asked for: a missing one would seem clean."""
-        asked = self.destinations or output.named_by(self._given, self._inputs)
-        destinations = [each for each in asked if each.format in output.MACHINE_FORMATS]
+        """Writes the reports that were asked for: a missing one, or that of before, seems clean."""
+        asked = self.destinations or output.named_by(self._given["outputs"], self._inputs)
+        destinations = [each for each in asked if not each.is_text_to_read]
         if not destinations:
             return
         self.repository = self.repository or checkout_of(self._paths)

@@ -6,6 +6,7 @@ import os
 import shutil
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
@@ -15,8 +16,10 @@ from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.paths import SUFFIXES, canonical
 from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
+from usdvol_lint.words import printable
 
 AUTO = "auto"
+FORMAT, FILE = "--output-format", "--output"
 TEXTS = frozenset({"full", "concise"})
 MACHINE_FORMATS = frozenset(FORMATS) - TEXTS
 
@@ -35,30 +38,60 @@ class Destination(NamedTuple):
     file: str | None
     is_added: bool = False
 
+    @property
+    def is_text_to_read(self) -> bool:
+        """Whether it is for a person, who sees what is said on standard error too."""
+        return self.file is None and self.format in TEXTS
 
-def pair(formats: Sequence[str], files: Sequence[str], default: str) -> list[Destination]:
-    """Pairs formats and files in the order given; a format without a file is for standard output.
 
+def pair(said: Sequence[tuple[str, str]], default: str) -> list[Destination]:
+    """The reports that options ask for: `said` are `--output-format` and `--output`, in order.
+
+    A file goes with the format before it, or else with that after it; a format without a file is
+    for standard output, as is the file `-`.
     If all are files in formats for programs, a text report is added for standard output.
     Raises UsageError where the numbers don't match or a file is named twice.
     """
-    named = list(formats) or [default]
-    if len(files) > len(named):
-        raise UsageError(
-            f"--output is given {_times(len(files))}, --output-format {_times(len(formats))}: "
-            "name a format for each file, in the same order"
-        )
-    if len(named) - len(files) > 1:
+    destinations = list(_paired(said, default))
+    files = [each.file for each in destinations if each.file is not None]
+    if len(destinations) - len(files) > 1:
         raise UsageError("only one report can go to standard output: give the others an --output")
     if len({os.path.abspath(file) for file in files}) < len(files):
         raise UsageError("one file can't take several reports: name each --output once")
-    destinations = [
-        Destination(format, files[index] if index < len(files) else None)
-        for index, format in enumerate(named)
-    ]
     if files and all(d.file and d.format in MACHINE_FORMATS for d in destinations):
         destinations.append(Destination(AUTO, None))
     return [each for destination in destinations for each in _expanded(destination)]
+
+
+def _paired(said: Sequence[tuple[str, str]], default: str) -> Iterator[Destination]:
+    formats = sum(option == FORMAT for option, _ in said)
+    files = len(said) - formats
+    if files > max(formats, 1):
+        raise UsageError(
+            f"--output is given {_times(files)}, --output-format {_times(formats)}: "
+            "name a format for each file, before it"
+        )
+    format: str | None = None
+    file: str | None = None
+    for option, value in said:
+        if option == FORMAT:
+            if format is not None:
+                yield Destination(format, None)
+            format = value
+        elif file is not None:
+            yield Destination(default, _file(file))
+            file = value
+        else:
+            file = value
+        if format is not None and file is not None:
+            yield Destination(format, _file(file))
+            format = file = None
+    if format is not None or file is not None or not said:
+        yield Destination(format or default, _file(file))
+
+
+def _file(value: str | None) -> str | None:
+    return None if value == "-" else value
 
 
 def _expanded(destination: Destination) -> Iterator[Destination]:
@@ -73,10 +106,10 @@ def _expanded(destination: Destination) -> Iterator[Destination]:
             yield Destination("markdown", file, is_added=True)
 
 
-def named_by(given: dict[str, Any], inputs: Sequence[str | None]) -> list[Destination]:
+def named_by(said: Sequence[tuple[str, str]], inputs: Sequence[str | None]) -> list[Destination]:
     """The reports that the command line asks for, if they can be written whatever else is wrong."""
     try:
-        destinations = pair(given["output_format"], given["output"], AUTO)
+        destinations = pair(said, AUTO)
     except UsageError:
         return []
     return [each for each in destinations if each.format in FORMATS and _is_writable(each, inputs)]
@@ -101,7 +134,7 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
         if destination.file is None or destination.is_added:
             continue
         file = Path(destination.file)
-        if os.path.isfile(file) and canonical(destination.file) in read:
+        if canonical(destination.file) in read:
             said = "the run reads this file: name another one"
             raise UsageError(f"--output {destination.file}: {said}")
         if destination.file.lower().endswith(_INPUTS):
@@ -134,6 +167,10 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
         try:
             _write_file(destination, file, report, plain)
         except OSError as error:
+            if destination.is_added:  # the host's own, for which nobody asked
+                said = f"the summary of the step (GITHUB_STEP_SUMMARY) can't be written: {file}"
+                print(f"usdvol-lint: {printable(said)}: {error.strerror}", file=sys.stderr)
+                continue
             failures.append(f"--output {file}: {error.strerror}")
             print_text(written(report, format, plain))
     if failures:
@@ -203,6 +240,8 @@ def _replace(file: Path, parts: Iterable[str]) -> None:
     try:
         with open(temporary, "wb") as beside:
             _write(beside, parts)
+        with suppress(OSError):  # who may read it stays as it was; there may be no such file
+            shutil.copymode(target, temporary)
         temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)

@@ -40,7 +40,8 @@ class Options(NamedTuple):
     Reports for people have causes from the severity `least` on; `verbose` shows all of them.
     What is `known` or `suppressed` is there only where `show` names it, and then all of it.
     From `fail_on` on a cause fails the run, from no level on where it is None; with
-    `fail_on_unchecked` also one that says that something was not checked.
+    `fail_on_unchecked` also one that says that something was not checked, and with
+    `fail_on_unpruned` an entry of the baseline that is gone.
     `summary` asks the text report for a table alone, by rule, cause, stage or asset.
     Reports for code hosts name files in relation to `repository`, a canonical folder, and keep the
     uploads of one run apart by `category`; `page_of` gives the page of a rule by its code.
@@ -54,6 +55,7 @@ class Options(NamedTuple):
     show: frozenset[str] = frozenset()
     fail_on: Severity | None = Severity.ERROR
     fail_on_unchecked: bool = False
+    fail_on_unpruned: bool = False
     repository: str | None = None
     category: str = ""
     summary: str = ""
@@ -68,15 +70,15 @@ class Options(NamedTuple):
         """Whether a report for people has this cause."""
         if not cause.state.counts:
             return cause.state in self.show
-        return cause.severity >= self.threshold or self._fails_unchecked(cause)
+        return cause.severity >= self.threshold or self.fails_unchecked(cause)
 
     def fails(self, cause: Cause) -> bool:
         """Whether this cause fails the run."""
-        if self._fails_unchecked(cause):
+        if self.fails_unchecked(cause):
             return True
         return self.fail_on is not None and cause.state.counts and cause.severity >= self.fail_on
 
-    def _fails_unchecked(self, cause: Cause) -> bool:
+    def fails_unchecked(self, cause: Cause) -> bool:
         return self.fail_on_unchecked and cause.is_unchecked
 
 

@@ -24,6 +24,8 @@ class Concise(Writer):
     """A line for each cause; what is told of one depends on all of its places."""
 
     def end(self, report: Report) -> Iterator[str]:
+        if report.failure:
+            yield f"usdvol-lint: {printable(report.failure)}\n"
         absolute = cache(_absolute)
         by_stage = told(report, self.options)
         for number, stage in enumerate(report.stages):
@@ -37,7 +39,7 @@ def _parts(
     site, severity = one.finding.site, one.first.severity
     rule = f"{printable(one.finding.code)} {severity.label}"
     is_of_a_layer = one.first.source.layer is not None
-    yield f"{location(site) if is_of_a_layer else 'usdvol-lint'}:"
+    yield f"{location(site) if is_of_a_layer else printable(stage)}:"
     yield paint(rule, SEVERITY_STYLES[severity], options.color)
     if site.prim or site.property:
         yield f"<{printable(_object_path(site))}>"

@@ -10,6 +10,7 @@ from usdvol_lint.report.addresses import Address, addresses
 from usdvol_lint.report.numbers import count, counts
 from usdvol_lint.report.sentences import statements
 from usdvol_lint.report.undone import undone
+from usdvol_lint.report.verdict import unpruned
 from usdvol_lint.results import Cause, Report
 from usdvol_lint.words import printable
 
@@ -17,25 +18,30 @@ MOST = 10
 """How many errors, and how many warnings, GitHub shows of one step: it drops the rest."""
 
 
+_KINDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
+
+
 class GitHub(Writer):
     """The worst causes first, each once; then how many there are."""
 
     def end(self, report: Report) -> Iterator[str]:
-        found = list(undone(report))
+        found = list(filter(None, (*undone(report), unpruned(report, self.options))))
         yield from (_command("error", {"title": "usdvol-lint"}, what) for what in found)
         address = addresses(report, self.options.repository)
         left_out = []
-        for level in (Severity.ERROR, Severity.WARNING):
-            causes = [each for each in report.causes if _is_told(each, level)]
+        for level in reversed(Severity):
+            causes = [each for each in report.causes if self._is_told(each, level)]
             room = MOST - len(found) if level is Severity.ERROR else MOST
             yield from (_annotation(each, address(each)) for each in causes[:room])
             left_out.append((len(causes[room:]), level.label))
         if more := counts(*left_out):
             yield _command("notice", {"title": "usdvol-lint"}, _summary(report, more))
 
-
-def _is_told(cause: Cause, level: Severity) -> bool:
-    return cause.state.counts and cause.severity is level
+    def _is_told(self, cause: Cause, level: Severity) -> bool:
+        """Whether a cause of this level is told: infos only where they fail the run."""
+        if not cause.state.counts or cause.severity is not level:
+            return False
+        return level > Severity.INFO or self.options.fails(cause)
 
 
 def _annotation(cause: Cause, address: Address) -> str:
@@ -45,12 +51,14 @@ def _annotation(cause: Cause, address: Address) -> str:
         properties["line"] = str(address.line)
         if address.column is not None:
             properties["col"] = str(address.column)
-    return _command(cause.severity.label, properties, "\n".join(statements(cause, address)))
+    return _command(_KINDS[cause.severity], properties, "\n".join(statements(cause, address)))
 
 
 def _summary(report: Report, more: str) -> str:
     summary = report.summary
-    found = counts((summary.errors, "error"), (summary.warnings, "warning"))
+    found = counts(
+        (summary.errors, "error"), (summary.warnings, "warning"), (summary.infos, "info")
+    )
     where = count(summary.stages, "stage")
     return f"{found} in {where}: {more} more than GitHub shows here are in the log"
 

@@ -15,14 +15,14 @@ from usdvol_lint.report.addresses import Address, addresses
 from usdvol_lint.report.sentences import sentences
 from usdvol_lint.report.undone import undone
 from usdvol_lint.results import Report
-from usdvol_lint.words import printable
+from usdvol_lint.words import printable, without_commands
 
 SEVERITIES = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO: "info"}
 UNDONE = "usdvol-lint"
 """The check of an entry that is no cause: the run did not do its job."""
 
 # All that is not ASCII is escaped, so that no terminal obeys it.
-_line = json.JSONEncoder(allow_nan=False).encode
+_ENCODE = json.JSONEncoder(allow_nan=False).encode
 
 _HALF = re.compile("[\ud800-\udfff]")
 
@@ -86,3 +86,7 @@ def _path(file: str, repository: str | None) -> str:
     if Address(file).is_absolute:
         file = posixpath.relpath(file, repository or "/")
     return printable(file) if _HALF.search(file) else file or "."
+
+
+def _line(value: object) -> str:
+    return without_commands(_ENCODE(value))

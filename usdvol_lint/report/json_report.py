@@ -16,6 +16,7 @@ from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
 from usdvol_lint.paths import below
 from usdvol_lint.report import Writer
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
+from usdvol_lint.words import without_commands
 
 SCHEMA_VERSION = "2.0"
 
@@ -83,7 +84,7 @@ def _value(value: object) -> str:
 
 def line(value: object) -> str:
     """A value in one line."""
-    text = _ENCODE(value)
+    text = without_commands(_ENCODE(value))
     if text.isascii() and "\x7f" not in text:
         return text
     return _TO_ESCAPE.sub(lambda match: f"\\u{ord(match.group()):04x}", text)

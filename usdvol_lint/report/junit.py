@@ -17,6 +17,7 @@ from usdvol_lint.report import Options, Writer
 from usdvol_lint.report.limits import Room, cut
 from usdvol_lint.report.numbers import count, counts
 from usdvol_lint.report.stagewise import Looks, Shown, Stagewise, Told
+from usdvol_lint.report.verdict import unpruned
 from usdvol_lint.results import Report, StageResult
 from usdvol_lint.words import printable
 
@@ -37,7 +38,8 @@ class JUnit(Writer):
         suites = _suites(report, self.options)
         indent(suites)
         yield '<?xml version="1.0" encoding="UTF-8"?>\n'
-        yield tostring(suites, encoding="unicode") + "\n"
+        # `##[` and `##vso[` are commands to CI hosts, in whatever log they stand.
+        yield tostring(suites, encoding="unicode").replace("##", "#&#35;") + "\n"
 
 
 def _suites(report: Report, options: Options) -> Element:
@@ -71,6 +73,8 @@ def _cases(report: Report, options: Options) -> Iterator[Element]:
         yield _with(names.case(_TOOL, "run"), "error", words, "failure", words)
     elif not report.stages:  # where nothing changed, say; a file without a test fails a build
         yield _with(names.case(_TOOL, "run"), "skipped", _NO_STAGES, "skipped")
+    if gone := unpruned(report, options):
+        yield _with(names.case(_TOOL, "baseline"), "failure", gone, "error", gone)
     stagewise = Stagewise(report, options)
     shown = [stagewise.shown(stage) for stage in report.stages]
     texts = _Texts(report, shown)

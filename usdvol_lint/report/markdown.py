@@ -16,7 +16,7 @@ from usdvol_lint.report.numbers import count
 from usdvol_lint.report.stagewise import is_undone
 from usdvol_lint.report.telling import Told, elsewhere, message, remarks, told
 from usdvol_lint.report.text import location, shortened, where
-from usdvol_lint.report.verdict import verdict
+from usdvol_lint.report.verdict import unpruned, verdict
 from usdvol_lint.results import Report
 from usdvol_lint.words import printable
 
@@ -115,7 +115,9 @@ def _heading(report: Report, options: Options) -> str:
 
 def _fails(report: Report, options: Options) -> bool:
     unchecked = any(stage.status is not Status.CHECKED for stage in report.stages)
-    return unchecked or any(options.fails(cause) or is_undone(cause) for cause in report.causes)
+    if unchecked or unpruned(report, options):
+        return True
+    return any(options.fails(cause) or is_undone(cause) for cause in report.causes)
 
 
 # --- by rule --------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from usdvol_lint.report.sarif_rules import LEVELS, described
 from usdvol_lint.report.sentences import object_path, sentences
 from usdvol_lint.report.undone import undone
 from usdvol_lint.results import Cause, Place, Report
-from usdvol_lint.words import printable
+from usdvol_lint.words import printable, without_commands
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 MOST_RESULTS = 5000
@@ -27,7 +27,7 @@ MOST_PLACES = 50
 
 # All that is not ASCII is escaped: no terminal obeys it, and what halves of characters there are
 # can be told from bytes that can't be decoded.
-_line = json.JSONEncoder(allow_nan=False).encode
+_ENCODE = json.JSONEncoder(allow_nan=False).encode
 
 _DRIVE = re.compile(r"[A-Za-z]:(?=/)")
 
@@ -176,3 +176,7 @@ def _quoted(path: str) -> str:
         return quote(path, errors="surrogateescape")  # the bytes of a name that is not UTF-8
     except UnicodeEncodeError:
         return quote(path, errors="surrogatepass")
+
+
+def _line(value: object) -> str:
+    return without_commands(_ENCODE(value))

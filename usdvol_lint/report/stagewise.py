@@ -56,7 +56,7 @@ class Stagewise:
     def __init__(self, report: Report, options: Options) -> None:
         self._report = report
         self._least = options.fail_on or max(Severity) + 1
-        undone = list(map(is_undone, report.causes))
+        undone = [is_undone(cause) or options.fails_unchecked(cause) for cause in report.causes]
         self._counting = [
             cause.state.counts and not apart
             for cause, apart in zip(report.causes, undone, strict=True)

@@ -20,7 +20,7 @@ from usdvol_lint.report.telling import (
     told,
     variant_and_frames,
 )
-from usdvol_lint.report.verdict import MANY_CAUSES, advice, verdict
+from usdvol_lint.report.verdict import MANY_CAUSES, advice, unpruned, verdict
 from usdvol_lint.report.width import cells, wrap
 from usdvol_lint.results import Report, StageResult
 from usdvol_lint.words import printable
@@ -48,6 +48,8 @@ def _blocks(report: Report, options: Options) -> list[str]:
         last = paint(verdict(report, options), style, options.color)
         lines = (last, *advice(report, options))
         blocks.append("".join(f"{line}\n" for line in lines))
+    elif gone := unpruned(report, options):
+        blocks.append(f"{gone}\n")
     return blocks
 
 

@@ -23,12 +23,16 @@ _OF_OUTPUT = frozenset(
 def verdict(report: Report, options: Options) -> str:
     """The result of the run in one line."""
     summary = report.summary
+    if report.failure and not summary.stages:
+        return f"nothing was checked: {printable(report.failure)}"
     if not summary.stages:
         return f"nothing to check: {report.nothing}" if report.nothing else "no stages checked"
     return "; ".join(_parts(report, summary, options))
 
 
 def _parts(report: Report, summary: Summary, options: Options) -> Iterator[str]:
+    if report.failure:
+        yield printable(report.failure)
     unchecked = _unchecked(report, options)
     hidden = summary.infos - unchecked if options.threshold > Severity.INFO else 0
     yield _finding_counts(report, summary, options.threshold)
@@ -39,7 +43,8 @@ def _parts(report: Report, summary: Summary, options: Options) -> Iterator[str]:
     if uncounted := _uncounted(summary):
         yield uncounted
     if report.baseline:
-        yield from _baseline(report.baseline)
+        gone = unpruned(report, options)
+        yield from (gone,) if gone else _baseline(report.baseline)
     if assumed := summary.stats.get("files_assumed"):
         yield f"{count(assumed, 'file')} assumed present"
     if report.left_out:
@@ -98,6 +103,14 @@ def _baseline(use: BaselineUse) -> Iterator[str]:
     elif use.gone:
         entries, them = count(len(use.gone), "entry"), "it" if len(use.gone) == 1 else "them"
         yield f"{entries} of the baseline {_are_gone(use.gone)}: --prune-baseline removes {them}"
+
+
+def unpruned(report: Report, options: Options) -> str:
+    """What is gone from the baseline where that fails the run; empty where it does not."""
+    use = report.baseline
+    if not (options.fail_on_unpruned and use and use.is_unpruned):
+        return ""
+    return f"{next(_baseline(use))}, which --fail-on-unpruned counts"
 
 
 def _are_gone(entries: Sequence[str]) -> str:
