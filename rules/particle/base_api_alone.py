@@ -1,6 +1,6 @@
 """PRT004: a base API only marks what another API must provide."""
 
-from usdvol_lint.rule import APIS, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import APIS, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 from usdvol_lint.schema import API_PROVIDERS, RADIANCE_BASE
 
 
@@ -17,5 +17,6 @@ def base_api_alone(particles: Prim, facts: Facts) -> Problems:
             f"{base!r} is applied, but nothing that provides its data",
             at=particles,
             of=(APIS, base),
+            absent=[lacks(particles, *words)] if (words := apis.absent(*providers)) else (),
             suggestion=f"apply {' or '.join(providers)} in its place",
         )
