@@ -10,8 +10,7 @@ def radiance_missing(particles: Prim, facts: Facts) -> Problems:
     if RADIANCE_BASE in apis.applied or facts.particles.is_told_elsewhere(particles, RADIANCE_BASE):
         return
     bound = facts.particles.material_is_bound(particles)
-    effect = apis.unread(particles, RADIANCE_BASE)
-    effect += "; the bound material serves only renderers that prefer it" if bound else ""
+    effect = apis.unread(particles, RADIANCE_BASE) + "; the bound material serves only renderers that prefer it" * bound
     yield Problem(
         f"nothing gives these splats radiance, their colours: no API schema for it is applied{effect}{apis.doubt}",
         at=particles,
