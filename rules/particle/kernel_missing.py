@@ -16,7 +16,6 @@ def kernel_missing(particles: Prim, facts: Facts) -> Problems:
             suggestion=apis.remedy(
                 KERNEL_BASE,
                 "apply ParticleFieldKernelGaussianEllipsoidAPI for splats with depth, "
-                "ParticleFieldKernelGaussianSurfletAPI or ParticleFieldKernelConstantSurfletAPI "
-                "for flat ones",
+                "ParticleFieldKernelGaussianSurfletAPI or ParticleFieldKernelConstantSurfletAPI for flat ones",
             ),
         )

@@ -16,7 +16,6 @@ def position_missing(particles: Prim, facts: Facts) -> Problems:
             severity=WARNING if apis.third_party else None,
             suggestion=apis.remedy(
                 POSITION_BASE,
-                "apply ParticleFieldPositionAttributeAPI, or use the type "
-                "ParticleField3DGaussianSplat, which has it built in",
+                "apply ParticleFieldPositionAttributeAPI, or use ParticleField3DGaussianSplat, which has it built in",
             ),
         )
