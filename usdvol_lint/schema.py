@@ -214,6 +214,11 @@ COLOUR_SPACES = frozenset(
 """The names of USD's colour spaces (`GfColorSpaceNames`)."""
 
 
+def applied(api: str) -> str:
+    """What a prim lacks to which an API is not applied, as one of the words above."""
+    return f"apiSchemas:{api}"
+
+
 def expand_apis(apis: tuple[str, ...]) -> tuple[str, ...]:
     """The APIs, each followed by those built into it, without duplicates."""
     expanded = (name for api in apis for name in (api, *API_INCLUDES.get(api, ())))

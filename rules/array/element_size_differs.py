@@ -1,6 +1,6 @@
 """ARR015: an `elementSize` that is not what the degree says misleads who believes it."""
 
-from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import INFO, Facts, Prim, Problem, Problems, lacks, rule
 
 
 @rule("ARR015", on="ParticleField", severity=INFO, since="0.1")
@@ -17,6 +17,7 @@ def element_size_differs(particles: Prim, facts: Facts) -> Problems:
                 f"elementSize {size}, and degree {degree.value} takes {each:,} coefficient{'s' * (each != 1)}",
                 at=array.attribute,
                 of="elementSize",
+                absent=[] if degree.is_authored else [lacks(particles, degree.attribute.GetName())],
                 against=[degree.attribute],
                 suggestion=f"author elementSize = {each}, or leave it out",
             )

@@ -1,8 +1,7 @@
 """ARR004: each particle has as many spherical harmonics coefficients as the degree says."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 
-_FITTING = "author radiance:sphericalHarmonicsDegree"
 _LEAVE_OUT = "leave the same particles out of the coefficients; cut the end off only if it is spare"
 
 
@@ -14,6 +13,10 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
     if not each or is_lost:  # ARR005 or SCH004 says it
         return
     against = [degree.attribute, *([arrays.positions.attribute] if arrays.positions else ())]
+    absent = [lacks(particles, name) for name in arrays.absent_degree]
+    fits = f"author radiance:sphericalHarmonicsDegree = {fitting}, which fits"
+    again = f"export all of degree {degree.value} again, or author degree {fitting}" if degree.is_authored else fits
+    more = f"author {each:,} coefficient{'s' * (each > 1)} for each position"
     for array in arrays.used("coefficients"):
         authored = "" if degree.is_authored else ", what USD falls back to,"
         short, long = arrays.too_short(array, each), arrays.too_long(array, each)
@@ -23,24 +26,19 @@ def sh_count_differs(particles: Prim, facts: Facts) -> Problems:
             yield Problem(
                 f"{short.shares}; {takes}",
                 at=short,
+                absent=absent,
                 against=against,
-                suggestion=remedy
-                or (
-                    f"author {each:,} coefficient{'s' * (each > 1)} for each position"
-                    if fitting is None
-                    else f"export all of degree {degree.value} again, or author degree {fitting}"
-                    if degree.is_authored
-                    else f"{_FITTING} = {fitting}, which fits"
-                ),
+                suggestion=remedy or (more if fitting is None else again),
             )
         if long and not _is_told("ARR003", facts, particles, are_long=True):
             shift = ": if particles were left out of the others, every later one has the colours of another"
             yield Problem(
                 f"{long.shares}; {takes}{shift if fitting is None else ''}",
                 at=long,
+                absent=absent,
                 against=against,
                 severity=None if arrays.others_fit(array) or fitting is not None else WARNING,
-                suggestion=remedy or (_LEAVE_OUT if fitting is None else f"{_FITTING} = {fitting}, which fits"),
+                suggestion=remedy or (_LEAVE_OUT if fitting is None else fits),
             )
 
 

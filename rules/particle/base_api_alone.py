@@ -1,15 +1,13 @@
 """PRT004: a base API only marks what another API must provide."""
 
-from usdvol_lint.rule import APIS, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import APIS, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 from usdvol_lint.schema import API_PROVIDERS, RADIANCE_BASE
 
 
 @rule("PRT004", on="ParticleField", severity=WARNING, since="0.1")
 def base_api_alone(particles: Prim, facts: Facts) -> Problems:
     apis = facts.particles.apis(particles)
-    if apis.third_party or not apis.built_in_type:
-        return
-    for base, providers in API_PROVIDERS.items():
+    for base, providers in API_PROVIDERS.items() if apis.built_in_type and not apis.third_party else ():
         is_bound = base == RADIANCE_BASE and facts.particles.material_is_bound(particles)
         if is_bound or base not in apis.applied or apis.providers(base) or any(map(apis.has, providers)):
             continue
@@ -17,5 +15,6 @@ def base_api_alone(particles: Prim, facts: Facts) -> Problems:
             f"{base!r} is applied, but nothing that provides its data",
             at=particles,
             of=(APIS, base),
+            absent=[lacks(particles, *words)] if (words := apis.absent(*providers)) else (),
             suggestion=f"apply {' or '.join(providers)} in its place",
         )

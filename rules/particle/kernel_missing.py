@@ -1,6 +1,6 @@
 """PRT002: a particle field must say what shape its particles have."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 from usdvol_lint.schema import KERNEL_BASE
 
 
@@ -11,11 +11,11 @@ def kernel_missing(particles: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"nothing gives these splats a kernel, their shape: no API schema for one is applied{apis.doubt}",
             at=particles,
+            absent=[lacks(particles, word) for word in apis.absent(KERNEL_BASE)],
             severity=WARNING if apis.third_party else None,
             suggestion=apis.remedy(
                 KERNEL_BASE,
                 "apply ParticleFieldKernelGaussianEllipsoidAPI for splats with depth, "
-                "ParticleFieldKernelGaussianSurfletAPI or ParticleFieldKernelConstantSurfletAPI "
-                "for flat ones",
+                "ParticleFieldKernelGaussianSurfletAPI or ParticleFieldKernelConstantSurfletAPI for flat ones",
             ),
         )

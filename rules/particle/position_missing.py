@@ -1,6 +1,6 @@
 """PRT001: a particle field must say where its particles are."""
 
-from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, rule
+from usdvol_lint.rule import ERROR, WARNING, Facts, Prim, Problem, Problems, lacks, rule
 from usdvol_lint.schema import POSITION_BASE
 
 
@@ -12,10 +12,10 @@ def position_missing(particles: Prim, facts: Facts) -> Problems:
             "nothing gives these splats positions: the API schema for positions is not applied"
             f"{apis.unread(particles, POSITION_BASE)}{apis.doubt}",
             at=particles,
+            absent=[lacks(particles, word) for word in apis.absent(POSITION_BASE)],
             severity=WARNING if apis.third_party else None,
             suggestion=apis.remedy(
                 POSITION_BASE,
-                "apply ParticleFieldPositionAttributeAPI, or use the type "
-                "ParticleField3DGaussianSplat, which has it built in",
+                "apply ParticleFieldPositionAttributeAPI, or use ParticleField3DGaussianSplat, which has it built in",
             ),
         )

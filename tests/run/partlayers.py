@@ -47,14 +47,25 @@ WHOLE = volume(BOUND + "\n" + field(f"{NAME}\n{FILE}"))
 ROOT_PRIM = 'defaultPrim = "smoke"'
 REFERENCE = "(prepend references = @./asset.usda@)"
 SPLAT = "point3f[] positions = [(0, 0, 0), (1, 1, 1)]\nfloat[] opacities = [1, 1]\n"
-COLOUR = (
-    "uniform int radiance:sphericalHarmonicsDegree = 0\n"
-    "float3[] radiance:sphericalHarmonicsCoefficients = [(1, 1, 1), (0, 1, 1)]\n"
-)
+DEGREE = "uniform int radiance:sphericalHarmonicsDegree = 0\n"
+COLOUR = f"{DEGREE}float3[] radiance:sphericalHarmonicsCoefficients = [(1, 1, 1), (0, 1, 1)]\n"
 
 
 def splats(inside: str, meta: str = "", what: str = "def ParticleField3DGaussianSplat") -> str:
     return over("splats", inside, meta, what=what)
+
+
+APIS = tuple(
+    f"ParticleField{name}API"
+    for name in ("PositionAttribute", "KernelGaussianEllipsoid", "SphericalHarmonicsAttribute")
+)
+
+
+def fields(inside: str, *apis: str, what: str = "def ParticleField", meta: str = "") -> str:
+    """A particle field with these APIs."""
+    listed = ", ".join(f'"{api}"' for api in apis)
+    applied = f"prepend apiSchemas = [{listed}]\n" if apis else ""
+    return splats(inside, f"({applied}{meta})", what)
 
 
 def clips(keys: str, what: str = "def", inside: str = "") -> str:

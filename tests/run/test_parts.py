@@ -6,15 +6,22 @@ from itertools import permutations
 from pathlib import Path
 
 from partlayers import (
+    APIS,
     BASE,
+    COLOUR,
+    EXTENT,
     FILE,
     REFERENCE,
     RIG_AND_CACHE,
     ROOT_PRIM,
+    SPLAT,
     TWO_HALVES,
     WHOLE,
+    fields,
     layer,
     over,
+    splats,
+    sublayers,
     write,
 )
 from process import run
@@ -84,3 +91,14 @@ def test_a_whole_stage_completes_nothing(engine: Engine, tmp_path: Path) -> None
     (tmp_path / "shot.usda").write_text(layer(shot), encoding="utf-8")
     for name in ("asset", "middle", "shot"):
         assert engine.lint(str(tmp_path / f"{name}.usda")).completes is None
+
+
+def test_a_whole_particle_field_is_not_completed(engine: Engine, tmp_path: Path) -> None:
+    """By its type or by a list of APIs, also where a stronger layer lists them again."""
+    inside = f"{EXTENT}\n{SPLAT}{COLOUR}"
+    listed = layer(fields(inside, *APIS))
+    built_in = layer(splats(inside).replace("splats", "built_in"))
+    again = fields(COLOUR, *APIS, what="over")
+    shot = layer(again + again.replace("splats", "built_in"), sublayers("listed", "built_in"))
+    write(tmp_path, {"listed": listed, "built_in": built_in, "shot": shot})
+    assert engine.lint(str(tmp_path / "shot.usda")).completes is None

@@ -5,8 +5,10 @@ from __future__ import annotations
 import pytest
 from partlayers import (
     ACTIVE,
+    APIS,
     BOUND,
     COLOUR,
+    DEGREE,
     EXTENT,
     FILE,
     MANIFEST,
@@ -23,6 +25,7 @@ from partlayers import (
     clip,
     clips,
     field,
+    fields,
     layer,
     over,
     splats,
@@ -30,6 +33,10 @@ from partlayers import (
     volume,
 )
 
+from usdvol_lint import schema
+
+OPACITY = "ParticleFieldOpacityAttributeAPI"
+SIZED = COLOUR.replace(DEGREE, "").rstrip() + " (elementSize = 1)\n"
 COMPLETED: dict[str, tuple[Files, set[str]]] = {
     "positions in the shot": (
         {
@@ -52,6 +59,59 @@ COMPLETED: dict[str, tuple[Files, set[str]]] = {
             ),
         },
         {"asset ARR001 warning", "colour ARR017 warning"},
+    ),
+    "the APIs of a particle field, with what they read": (
+        {
+            "part": layer(fields(EXTENT)),
+            "shot": layer(fields(SPLAT + COLOUR, *APIS, OPACITY, what="over"), sublayers("part")),
+        },
+        {"part PRT001 error", "part PRT002 error", "part PRT003 error"},
+    ),
+    "the APIs that read what is there": (
+        {
+            "part": layer(fields(f"{EXTENT}\n{SPLAT}{COLOUR}", APIS[1])),
+            "shot": layer(fields("", *APIS, OPACITY, what="over"), sublayers("part")),
+        },
+        {"part PRT001 error", "part PRT003 error", "part PRT007 warning"},
+    ),
+    "a type that has the APIs": (
+        {
+            "asset": layer(fields(EXTENT), 'defaultPrim = "splats"'),
+            "shot": layer(splats(SPLAT + COLOUR, REFERENCE)),
+        },
+        {"asset PRT001 error", "asset PRT002 error", "asset PRT003 error"},
+    ),
+    "an API that provides what another one marks": (
+        {
+            "part": layer(
+                fields(f"{EXTENT}\n{SPLAT}{COLOUR}", *APIS[::2], OPACITY, schema.KERNEL_BASE)
+            ),
+            "shot": layer(fields("", *APIS, what="over"), sublayers("part")),
+        },
+        {"part PRT004 warning"},
+    ),
+    "positions of two that have a degree": (
+        {
+            "part": layer(
+                splats(f"{EXTENT}\n{DEGREE}") + splats(f"{EXTENT}\n{DEGREE}").replace("splats", "b")
+            ),
+            "shot": layer(
+                splats(SPLAT + COLOUR, what="over") + over("b", SPLAT + COLOUR), sublayers("part")
+            ),
+        },
+        {"part ARR001 warning"},
+    ),
+    "a degree": (
+        {
+            "part": layer(splats(f"{EXTENT}\n{SPLAT}{COLOUR}".replace(DEGREE, ""))),
+            "sized": layer(
+                over("other", f"{EXTENT}\n{SPLAT}{SIZED}", what="def ParticleField3DGaussianSplat")
+            ),
+            "shot": layer(
+                splats(DEGREE, what="over") + over("other", DEGREE), sublayers("part", "sized")
+            ),
+        },
+        {"part ARR004 error", "sized ARR004 error"},
     ),
     "an extent": (
         {

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 from partlayers import (
+    APIS,
     BASE,
     BOUND,
     COLOUR,
+    DEGREE,
     EXTENT,
     FILE,
     NAME,
@@ -18,6 +20,7 @@ from partlayers import (
     Files,
     Judge,
     field,
+    fields,
     layer,
     over,
     splats,
@@ -25,6 +28,7 @@ from partlayers import (
     volume,
 )
 
+OPACITY = "ParticleFieldOpacityAttributeAPI"
 WRONG = "asset filePath = @./pufff.0001.vdb@"
 STAYS: dict[str, tuple[Files, list[str]]] = {
     "a part that nobody composes": (
@@ -104,6 +108,36 @@ STAYS: dict[str, tuple[Files, list[str]]] = {
             "shot": layer(splats(SPLAT + COLOUR, REFERENCE, "def")),
         },
         ["asset SCH007 warning", "shot SCH007 warning"],
+    ),
+    "APIs that a mistake takes away": (
+        {
+            "part": layer(
+                fields(f"{EXTENT}\n{SPLAT}", "ParticleFieldPositionAtributeAPI", APIS[1])
+            ),
+            "shot": layer(fields(COLOUR, *APIS, OPACITY, what="over"), sublayers("part")),
+        },
+        ["part PRT006 error", "shot PRT006 warning"],
+    ),
+    "a part whose whole lacks an API too": (
+        {
+            "part": layer(fields(EXTENT)),
+            "shot": layer(
+                fields(SPLAT + COLOUR, *APIS[::2], OPACITY, what="over"), sublayers("part")
+            ),
+        },
+        ["part PRT002 error", "shot PRT002 error"],
+    ),
+    "coefficients that no degree fits": (
+        {
+            "part": layer(
+                splats(
+                    f"{EXTENT}\n{SPLAT}"
+                    + COLOUR.replace("), (0", "), (0, 0, 0), (0").replace(DEGREE, "")
+                )
+            ),
+            "shot": layer(splats(DEGREE, what="over"), sublayers("part")),
+        },
+        ["part ARR004 error", "shot ARR004 error"],
     ),
     "an empty stage": ({"empty": layer(""), "shot": layer(WHOLE)}, ["empty STG003 warning"]),
 }

@@ -13,7 +13,9 @@ from pxr import Sdf
 from usdvol_lint import schema
 from usdvol_lint.engine.spec_parts import (
     COEFFICIENTS,
+    DEGREE,
     EXTENT,
+    applies,
     either,
     has_beside,
     has_fields,
@@ -73,7 +75,7 @@ class _Completions:
     def find(self) -> None:
         tables = self._facts.tables
         for table in tables.of(*schema.OURS):
-            for find in (self._find_values, self._find_types, self._find_clipped):
+            for find in (self._find_values, self._find_types, self._find_apis, self._find_clipped):
                 with suppress(*UNREADABLE):  # what can't be read, a rule that asks for it reports
                     find(table)
         for table in tables.of(schema.VOLUME):
@@ -93,6 +95,8 @@ class _Completions:
         """The attributes of which another spec has the value."""
         authored = table.authored
         names = wanted(authored.schemas)
+        if DEGREE in names and DEGREE not in authored.declared:
+            names.remove(DEGREE)  # nothing but a spec has it, and often none
         if not authored.is_layered and not authored.is_clipped:
             names = [name for name in names if authored.declared.keys().isdisjoint(either(name))]
         for prim, stack, makers in self._rows(table) if names else ():
@@ -142,6 +146,15 @@ class _Completions:
             for spec in makers:
                 if not self._has_itself(spec, stack, has_type):
                     self._add(spec, TYPE_NAME)
+
+    def _find_apis(self, table: Table) -> None:
+        """The APIs of particle fields that another spec applies."""
+        apis = sorted(schema.API_INCLUDES.keys() & table.authored.schemas)
+        for _, stack, makers in self._rows(table) if apis and table.authored.is_layered else ():
+            for spec in makers:
+                for api in apis:
+                    if not self._has_itself(spec, stack, partial(applies, api)):
+                        self._add(spec, schema.applied(api))
 
     def _find_clipped(self, table: Table) -> None:
         """What the prims have that value clips and their manifests need not have."""

@@ -15,11 +15,12 @@ from usdvol_lint.schema import FIELD_NAMESPACE
 
 POSITIONS = "positions"
 COEFFICIENTS = "radiance:sphericalHarmonicsCoefficients"
+DEGREE = "radiance:sphericalHarmonicsDegree"
 EXTENT = "extent"
 _WANTED = {
     schema.FIELD_ASSET: ("filePath", "fieldName", "fieldDataType"),
     schema.VOLUME: (EXTENT,),
-    schema.PARTICLE_FIELD: (EXTENT, POSITIONS, COEFFICIENTS),
+    schema.PARTICLE_FIELD: (EXTENT, POSITIONS, COEFFICIENTS, DEGREE),
 }
 """What prims of ours need, by schema; particle arrays may be in half precision instead."""
 
@@ -55,6 +56,13 @@ def has_type(spec: Any) -> bool:
     return spec.typeName not in GROUP_TYPES
 
 
+def applies(api: str, spec: Any) -> bool:
+    """Whether a prim's spec has one of our APIs: by its list, or built into its type."""
+    listed = spec.GetInfo("apiSchemas").GetAppliedItems()
+    built_in = schema.BUILT_IN_APIS.get(spec.typeName, ())
+    return api in schema.expand_apis((*listed, *built_in))
+
+
 def holds_value(name: str, spec: Any) -> bool:
     """Whether a prim's spec has a value of an attribute that is not empty."""
     return any(is_valued(own_attribute(spec, path)) for path in own_paths(name))
@@ -65,6 +73,8 @@ def is_valued(attribute: Any | None) -> bool:
         return False
     value = attribute.default
     if value is not None and not isinstance(value, Sdf.ValueBlock):
+        if isinstance(value, int):
+            return True
         return bool(value.path if isinstance(value, Sdf.AssetPath) else len(value))
     return bool(attribute.HasInfo("timeSamples") or attribute.HasInfo("spline"))
 

@@ -47,6 +47,8 @@ def codes(report: StageReport) -> list[str]:
         ("P:/shows/a.vdb", "/p/shows/a.vdb"),
         ("/srv/a.vdb", "/mnt/srv/a.vdb"),
         ("/srvs/a.vdb", None),
+        ("/srv/../other/a.vdb", None),
+        ("P:/shows/../show/a.vdb", "/mnt/show/a.vdb"),
         ("./P:/a.vdb", None),
     ],
 )
@@ -65,6 +67,11 @@ def test_the_longest_beginning_counts(path: str, expected: str | None) -> None:
         ("//server/share/**", "\\\\server\\share\\a.vdb", True),
         ("*.vdb", "/a/b.vdb", True),
         ("*.nvdb", "/a/b.vdb", False),
+        ("/mnt/show/**", "/mnt/show/../other/b.vdb", False),
+        ("/mnt/show/**", "/mnt/other/../show/./b.vdb", True),
+        ("P:/show/**", "P:\\show\\..\\other\\b.vdb", False),
+        ("P:/other/**", "P:\\show\\..\\other\\b.vdb", True),
+        ("asset://show/**", "asset://show/a/../b.vdb", True),
     ],
 )
 def test_patterns_of_files_that_are_assumed(pattern: str, path: str, is_meant: bool) -> None:
@@ -94,7 +101,44 @@ def test_where_a_path_really_is(lint: Lint, tmp_path: Path) -> None:
     report = lint(storage, "P:/cloud.vdb")
     assert (codes(report), report.stats["files_checked"]) == ([], 1)
     assert "files_assumed" not in report.stats
-    assert codes(lint(storage, "P:/clouds.vdb")) == ["AST008 error"]
+
+
+@pytest.mark.parametrize("start", ["P:/x/", "/mnt/show/", "asset://show/"])
+def test_what_is_missing_is_told_of_where_it_was_looked_for(
+    start: str, lint: Lint, tmp_path: Path
+) -> None:
+    write(tmp_path, "seq/s.1003.vdb", "seq/cloud.vdb")
+    seq = (tmp_path / "seq").as_posix()
+    storage = Storage(path_map={start: f"{seq}/"})
+    (finding,) = lint(storage, f"{start}s.1004.vdb").findings
+    assert (finding.code, finding.message) == (
+        "AST002",
+        f"no file at '{start}s.1004.vdb' in '{seq}'",
+    )
+    (finding,) = lint(storage, f"{start}fx/s.1004.vdb").findings
+    assert finding.message == f"no file at '{start}fx/s.1004.vdb': no folder '{seq}/fx'"
+    (finding,) = lint(storage, f"{start}clod.vdb").findings
+    assert finding.suggestion == f"did you mean '{start}cloud.vdb'?"
+    (finding,) = lint(storage, f"{start}s.####.vdb").findings
+    assert finding.code == "AST003"
+    (finding,) = lint(storage, f"{start}Cloud.vdb").findings
+    assert (finding.code, finding.suggestion) == ("AST009", f"write it as '{start}cloud.vdb'")
+
+
+def test_what_is_mapped_may_be_assumed(lint: Lint) -> None:
+    storage = Storage(path_map={"P:/": "/mnt/show"}, assume_present=("/mnt/show/**",))
+    report = lint(storage, "P:/x/cloud.vdb")
+    assert (codes(report), report.stats["files_assumed"]) == ([], 1)
+
+
+def test_what_is_relative_is_assumed_where_it_leads(lint: Lint, tmp_path: Path) -> None:
+    def assumed(pattern: str, path: str) -> int:
+        return lint(Storage(assume_present=(pattern,)), path).stats.get("files_assumed", 0)
+
+    here = tmp_path.as_posix()
+    assert assumed(f"{here}/b/**", "./a/../b/cloud.vdb") == 1
+    assert assumed(f"{here}/a/**", "./a/../b/cloud.vdb") == 0
+    assert assumed("/b/**", "b/cloud.vdb") == 0
 
 
 def test_where_usd_searches(lint: Lint, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,7 +17,6 @@ from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import Occurrences
 from usdvol_lint.words import frame_ranges, quoted
 
-MAPPED = "mapped"
 _LAYERS_NAMED = 3
 _NOTHING = frozenset({AssetState.EMPTY, AssetState.BLOCKED})
 _PATH_OF = attrgetter("path")
@@ -30,8 +29,8 @@ class AssetSample(NamedTuple):
     `authored` is the text in the layer; where that is an expression, `path` is what it evaluates
     to, elsewhere the same text.
     `resolved` is the file that USD finds, without file format arguments; empty if it finds none.
-    `detail` depends on the state: the fault, the error, the variable, the scheme, the pattern, or
-    MAPPED for a file that the configuration leads to.
+    `detail` depends on the state: the fault, the error, the variable, the scheme or the pattern.
+    `led_to` is the absolute path that the configuration leads to, whether or not a file is there.
     """
 
     time: float | None
@@ -40,11 +39,12 @@ class AssetSample(NamedTuple):
     resolved: str
     state: AssetState
     detail: str = ""
+    led_to: str = ""
 
     @property
     def is_arranged(self) -> bool:
         """Whether the configuration says where it is, whatever the path is on this machine."""
-        return self.state is AssetState.ASSUMED or self.detail == MAPPED
+        return self.state is AssetState.ASSUMED or bool(self.led_to)
 
     @property
     def is_there(self) -> bool:
@@ -95,7 +95,7 @@ class AssetSamples(NamedTuple):
 
     def anchored(self, sample: AssetSample) -> str:
         """The absolute path of a sample, whether or not anything is there."""
-        return anchored(self.attribute, sample.time, sample.path)
+        return _place_of(self.attribute, sample)
 
     def by_detail(self, *states: AssetState) -> Iterator[Affected]:
         """The samples in one of these states, grouped by their detail."""
@@ -215,4 +215,8 @@ class Affected(Occurrences):
 
     def anchored(self) -> str:
         """The absolute path of the first sample, whether or not anything is there."""
-        return anchored(self.attribute, self.first.time, self.first.path)
+        return _place_of(self.attribute, self.first)
+
+
+def _place_of(attribute: Any, sample: AssetSample) -> str:
+    return sample.led_to or anchored(attribute, sample.time, sample.path)

@@ -8,9 +8,9 @@ from typing import Any
 
 from pxr import Ar, Sdf, Usd
 
-from usdvol_lint.facts.files.assets import MAPPED, AssetSample, AssetSamples
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.paths import anchored, is_uri
+from usdvol_lint.facts.files.paths import anchored, is_packaged, is_uri
 from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.facts.files.states import AssetState, FileFault
 from usdvol_lint.facts.usd.batches import PrimBatch
@@ -74,31 +74,39 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Ass
     if not isinstance(value, Sdf.AssetPath):
         return AssetSample(time, str(value), "", "", AssetState.MISTYPED)
     path, resolved = value.path, value.resolvedPath
-    detail = ""
+    led_to = ""
     if path and disk.storage.knows_any:
         names = _names(attribute, time, path)
-        if disk.storage.is_assumed(*names):
+        led_to = disk.storage.led_to(*names)
+        if disk.storage.is_assumed(*names, *filter(None, (led_to,))):
             return AssetSample(time, authored_path(value) or path, path, "", AssetState.ASSUMED)
-        if mapped := disk.storage.mapped(*names):
-            resolved, detail = mapped, MAPPED
-    if FORMAT_ARGUMENTS in path and not detail:
+        found = _file_at(led_to)
+        resolved, led_to = found or resolved, led_to if found or not resolved else ""
+    if FORMAT_ARGUMENTS in path and not led_to:
         resolved = _resolved_without_arguments(attribute, time, path)
     fault = disk.fault(resolved) if resolved else None
     if fault is FileFault.BROKEN_LINK:
         resolved, fault = "", None  # USD resolves a link without asking where it leads
     if resolved and not fault:
         authored = authored_path(value) or path
-        return AssetSample(time, authored, path, resolved, AssetState.FILE, detail)
+        return AssetSample(time, authored, path, resolved, AssetState.FILE, led_to=led_to)
     authored = authored_path(value) or _authored_in_layer(attribute, time) or path
     if fault:
-        return AssetSample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault)
-    state, detail = _why_unresolved(attribute, time, authored, path)
-    return AssetSample(time, authored, path, "", state, detail)
+        return AssetSample(time, authored, path, resolved, AssetState.NOT_A_FILE, fault, led_to)
+    state, detail = _why_unresolved(attribute, time, authored, path, led_to)
+    return AssetSample(time, authored, path, "", state, detail, led_to)
 
 
 def _names(attribute: Any, time: float | None, path: str) -> tuple[str, str]:
     """A path as it is written, and its absolute form, both without file format arguments."""
     return path.partition(FORMAT_ARGUMENTS)[0], anchored(attribute, time, path)
+
+
+def _file_at(path: str) -> str:
+    """The file at an absolute path, which may be one in a package; empty if none is there."""
+    if is_packaged(path):
+        return str(Ar.GetResolver().Resolve(path))
+    return path if os.path.isfile(path) else ""
 
 
 def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
@@ -124,7 +132,7 @@ def _resolved_without_arguments(attribute: Any, time: float | None, path: str) -
 
 
 def _why_unresolved(
-    attribute: Any, time: float | None, authored: str, path: str
+    attribute: Any, time: float | None, authored: str, path: str, led_to: str
 ) -> tuple[AssetState, str]:
     """The state of a value that resolves to no file, and its detail."""
     if Sdf.VariableExpression.IsExpression(authored):
@@ -140,7 +148,7 @@ def _why_unresolved(
         path = result.value or ""
     if not path:
         return AssetState.EMPTY, ""
-    if is_uri(path):
+    if is_uri(path) and not led_to:
         scheme = path.partition(":")[0]
         live = scheme.lower() in _LIVE_SCHEMES
         return AssetState.LIVE_SESSION if live else AssetState.UNVERIFIABLE, scheme

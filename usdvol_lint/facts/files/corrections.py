@@ -10,7 +10,7 @@ from typing import NamedTuple
 from pxr import Ar, Sdf
 
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.paths import count_names, is_packaged
+from usdvol_lint.facts.files.paths import count_shared, is_packaged
 from usdvol_lint.facts.files.patterns import matching_frames
 from usdvol_lint.facts.files.places import place_of
 from usdvol_lint.nearest import by_nearness, closest_match
@@ -62,7 +62,7 @@ def find_absence(
         return Absence("", None)
     authored, _ = Sdf.Layer.SplitIdentifier(authored)
     corrected = correct_case(disk, path, authored)
-    if corrected and disk.in_case(path, count_names(authored)) in not_meant:
+    if corrected and disk.in_case(path, count_shared(authored, path)) in not_meant:
         corrected = None
     if Ar.IsPackageRelativePath(path):
         package, inner = Ar.SplitPackageRelativePathOuter(path)
@@ -121,7 +121,7 @@ def correct_case(disk: Disk, path: str, authored: str) -> str | None:
         package, inner = Ar.SplitPackageRelativePathOuter(path)
         actual = disk.listing(package).by_case.get(inner.lower(), inner)
         return _with_inner(authored, inner, actual) if actual != inner else None
-    count = count_names(authored)
+    count = count_shared(authored, path)
     found = disk.in_case(path, count)
     if found is None or found == path:
         return None

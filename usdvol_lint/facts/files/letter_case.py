@@ -12,7 +12,7 @@ from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.corrections import correct_case
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.origins import SampleLayers
-from usdvol_lint.facts.files.paths import count_names, split_path
+from usdvol_lint.facts.files.paths import count_shared, split_path
 from usdvol_lint.facts.files.states import ON_DISK
 
 
@@ -85,5 +85,5 @@ class _Folders:
             folder, slash, _ = inner.rpartition("/")
             return _Folder(self._disk.listing(package).by_case, folder + slash, differs=False)
         folder = os.path.dirname(path)
-        actual = self._disk.in_case(folder, count_names(folder_path))
+        actual = self._disk.in_case(folder, count_shared(folder_path, folder))
         return _Folder(self._disk.listing(actual).by_case, "", actual != folder) if actual else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from itertools import takewhile
 from typing import Any
 
 from pxr import Ar, Sdf
@@ -31,6 +32,17 @@ def count_names(path: str) -> int:
     """How many names a path has that folders list, so without `.` and `..`."""
     names = os.path.normpath(path).replace(os.sep, "/").split("/")
     return sum(name not in ("", ".", "..") for name in names)
+
+
+def count_shared(path: str, place: str) -> int:
+    """How many names, counted from the end, a path shares with the absolute one of its place.
+
+    These are all of its names, unless a configuration or a resolver leads it elsewhere.
+    """
+    names = os.path.normpath(path).replace("\\", "/").split("/")
+    others = place.replace("\\", "/").split("/")
+    pairs = zip(reversed(names), reversed(others), strict=False)
+    return min(count_names(path), sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs)))
 
 
 def is_packaged(path: str) -> bool:

@@ -12,7 +12,7 @@ from operator import attrgetter, sub
 
 from pxr import Ar
 
-from usdvol_lint.facts.files.assets import MAPPED, AssetSample, AssetSamples
+from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.numbering import Numbering, find_numbering
 from usdvol_lint.facts.files.paths import split_path
 from usdvol_lint.facts.files.states import AssetState
@@ -106,11 +106,11 @@ class SampleSequence:
     def exists(self, sample: AssetSample, path: str) -> bool:
         """Whether there would be a file if the sample had this path."""
         folder, name = split_path(path)
-        if sample.detail == MAPPED and folder == split_path(sample.path)[0]:
-            return os.path.isfile(f"{os.path.dirname(sample.resolved)}/{name}")
+        if sample.led_to and folder == split_path(sample.path)[0]:
+            return os.path.isfile(f"{os.path.dirname(sample.led_to)}/{name}")
         key = (sample.time, folder)
         if key not in self._folders:
-            anchored = self.paths.anchored(sample._replace(path=path))
+            anchored = self.paths.anchored(sample._replace(path=path, led_to=""))
             if Ar.IsPackageRelativePath(anchored):
                 return bool(Ar.GetResolver().Resolve(anchored))
             self._folders[key] = os.path.dirname(anchored)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import ntpath
 import os
+import posixpath
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from usdvol_lint.config import Storage
 
 _DRIVE = re.compile(r"[A-Za-z]:")
+_ROOT = re.compile(r"[A-Za-z]:/|/|[A-Za-z][A-Za-z0-9+-]+://")
 
 
 class Whereabouts:
@@ -20,14 +23,21 @@ class Whereabouts:
         self.knows_any = bool(storage.path_map or storage.assume_present)
         self.assumed: set[str] = set()
 
-    def mapped(self, *paths: str) -> str | None:
-        """The file that the first of these names of it leads to, if one is there."""
-        led = (mapped(path, self._map) for path in paths)
-        return next((path for path in led if path and os.path.isfile(path)), None)
+    def led_to(self, *paths: str) -> str:
+        """The absolute path that one of these names of a file leads to; empty if none does.
+
+        Of several that is the first with a file, or else the first.
+        """
+        led = [path for path in (mapped(path, self._map) for path in paths) if path]
+        there = filter(os.path.isfile, led)
+        return _plain(os.path.abspath(next(there, led[0]))) if led else ""
 
     def is_assumed(self, *paths: str) -> bool:
-        """Whether a file of one of these names is assumed to be there; it is counted."""
-        if self._is_assumed is None or not any(map(self._is_assumed, paths)):
+        """Whether a file of one of these names is assumed to be there; it is counted.
+
+        Absolute names count, and others only where none is absolute.
+        """
+        if self._is_assumed is None or not any(map(self._is_assumed, _absolute(paths) or paths)):
             return False
         self.assumed.add(paths[-1])
         return True
@@ -35,7 +45,7 @@ class Whereabouts:
 
 def mapped(path: str, by_start: Mapping[str, str]) -> str | None:
     """A path with its beginning replaced, the longest that is known; None if none is."""
-    plain = _plain(path)
+    plain = _normal(path)
     starts = [start for start in by_start if _begins(plain, _plain(start))]
     if not starts:
         return None
@@ -55,7 +65,11 @@ def _matching(patterns: tuple[str, ...]) -> Callable[[str], bool]:
     from usdvol_lint.suppressions import matching
 
     matches = matching([_from_root(pattern) for pattern in patterns])
-    return lambda path: matches(_from_root(path).lstrip("/"))
+    return lambda path: matches(_from_root(_normal(path)).lstrip("/"))
+
+
+def _absolute(paths: Iterable[str]) -> list[str]:
+    return [path for path in paths if _ROOT.match(_plain(path))]
 
 
 def _from_root(path: str) -> str:
@@ -64,6 +78,18 @@ def _from_root(path: str) -> str:
     if _DRIVE.match(plain):
         return plain[:1].upper() + plain[1:]
     return re.sub(r"^/+", "/", plain)
+
+
+def _normal(path: str) -> str:
+    """A path with `/` between names; without `.` and `..` where it is absolute."""
+    plain = _plain(path)
+    root = _ROOT.match(plain)
+    if not root:
+        return plain
+    if _DRIVE.match(root[0]):
+        return _plain(ntpath.normpath(plain))
+    scheme = root[0] if ":" in root[0] else ""
+    return scheme + posixpath.normpath(plain[len(scheme) :])
 
 
 def _plain(path: str) -> str:

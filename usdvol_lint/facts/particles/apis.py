@@ -62,6 +62,12 @@ class ParticleApis(NamedTuple):
         included = {api for provider in providers for api in _includes(provider) if api != provider}
         return tuple(api for api in providers if api not in included)
 
+    def absent(self, *apis: str) -> tuple[str, ...]:
+        """The words for APIs that are not applied, but for those that a mistake takes away."""
+        meant = (*self.misspelt.values(), *_names(self.dropped), *_names(self.removed))
+        lost = schema.expand_apis(meant)
+        return tuple(schema.applied(api) for api in apis if api not in lost)
+
     def is_lost(self, base: str) -> bool:
         """Whether a base API is missing because one that includes it is awaited."""
         return base in self.lost_with(self.awaited)

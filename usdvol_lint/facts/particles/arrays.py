@@ -246,6 +246,12 @@ class ParticleArrays:
         return root - 1 if share and not rest and root * root == share else None
 
     @property
+    def absent_degree(self) -> tuple[str, ...]:
+        """The name of the degree where none is authored, and one would fit."""
+        is_absent = not self.degree.is_authored and self.fitting_degree is not None
+        return (self.degree.attribute.GetName(),) if is_absent else ()
+
+    @property
     def suit_degree(self) -> bool:
         """Whether there are not too few coefficients, nor those of another degree, if any."""
         each, fitting = self.degree.coefficients, self.fitting_degree
