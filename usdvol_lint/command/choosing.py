@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from usdvol_lint.config import Config
+from usdvol_lint.config.files import nearer_files
 from usdvol_lint.files import Changes, Listing
 from usdvol_lint.paths import named
 from usdvol_lint.words import printable, quoted
@@ -30,8 +31,14 @@ def changes(
         return None
     from usdvol_lint.files.changes import changes_since
 
-    settings = (config.baseline, file and str(file), *config.packs)
+    settings = (config.baseline, *config.origins.files, *config.packs, *_nearer(given, file))
     return changes_since(revision, paths, [path for path in settings if path])
+
+
+def _nearer(given: dict[str, Any], file: Path | None) -> Iterator[str]:
+    """The files that would be the configuration instead: one that is gone, or has no table now."""
+    if given["config_file"] is None and not given["isolated"]:
+        yield from map(str, nearer_files(Path.cwd(), file))
 
 
 def shown(paths: tuple[str, ...], given: dict[str, Any]) -> tuple[Iterator[str], str]:

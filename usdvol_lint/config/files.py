@@ -43,6 +43,15 @@ def find_config_file(start: Path) -> Path | None:
     return None
 
 
+def nearer_files(start: Path, found: Path | None) -> Iterator[Path]:
+    """Where a configuration file would be found before the one that was; anywhere, if none was."""
+    for folder in (start, *start.parents):
+        for file in (folder / FILE_NAME, folder / _PROJECT):
+            if file == found:
+                return
+            yield file
+
+
 def read_config(path: Path) -> Config:
     """Reads a configuration file and those that it extends; paths are relative to their file.
 
