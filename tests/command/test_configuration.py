@@ -187,6 +187,8 @@ def test_mistakes_in_a_configuration(
         ("usdvol-lint.toml", b"select = [", "Invalid value (at end of document)"),
         ("usdvol-lint.toml", b"a = 1\na = 2\n", "Cannot overwrite a value (at line 2, column 6)"),
         ("usdvol-lint.toml", b"# \xff\n", "not UTF-8 text"),
+        ("usdvol-lint.toml", b"\xff\xfej\0", "this is UTF-16 text, write the file as UTF-8"),
+        ("usdvol-lint.toml", b"\xfe\xff\0j", "this is UTF-16 text, write the file as UTF-8"),
         (
             "usdvol-lint.toml",
             b"a" + b".a" * 100_000 + b" = 1\n",
@@ -254,3 +256,8 @@ options.volume-name.allowed = ["fog"]
     ran = run(".", cwd=tmp_path)
     said = "mist.usda:2:1: STU001 warning </mist> name 'mist', wanted fog\n"
     assert ran == Ran(1, said, "")
+
+
+def test_a_byte_order_mark_is_no_text(tool: Callable[..., Ran], tmp_path: Path) -> None:
+    (tmp_path / "usdvol-lint.toml").write_text("jobs = 3\n", encoding="utf-8-sig")
+    assert "jobs = 3 " in tool("--show-settings").out
