@@ -6,10 +6,12 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+import click
 import pytest
 from process import AS_JSON, ROUGH, STUDIO, Ran, run, settings, volume, write
 
 from usdvol_lint import __version__
+from usdvol_lint.command import cli
 from usdvol_lint.config import Config
 from usdvol_lint.config.values import CHECKS
 
@@ -261,3 +263,20 @@ options.volume-name.allowed = ["fog"]
 def test_a_byte_order_mark_is_no_text(tool: Callable[..., Ran], tmp_path: Path) -> None:
     (tmp_path / "usdvol-lint.toml").write_text("jobs = 3\n", encoding="utf-8-sig")
     assert "jobs = 3 " in tool("--show-settings").out
+
+
+@pytest.mark.parametrize("option", [
+    each.opts[0] for each in cli.command.params
+    if isinstance(each, click.Option) and not each.is_flag
+    and isinstance(each.type, click.Path | click.types.StringParamType)
+])  # fmt: skip
+def test_no_option_has_an_empty_value(
+    option: str, tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    """A variable of a script that is not set switches nothing off."""
+    write(tmp_path, smoke=volume("smoke"))
+    said = f"{option} has an empty value: if a script brings it, its variable is not set; "
+    for value in ("", " "):
+        ran = tool("--isolated", f"{option}={value}", "smoke.usda")
+        assert (ran.code, ran.out) == (2, "")
+        assert ran.err.startswith(f"usdvol-lint: error: {said}")

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -223,3 +224,17 @@ def test_foreign_text_is_harmless(format: str, tmp_path: Path) -> None:
             assert len(commands) == len(plain.splitlines())
         else:
             assert not re.search(r"^::", plain, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["--explain", "AST002"], ["--list-rules"], ["--test", "."], ["--show-settings"],
+     ["--show-files", "."]],
+)  # fmt: skip
+def test_what_is_no_report_has_no_file(
+    arguments: list[str], tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    ran = tool(*arguments, "--output", "report.txt")
+    said = f"--output is for reports, and {arguments[0]} writes none: leave it out, and redirect "
+    assert (ran.code, ran.out, said in ran.err) == (2, "", True)
+    assert not (tmp_path / "report.txt").exists()

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from usdvol_lint.command.settings import check_filled, read_settings
 from usdvol_lint.config import Config
 from usdvol_lint.config.files import nearer_files
 from usdvol_lint.files import Changes, Listing
@@ -15,6 +16,7 @@ from usdvol_lint.words import printable, quoted
 
 def arguments(paths: tuple[str, ...], given: dict[str, Any]) -> tuple[str, ...]:
     """The arguments, and the paths in the list that `--files-from` names."""
+    check_filled(given)
     if given["files_from"] is None:
         return paths
     from usdvol_lint.files.lists import read_list
@@ -43,7 +45,6 @@ def _nearer(given: dict[str, Any], file: Path | None) -> Iterator[str]:
 
 def shown(paths: tuple[str, ...], given: dict[str, Any]) -> tuple[Iterator[str], str]:
     """The lines of `--show-files`, and what to say beside them."""
-    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.files.listing import list_stages
 
     config, file = read_settings(given)

@@ -159,6 +159,7 @@ def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> 
     PATHS are .usd, .usda, .usdc and .usdz files, folders that are searched for them, or quoted
     patterns such as "shots/**/*.usda".
     """
+    _check_output(given)
     if given["explain"] is not None:
         return _explain(given)
     if given["list_rules"]:
@@ -221,6 +222,15 @@ def help_text() -> str:
     return command.get_help(context) + "\n"
 
 
+def _check_output(given: dict[str, Any]) -> None:
+    """Raises UsageError where a file is to take what is no report."""
+    for name in ("explain", "list_rules", "test", "show_settings", "show_files"):
+        if given["output"] and given[name] not in (None, False):
+            option = f"--{name.replace('_', '-')}"
+            said = f"--output is for reports, and {option} writes none"
+            raise click.UsageError(f"{said}: leave it out, and redirect what is printed")
+
+
 def _explain(given: dict[str, Any]) -> int:
     from usdvol_lint.command import about, output
 
@@ -243,8 +253,10 @@ def _list_rules(given: dict[str, Any]) -> int:
 
 def _test(given: dict[str, Any]) -> int:
     from usdvol_lint.command import output
+    from usdvol_lint.command.settings import check_filled
     from usdvol_lint.run import testing
 
+    check_filled(given)
     failures, verdict = testing.check_pack(given["test"], given["pack"])
     output.print_text(f"{line}\n" for line in (*failures, verdict))
     return FINDINGS if failures else CLEAN
