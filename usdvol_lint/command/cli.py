@@ -159,7 +159,10 @@ def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> 
     PATHS are .usd, .usda, .usdc and .usdz files, folders that are searched for them, or quoted
     patterns such as "shots/**/*.usda".
     """
-    _check_output(given)
+    if given["output"]:
+        from usdvol_lint.command.output import check_report
+
+        check_report(given)
     if given["explain"] is not None:
         return _explain(given)
     if given["list_rules"]:
@@ -220,15 +223,6 @@ def help_text() -> str:
         command, info_name="usdvol-lint", terminal_width=80, **command.context_settings
     )
     return command.get_help(context) + "\n"
-
-
-def _check_output(given: dict[str, Any]) -> None:
-    """Raises UsageError where a file is to take what is no report."""
-    for name in ("explain", "list_rules", "test", "show_settings", "show_files"):
-        if given["output"] and given[name] not in (None, False):
-            option = f"--{name.replace('_', '-')}"
-            said = f"--output is for reports, and {option} writes none"
-            raise click.UsageError(f"{said}: leave it out, and redirect what is printed")
 
 
 def _explain(given: dict[str, Any]) -> int:

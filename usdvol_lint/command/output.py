@@ -9,6 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
+import click
+
 from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_file
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
@@ -20,7 +22,7 @@ AUTO = "auto"
 TEXTS = frozenset({"full", "concise"})
 MACHINE_FORMATS = frozenset(FORMATS) - TEXTS
 
-
+_NO_REPORTS = ("explain", "list_rules", "test", "show_settings", "show_files")
 _INPUTS = (*SUFFIXES, ".vdb", ".nvdb", ".f3d", ".toml", ".py")
 """What stages, volume files, configurations and rules end with: a slip must not destroy one."""
 
@@ -92,6 +94,14 @@ def _is_writable(destination: Destination, inputs: Sequence[str | None]) -> bool
 
 def _times(number: int) -> str:
     return {0: "never", 1: "once", 2: "twice"}.get(number, f"{number} times")
+
+
+def check_report(given: dict[str, Any]) -> None:
+    """Raises UsageError where `--output` is to take what is no report."""
+    for name in _NO_REPORTS:
+        if given[name] not in (None, False):
+            said = f"--output is for reports, and --{name.replace('_', '-')} writes none"
+            raise click.UsageError(f"{said}: leave it out, and redirect what is printed")
 
 
 def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | None]) -> None:
