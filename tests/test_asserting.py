@@ -82,20 +82,21 @@ def test_it_fails_with_the_report(here: Path) -> None:
 def test_what_is_clean_passes(here: Path) -> None:
     assert_clean(here / "uri.usda")
     assert_clean("gone.usda", "uri.usda", ignore="SCH,AST002")
-    assert_clean(here, ignore=["AST"])
+    assert_clean(here, ignore=["AST,"])
     assert_clean(here, select=["VOL"])
 
 
 def test_levels(here: Path) -> None:
     assert "AST010 info" in said("uri.usda", fail_on="info")
     assert "AST010 info" in said("uri.usda", config=Config(fail_on_unchecked=True))
-    assert_clean("gone.usda", config=Config(fail_on="never"))
+    assert "AST002" in said("gone.usda", config=Config(fail_on="never"))
+    assert_clean("uri.usda", config=Config(fail_on="never"))
     assert "AST002" in said("gone.usda", config=Config(fail_on="never"), fail_on="error")
 
 
 def test_a_stage_that_cannot_be_read_is_not_clean(here: Path) -> None:
     (here / "cut.usda").write_text("#usda 1.0\ndef Volume", encoding="utf-8")
-    assert "LNT001 error" in said("cut.usda", fail_on="never")
+    assert "LNT001 error" in said("cut.usda", fail_on="error")
 
 
 def test_only_a_configuration_that_is_named_counts(here: Path) -> None:
@@ -103,6 +104,9 @@ def test_only_a_configuration_that_is_named_counts(here: Path) -> None:
     assert "AST002" in said("gone.usda")
     assert_clean("gone.usda", config="usdvol-lint.toml")
     assert_clean("gone.usda", config="usdvol-lint.toml", ignore="SCH")
+    (here / "usdvol-lint.toml").write_text("exclude = ['*.usda']", encoding="utf-8")
+    with pytest.raises(UsageError, match="nothing was checked: every stage is excluded"):
+        assert_clean("gone.usda", config="usdvol-lint.toml")
     suppress = "suppress = [{ files = '/gone.usda', reason = 'later' }]"
     (here / "usdvol-lint.toml").write_text(suppress, encoding="utf-8")
     assert_clean("gone.usda", config=here / "usdvol-lint.toml")
@@ -119,7 +123,23 @@ def test_only_a_configuration_that_is_named_counts(here: Path) -> None:
         ("assert_clean()", "assert_clean: nothing to check: name a stage or a folder"),
         ("assert_clean('gone.usda', ignore='AST02')", "'AST02' is no rule"),
         ("assert_clean('gone.usda', fail_on='warn')", "fail_on must be one of"),
+        (
+            "assert_clean('gone.usda', fail_on='never')",
+            "fail_on must be one of error, warning, info, not 'never'",
+        ),
         ("assert_clean('gone.usda', config='no.toml')", "no.toml: No such file or directory"),
+        ("assert_clean('gone.usda', config=3)", "config must be a text or a Path, not 3"),
+        ("assert_clean(['gone.usda'])", "not ['gone.usda']; name several one by one"),
+        ("assert_clean(b'gone.usda')", "a path must be a text or a Path, not b'gone.usda'"),
+        ("assert_clean(3)", "assert_clean: a path must be a text or a Path, not 3"),
+        ("assert_clean('')", "an argument is empty"),
+        ("assert_clean('gone.usda', select=[])", "`select` is empty"),
+        ("assert_clean('gone.usda', config=Config(select=()))", "`select` is empty"),
+        ("assert_clean('gone.usda', select='')", "select has an empty string"),
+        ("assert_clean('gone.usda', select=['AST', ','])", "select has an empty string"),
+        ("assert_clean('gone.usda', ignore='')", "ignore has an empty string"),
+        ("assert_clean('gone.usda', ignore=3)", "ignore must be a text or a list of texts, not 3"),
+        ("assert_clean('gone.usda', ignore=[3])", "ignore must be a list of strings, not [3]"),
     ],
 )
 def test_mistakes_are_no_finding(call: str, words: str, here: Path) -> None:

@@ -145,6 +145,8 @@ def test_configuration_reference_is_complete() -> None:
 def test_configurations_are_accepted(path: Path, tmp_path: Path) -> None:
     for block in blocks(path, "toml"):
         table = tomllib.loads(block)
+        for folder in table.get("search-path", []):
+            (tmp_path / folder).mkdir()
         if "packs" in table or "project" in table:
             continue
         name = "pyproject.toml" if "tool" in table else "usdvol-lint.toml"

@@ -21,7 +21,7 @@ GUIDE = ROOT / "docs" / "configuration.md"
 _LINK = re.compile(r"\[([^\]]+)\]\([^)]*\)")
 _TABLE = re.compile(r"(?s)(?<=<!-- keys: made by `make generate` of tools/keys.py -->\n).*?(?=\n#)")
 _SELECTOR = (
-    "^(ALL|all|[A-Za-z]{1,3}|[A-Za-z]{3}[0-9]{1,3}|[a-z][a-z0-9]*|"
+    "^(ALL|all|[A-Za-z]{1,3}|[A-Za-z]{3}[0-9]{1,3}|[a-z][a-z0-9]*|[A-Za-z]{4}[A-Za-z0-9]*|"
     "[A-Za-z][A-Za-z0-9]*(-[A-Za-z0-9]+)+)$"
 )
 """A code or its beginning, a family, or the name of a rule: packs bring others than the known."""

@@ -88,7 +88,6 @@ def test_a_report_is_a_baseline(library: Path) -> None:
             "--fail-on-unpruned needs a baseline: name it with --baseline FILE",
         ),
         (["--moved", "a=b"], "--moved needs a baseline: name it with --baseline FILE"),
-        (["--baseline", ""], "--baseline must be a text, not ''"),
         (
             ["--baseline", "gone"],
             "gone: there is no such baseline; --write-baseline gone writes one",

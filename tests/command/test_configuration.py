@@ -6,10 +6,12 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+import click
 import pytest
 from process import AS_JSON, ROUGH, STUDIO, Ran, run, settings, volume, write
 
 from usdvol_lint import __version__
+from usdvol_lint.command import cli
 from usdvol_lint.config import Config
 from usdvol_lint.config.values import CHECKS
 
@@ -187,6 +189,8 @@ def test_mistakes_in_a_configuration(
         ("usdvol-lint.toml", b"select = [", "Invalid value (at end of document)"),
         ("usdvol-lint.toml", b"a = 1\na = 2\n", "Cannot overwrite a value (at line 2, column 6)"),
         ("usdvol-lint.toml", b"# \xff\n", "not UTF-8 text"),
+        ("usdvol-lint.toml", b"\xff\xfej\0", "this is UTF-16 text, write the file as UTF-8"),
+        ("usdvol-lint.toml", b"\xfe\xff\0j", "this is UTF-16 text, write the file as UTF-8"),
         (
             "usdvol-lint.toml",
             b"a" + b".a" * 100_000 + b" = 1\n",
@@ -254,3 +258,25 @@ options.volume-name.allowed = ["fog"]
     ran = run(".", cwd=tmp_path)
     said = "mist.usda:2:1: STU001 warning </mist> name 'mist', wanted fog\n"
     assert ran == Ran(1, said, "")
+
+
+def test_a_byte_order_mark_is_no_text(tool: Callable[..., Ran], tmp_path: Path) -> None:
+    (tmp_path / "usdvol-lint.toml").write_text("jobs = 3\n", encoding="utf-8-sig")
+    assert "jobs = 3 " in tool("--show-settings").out
+
+
+@pytest.mark.parametrize("option", [
+    each.opts[0] for each in cli.command.params
+    if isinstance(each, click.Option) and not each.is_flag
+    and isinstance(each.type, click.Path | click.types.StringParamType)
+])  # fmt: skip
+def test_no_option_has_an_empty_value(
+    option: str, tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    """A variable of a script that is not set switches nothing off."""
+    write(tmp_path, smoke=volume("smoke"))
+    said = f"{option} has an empty value: if a script brings it, its variable is not set; "
+    for value in ("", " "):
+        ran = tool("--isolated", f"{option}={value}", "smoke.usda")
+        assert (ran.code, ran.out) == (2, "")
+        assert ran.err.startswith(f"usdvol-lint: error: {said}")

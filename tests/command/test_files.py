@@ -98,12 +98,20 @@ def test_mistakes_in_a_configuration(
     assert tool("--show-settings") == Ran(2, "", f"usdvol-lint: error: {file}: {said}\n")
 
 
+def test_a_search_path_in_a_configuration_is_there(tree: Path, tool: Callable[..., Ran]) -> None:
+    file = tree / "usdvol-lint.toml"
+    file.write_text("search-path = ['shots', 'nope']", encoding="utf-8")
+    said = f"{file}: search-path: there is no folder {str(tree / 'nope')!r}"
+    assert tool("--show-settings") == Ran(2, "", f"usdvol-lint: error: {said}\n")
+
+
 def test_settings_are_relative_to_their_file(tree: Path, tool: Callable[..., Ran]) -> None:
     text = (
         'exclude = ["old/"]\nframes = "1001-1100"\nsearch-path = ["lib"]\n'
         'assume-present = ["/mnt/**"]\npath-map = { "P:/" = "share" }\n'
     )
     (tree / "usdvol-lint.toml").write_text(text, encoding="utf-8")
+    (tree / "lib").mkdir()
     shown = settings(
         tool(
             "--show-settings",

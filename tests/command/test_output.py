@@ -271,3 +271,17 @@ def test_a_stage_of_a_commit_is_no_option(two: Path) -> None:
     env = environment(PRE_COMMIT="1")
     ran = run(*ONLY_STUDIO, "--output-format", "concise", "--quiet=fog.usda", cwd=two, env=env)
     assert ran.out.startswith("--quiet=fog.usda:2:1: STU001")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["--explain", "AST002"], ["--list-rules"], ["--test", "."], ["--show-settings"],
+     ["--show-files", "."]],
+)  # fmt: skip
+def test_what_is_no_report_has_no_file(
+    arguments: list[str], tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    ran = tool(*arguments, "--output", "report.txt")
+    said = f"--output is for reports, and {arguments[0]} writes none: leave it out, and redirect "
+    assert (ran.code, ran.out, said in ran.err) == (2, "", True)
+    assert not (tmp_path / "report.txt").exists()

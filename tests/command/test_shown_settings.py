@@ -132,6 +132,22 @@ def test_comments_say_where_each_is_said(tool: Callable[..., Ran], tmp_path: Pat
     } <= set(lines)
 
 
+def test_comments_say_what_patterns_are_relative_to(
+    tool: Callable[..., Ran], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A pattern that is pasted elsewhere means something else, so its folder is named."""
+    text = "exclude = ['old/', '*.tmp.usda']\nstages = ['shot.usda']\n"
+    (tmp_path / "usdvol-lint.toml").write_text(text, encoding="utf-8")
+    (tmp_path / "inside").mkdir()
+    monkeypatch.chdir(tmp_path / "inside")
+    lines = tool("--show-settings", "--exclude", "gone/").out.splitlines()
+    assert [line for line in lines if ": relative to " in line] == [
+        f'# "old/", "*.tmp.usda" of exclude: relative to {tmp_path}',
+        f'# "gone/" of exclude: relative to {tmp_path / "inside"}',
+        f'# "shot.usda" of stages: relative to {tmp_path}',
+    ]
+
+
 TEXTS = st.text(st.characters(exclude_categories=["Cs"]))
 FILLED = TEXTS.filter(str.strip)
 SCALARS = TEXTS | st.booleans() | st.integers() | st.floats() | st.lists(TEXTS)

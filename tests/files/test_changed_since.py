@@ -126,8 +126,25 @@ def test_a_clone_without_the_history(repository: Path, tmp_path: Path) -> None:
 
 
 def test_no_repository(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="the arguments lie in no git repository"):
+    with pytest.raises(UsageError, match=r"since: '.*' lies in no git repository"):
         changed(tmp_path)
+
+
+def test_arguments_that_no_repository_holds(repository: Path, tmp_path: Path) -> None:
+    """The one that is outside is named, or two that are apart."""
+
+    def said(*names: str) -> str:
+        with pytest.raises(UsageError) as caught:
+            changes_since("main", [str(tmp_path / name) for name in names], [])
+        return str(caught.value).replace(f"{tmp_path}{os.sep}", "")
+
+    outside = "--changed-since: 'out' lies in no git repository"
+    assert said("repository", "repository/sub.usda", "out") == outside
+    other = tmp_path / "other"
+    other.mkdir()
+    git(other, "init", "--quiet")
+    apart = "'repository' and 'other' lie in two git repositories: check each in a run of its own"
+    assert said("repository", "other", "out") == f"--changed-since: {apart}"
 
 
 def test_settings_concern_every_stage(repository: Path) -> None:
@@ -168,3 +185,43 @@ def test_stages_that_use_what_changed(repository: Path) -> None:
     (repository / "usdvol-lint.toml").touch()
     ran = run("--select", "STG003", "--changed-since", "main", ".", cwd=repository)
     assert "no findings in 4 stages; " in ran.out
+
+
+def test_every_file_that_settings_come_from(repository: Path) -> None:
+    """What is extended, what is no longer there, and what has no table any more."""
+    (repository / "studio").mkdir()
+    (repository / "inside").mkdir()
+    texts = {
+        "usdvol-lint.toml": "extend = 'studio/base.toml'\n",
+        "studio/base.toml": "extend = 'more.toml'\n",
+        "studio/more.toml": "",
+        "inside/usdvol-lint.toml": "",
+        "pyproject.toml": "",
+    }
+    for name, text in texts.items():
+        (repository / name).write_text(text, encoding="utf-8")
+    git(repository, "add", "--all")
+    git(repository, "commit", "--quiet", "--message", "two")
+
+    def is_every_stage(*options: str, folder: str = ".") -> bool:
+        options = ("--changed-since", "HEAD", "--show-files", *options)
+        ran = run(*options, str(repository), cwd=repository / folder)
+        assert ran.code == 0
+        assert bool(ran.out) != ("nothing changed" in ran.err)
+        return not ran.err
+
+    assert not is_every_stage()
+    (repository / "pyproject.toml").write_text("# more\n", encoding="utf-8")
+    (repository / "notes.txt").touch()
+    assert not is_every_stage()
+    (repository / "usdvol-lint.toml").unlink()
+    assert is_every_stage()
+    assert not is_every_stage(folder="inside")
+    assert not is_every_stage("--isolated")
+    git(repository, "checkout", "--quiet", "usdvol-lint.toml")
+    (repository / "studio" / "more.toml").write_text("jobs = 1\n", encoding="utf-8")
+    assert is_every_stage()
+    git(repository, "checkout", "--quiet", ".")
+    (repository / "inside" / "usdvol-lint.toml").unlink()
+    assert is_every_stage(folder="inside")
+    assert not is_every_stage()

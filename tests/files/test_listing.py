@@ -12,6 +12,7 @@ from usdvol_lint.config import Glob
 from usdvol_lint.files import Listed
 from usdvol_lint.files.listing import list_stages
 from usdvol_lint.model import UsageError
+from usdvol_lint.words import quoted
 
 LINKS = pytest.mark.skipif(os.name == "nt", reason="needs symbolic links")
 
@@ -169,3 +170,14 @@ def test_wholes_and_parts() -> None:
     said = refused("assets", stages=stages)
     assert said.startswith("no stage of this run matches 'stages' ('shots/**/shot.usda'), ")
     assert refused("assets/*.usda", stages=stages) == said
+
+
+@pytest.mark.parametrize("pattern", ["shots/", "shot.usda"])
+def test_wholes_that_are_excluded(pattern: str) -> None:
+    touch("shots/a/shot.usda", "assets/b.usda")
+    said = refused(".", exclude=[pattern], stages=["shots/**/shot.usda"])
+    whole = quoted(os.path.join(".", "shots", "a", "shot.usda"))
+    assert said.startswith(
+        "'exclude' leaves out every stage that matches 'stages' ('shots/**/shot.usda'), such as "
+        f"{whole}: correct one of them, "
+    )

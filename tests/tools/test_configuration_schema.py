@@ -89,6 +89,9 @@ def test_what_the_tool_refuses_is_not(text: str) -> None:
     "text",
     [
         "select = ['AST', 'asset', 'AST00', 'file-missing', 'ALL', 'XYZ123', 'house', 'all', 'as']",
+        "ignore = ['GRID', 'Asset', 'House2', 'FILE-missing', 'Ast002', 'All']",
+        "severity = { Asset = 'info', GRID = 'error' }",
+        "suppress = [{ rules = 'Grid', reason = 'x' }]",
         "severity = { XYZ = 'info', volume-name = 'error', degenerate = 'info' }",
         "options.volume-name.allowed = ['fog']",
         "options.XYZ001.allowed = { a = 1 }",

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from usdvol_lint.command.settings import check_filled, read_settings
 from usdvol_lint.config import Config
+from usdvol_lint.config.files import nearer_files
 from usdvol_lint.files import Changes, Listing
 from usdvol_lint.paths import named
 from usdvol_lint.words import printable, quoted
@@ -14,6 +16,7 @@ from usdvol_lint.words import printable, quoted
 
 def arguments(paths: tuple[str, ...], given: dict[str, Any]) -> tuple[str, ...]:
     """The arguments, and the paths in the list that `--files-from` names."""
+    check_filled(given)
     if given["files_from"] is None:
         return paths
     from usdvol_lint.files.lists import read_list
@@ -30,13 +33,18 @@ def changes(
         return None
     from usdvol_lint.files.changes import changes_since
 
-    settings = (config.baseline, file and str(file), *config.packs)
+    settings = (config.baseline, *config.origins.files, *config.packs, *_nearer(given, file))
     return changes_since(revision, paths, [path for path in settings if path])
+
+
+def _nearer(given: dict[str, Any], file: Path | None) -> Iterator[str]:
+    """The files that would be the configuration instead: one that is gone, or has no table now."""
+    if given["config_file"] is None and not given["isolated"]:
+        yield from map(str, nearer_files(Path.cwd(), file))
 
 
 def shown(paths: tuple[str, ...], given: dict[str, Any]) -> tuple[Iterator[str], str]:
     """The lines of `--show-files`, and what to say beside them."""
-    from usdvol_lint.command.settings import read_settings
     from usdvol_lint.files.listing import list_stages
 
     config, file = read_settings(given)

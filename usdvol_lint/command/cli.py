@@ -146,6 +146,10 @@ def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> 
     patterns such as "shots/**/*.usda".
     """
     given["outputs"] = context.meta[OUTPUTS]
+    if given["output"]:
+        from usdvol_lint.command.output import check_report
+
+        check_report(given)
     if given["explain"] is not None:
         return _explain(given)
     if given["list_rules"]:
@@ -241,8 +245,10 @@ def _list_rules(given: dict[str, Any]) -> int:
 
 def _test(given: dict[str, Any]) -> int:
     from usdvol_lint.command import output
+    from usdvol_lint.command.settings import check_filled
     from usdvol_lint.run import testing
 
+    check_filled(given)
     failures, verdict = testing.check_pack(given["test"], given["pack"])
     output.print_text(f"{line}\n" for line in (*failures, verdict))
     return FINDINGS if failures else CLEAN

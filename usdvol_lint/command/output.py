@@ -10,6 +10,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
+import click
+
 from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_file
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
@@ -23,7 +25,7 @@ FORMAT, FILE = "--output-format", "--output"
 TEXTS = frozenset({"full", "concise"})
 MACHINE_FORMATS = frozenset(FORMATS) - TEXTS
 
-
+_NO_REPORTS = ("explain", "list_rules", "test", "show_settings", "show_files")
 _INPUTS = (*SUFFIXES, ".vdb", ".nvdb", ".f3d", ".toml", ".py")
 """What stages, volume files, configurations and rules end with: a slip must not destroy one."""
 
@@ -127,6 +129,14 @@ def _times(number: int) -> str:
     return {0: "never", 1: "once", 2: "twice"}.get(number, f"{number} times")
 
 
+def check_report(given: dict[str, Any]) -> None:
+    """Raises UsageError where `--output` is to take what is no report."""
+    for name in _NO_REPORTS:
+        if given[name] not in (None, False):
+            said = f"--output is for reports, and --{name.replace('_', '-')} writes none"
+            raise click.UsageError(f"{said}: leave it out, and redirect what is printed")
+
+
 def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | None]) -> None:
     """Raises UsageError, before any work, where a file can't be written, or is an input."""
     read = {canonical(each) for each in inputs if each}
@@ -134,9 +144,6 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
         if destination.file is None or destination.is_added:
             continue
         file = Path(destination.file)
-        if canonical(destination.file) in read:
-            said = "the run reads this file: name another one"
-            raise UsageError(f"--output {destination.file}: {said}")
         if destination.file.lower().endswith(_INPUTS):
             raise UsageError(
                 f"--output {destination.file}: a report is not written to a file that is called "
@@ -144,6 +151,9 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
             )
         if os.path.isdir(file):
             raise UsageError(f"--output {destination.file}: this is a folder, name a file")
+        if canonical(destination.file) in read:
+            said = "the run reads this file: name another one"
+            raise UsageError(f"--output {destination.file}: {said}")
         if not os.path.isdir(file.parent):
             raise UsageError(f"--output {destination.file}: there is no folder {file.parent}")
         if not os.access(file if _is_device(file) else file.parent, os.W_OK):

@@ -30,6 +30,7 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
     False or empty.
     Raises UsageError and click.UsageError for what the user has to change.
     """
+    check_filled(given)
     file = _config_file(given["config_file"], given["isolated"])
     base = read_config(file) if file else Config()
     settings = laid_over(base, dict(_values(given)), _option)
@@ -100,15 +101,8 @@ def _config_file(named: str | None, isolated: bool) -> Path | None:
     if named is not None and isolated:
         raise click.UsageError("--config and --isolated exclude each other")
     if named is not None:
-        _check_filled("--config", named)
         return Path(named)
     return None if isolated else find_config_file(here)
-
-
-def _packs(given: tuple[str, ...]) -> tuple[str, ...]:
-    for folder in given:
-        _check_filled("--pack", folder)
-    return given
 
 
 def _excluded(patterns: tuple[str, ...]) -> tuple[Glob, ...]:
@@ -129,11 +123,20 @@ def _codes(option: str, given: tuple[str, ...]) -> tuple[str, ...]:
 
 def _parts(option: str, given: str) -> list[str]:
     parts = [part.strip() for part in given.split(",")]
-    _check_filled(option, "".join(parts))
+    _check_value(option, "".join(parts))
     return list(filter(None, parts))
 
 
-def _check_filled(option: str, value: str) -> None:
+def check_filled(given: dict[str, Any]) -> None:
+    """Raises UsageError for an option with an empty value, which would ask for something else."""
+    for name, value in given.items():
+        option = "--config" if name == "config_file" else f"--{name.replace('_', '-')}"
+        for each in value if isinstance(value, tuple) else (value,):
+            if isinstance(each, str):
+                _check_value(option, each)
+
+
+def _check_value(option: str, value: str) -> None:
     """Raises UsageError for a value that is empty, as that of a variable of a script may be."""
     if not value.strip():
         raise UsageError(
@@ -154,7 +157,7 @@ def _severities(given: tuple[str, ...]) -> dict[str, str]:
 
 
 _ADDING: tuple[tuple[str, str, Callable[[tuple[str, ...]], Any]], ...] = (
-    ("packs", "pack", _packs),
+    ("packs", "pack", tuple),
     ("show", "show", _shown),
     ("exclude", "exclude", _excluded),
     ("search-path", "search_path", partial(_folders, "--search-path")),

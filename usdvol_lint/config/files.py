@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from os.path import isfile, join, realpath
+from os.path import isdir, isfile, join, realpath
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint.config import Config, Glob
@@ -22,6 +22,8 @@ EXTEND = "extend"
 _MOST_BYTES = 4 << 20
 _MOST_DOTS = 10_000
 """What a file may have at most: keys of very many parts keep the parser for hours."""
+_OF_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+"""What a file of UTF-16 begins with."""
 PATHS = frozenset({"packs", "root", "baseline", "search-path"})
 """The keys with paths in relation to the file."""
 
@@ -41,6 +43,15 @@ def find_config_file(start: Path) -> Path | None:
         if isfile(project) and _own_table(project) is not None:
             return project
     return None
+
+
+def nearer_files(start: Path, found: Path | None) -> Iterator[Path]:
+    """Where a configuration file would be found before the one that was; anywhere, if none was."""
+    for folder in (start, *start.parents):
+        for file in (folder / FILE_NAME, folder / _PROJECT):
+            if file == found:
+                return
+            yield file
 
 
 def read_config(path: Path) -> Config:
@@ -93,7 +104,11 @@ def _read_values(path: Path, where: str) -> dict[str, Any]:
 def _value(path: Path, key: str, value: Any) -> Any:
     if key not in CHECKS:
         raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
-    return _anchored(key, CHECKS[key](_in(path)(key), value), path.parent)
+    anchored = _anchored(key, CHECKS[key](_in(path)(key), value), path.parent)
+    for folder in anchored if key == "search-path" else ():
+        if not isdir(folder):
+            raise UsageError(f"{path}: {key}: there is no folder {quoted(folder)}")
+    return anchored
 
 
 def _in(file: Path) -> Callable[[str], str]:
@@ -133,7 +148,9 @@ def _read_toml(path: Path) -> dict[str, Any]:
         if len(text) > _MOST_BYTES or most_dots > _MOST_DOTS:
             most = f"{_MOST_BYTES:,} bytes, or {_MOST_DOTS:,} dots in a line"
             raise UsageError(f"{path}: no configuration has more than {most}")
-        return tomllib.loads(text.decode("utf-8"))
+        if text.startswith(_OF_UTF_16):
+            raise UsageError(f"{path}: this is UTF-16 text, write the file as UTF-8")
+        return tomllib.loads(text.decode("utf-8-sig"))  # as editors on Windows write it
     except RecursionError as error:
         raise UsageError(f"{path}: has too many brackets in one another") from error
     except tomllib.TOMLDecodeError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import groupby
 from typing import Any
 
 from usdvol_lint.config import Config
@@ -14,18 +15,21 @@ from usdvol_lint.model import UsageError
 from usdvol_lint.words import format_time, printable
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
+_GLOBS = frozenset({"exclude", "stages"})
 _LONE = range(0xD800, 0xE000)
 
 
 def as_toml(config: Config) -> Iterator[str]:
     """The lines of a usdvol-lint.toml with these settings, wherever it lies.
 
-    Each setting names where it is said, in a comment.
+    Each setting names where it is said, in a comment, and patterns of stages their folder: that is
+    where a file with them has to lie.
     """
     values = {key: _value(config, key) for key in CHECKS if key != EXTEND}
     of_tables = {key for key, value in values.items() if value and _is_of_tables(value)}
     for key, value in values.items():
         if key not in of_tables:
+            yield from _folders(config, key)
             yield from _setting(config, key, value)
     for key in filter(of_tables.__contains__, values):
         if isinstance(values[key], Mapping):
@@ -37,11 +41,11 @@ def as_toml(config: Config) -> Iterator[str]:
 def _value(config: Config, key: str) -> Any:
     """The value of a setting as a file says it, with absolute paths, which mean the same in each.
 
-    A pattern stays relative to the folder of the file that it comes from.
+    A pattern stays as it is, for none can be written that is absolute.
     """
     value = getattr(config, key.replace("-", "_"))
     match key:
-        case "exclude" | "stages":
+        case _ if key in _GLOBS:
             return tuple(glob.pattern for glob in value)
         case "frames":
             return value and "-".join(map(format_time, value))
@@ -66,6 +70,14 @@ def _setting(config: Config, key: str, value: Any) -> Iterator[str]:
     elif value or not isinstance(value, Mapping):
         entries = [item for item in value if isinstance(item, str)] if type(value) is tuple else []
         yield f"{key} = {_toml(key, value)}{_comment(config, key, entries or [''])}"
+
+
+def _folders(config: Config, key: str) -> Iterator[str]:
+    """Which folder each pattern of stages is relative to."""
+    globs = getattr(config, key) if key in _GLOBS else ()
+    for folder, group in groupby(globs, lambda glob: os.path.abspath(glob.folder)):
+        patterns = ", ".join(_toml(key, glob.pattern) for glob in group)
+        yield f"# {patterns} of {key}: relative to {printable(folder)}"
 
 
 def _table(config: Config, key: str, table: Mapping[str, Any]) -> Iterator[str]:

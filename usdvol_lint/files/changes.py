@@ -26,7 +26,7 @@ def changes_since(revision: str, arguments: Sequence[str], settings: Iterable[st
     # A revision never begins like an option, and behind `--verify` none is a file's name.
     if not revision or revision.startswith("-") or not revision.isprintable():
         raise UsageError(f"--changed-since: {quoted(revision)} is no revision")
-    git = _Git(_shared_folder(arguments))
+    git = _git_of(arguments)
     base = git.merge_base(revision)
     changed = frozenset(name for path in git.changed(base) for name in names_of(path))
     everything = any(is_among(path, changed) or _holds(path, changed) for path in settings)
@@ -36,6 +36,28 @@ def changes_since(revision: str, arguments: Sequence[str], settings: Iterable[st
 def _holds(folder: str, changed: frozenset[str]) -> bool:
     starts = tuple(f"{name}/" for name in names_of(folder))
     return any(each.startswith(starts) for each in changed)
+
+
+def _git_of(arguments: Sequence[str]) -> _Git:
+    """Git in the repository that holds all arguments."""
+    try:
+        return _Git(_shared_folder(arguments))
+    except _NoRepositoryError:
+        raise UsageError(f"--changed-since: {_why_none(arguments)}") from None
+
+
+def _why_none(arguments: Sequence[str]) -> str:
+    """Why no repository holds all arguments."""
+    tops: dict[str, str] = {}
+    for argument in arguments:
+        try:
+            tops.setdefault(_Git(_shared_folder([argument])).folder, argument)
+        except _NoRepositoryError:
+            return f"{quoted(argument)} lies in no git repository"
+        if len(tops) > 1:
+            one, other = map(quoted, tops.values())
+            return f"{one} and {other} lie in two git repositories: check each in a run of its own"
+    return "the arguments lie in no git repository"
 
 
 def _shared_folder(arguments: Sequence[str]) -> str:
@@ -49,17 +71,21 @@ def _shared_folder(arguments: Sequence[str]) -> str:
     return shared
 
 
+class _NoRepositoryError(Exception):
+    """A folder that belongs to no repository."""
+
+
 class _Git:
-    """Git in the repository that a folder belongs to."""
+    """Git in the repository that a folder belongs to, of which `folder` is then the top."""
 
     def __init__(self, folder: str) -> None:
-        self._folder = folder
+        self.folder = folder
         code, top, said = self._call("rev-parse", "--show-toplevel")
         if code:
-            is_none = b"not a git repository" in said or not said
-            why = "the arguments lie in no git repository" if is_none else _first_line(said)
-            raise UsageError(f"--changed-since: {why}")
-        self._folder = _path(top.removesuffix(b"\n"))
+            if b"not a git repository" in said or not said:
+                raise _NoRepositoryError
+            raise UsageError(f"--changed-since: {_first_line(said)}")
+        self.folder = _path(top.removesuffix(b"\n"))
 
     def merge_base(self, revision: str) -> str:
         """The last commit that HEAD and a revision have in common."""
@@ -86,11 +112,11 @@ class _Git:
         if code:
             raise UsageError(f"--changed-since: git {arguments[0]}: {_first_line(said)}")
         for name in filter(None, out.split(b"\0")):
-            yield os.path.join(self._folder, _path(name.rstrip(b"/")))
+            yield os.path.join(self.folder, _path(name.rstrip(b"/")))
 
     def _call(self, *arguments: str) -> tuple[int, bytes, bytes]:
         """The exit code, and what git wrote to standard output and standard error."""
-        command = ["git", "-C", self._folder, *arguments]
+        command = ["git", "-C", self.folder, *arguments]
         environment = {**os.environ, "LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}
         try:
             done = subprocess.run(

@@ -30,9 +30,7 @@ def list_stages(
     Raises UsageError where an argument leads to nothing, for all of them at once, and where a
     folder is searched and none of the wholes is there.
     """
-    arguments = _Arguments(Patterns(exclude))
-    for path in dict.fromkeys(paths):
-        arguments.add(path)
+    arguments = _Arguments(Patterns(exclude), paths)
     arguments.raise_for_wrong()
     found = _each_once(arguments.found)
     stages = tuple(each for each in found if not arguments.excluded.match(each))
@@ -44,12 +42,25 @@ def list_stages(
     meant = Patterns(wholes)
     listed = tuple(Listed(each, not meant.match(each)) for each in stages)
     if arguments.searched and all(each.is_part for each in listed):
-        named = ", ".join(quoted(glob.pattern) for glob in wholes)
-        raise UsageError(
-            f"no stage of this run matches 'stages' ({named}), relative to {wholes[0].folder}: "
-            "correct the pattern, or name the stages to check as parts one by one"
-        )
+        raise UsageError(_no_whole(arguments, wholes, meant))
     return Listing(listed)
+
+
+def _no_whole(arguments: _Arguments, wholes: Sequence[Glob], meant: Patterns) -> str:
+    """Why there is no whole: all are excluded, or the pattern is wrong."""
+    named = ", ".join(quoted(glob.pattern) for glob in wholes)
+    every = _each_once(_Arguments(Patterns(()), arguments.paths).found)
+    excluded = next(filter(meant.match, every), None)
+    if excluded is not None:
+        return (
+            f"'exclude' leaves out every stage that matches 'stages' ({named}), such as "
+            f"{quoted(excluded)}: correct one of them, or name the stages to check as parts one "
+            "by one"
+        )
+    return (
+        f"no stage of this run matches 'stages' ({named}), relative to {wholes[0].folder}: "
+        "correct the pattern, or name the stages to check as parts one by one"
+    )
 
 
 class _Arguments:
@@ -58,13 +69,16 @@ class _Arguments:
     `searched` says that one of them is a folder, or a pattern.
     """
 
-    def __init__(self, excluded: Patterns) -> None:
+    def __init__(self, excluded: Patterns, paths: Iterable[str]) -> None:
         self.excluded = excluded
+        self.paths = tuple(dict.fromkeys(paths))
         self.found: list[Found] = []
         self.searched = False
         self._wrong: list[str] = []
+        for path in self.paths:
+            self._add(path)
 
-    def add(self, path: str) -> None:
+    def _add(self, path: str) -> None:
         if not path:
             self._wrong.append("an argument is empty")
         elif os.path.isdir(path):
