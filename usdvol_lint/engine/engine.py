@@ -21,6 +21,7 @@ from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.folders import Folders
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
+from usdvol_lint.layertext.source import SharedTexts
 from usdvol_lint.model import Completion, Finding, StageReport, Status, in_order
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import named
@@ -68,6 +69,7 @@ class Engine:
         self._send = send
         self._is_alone = is_alone
         self._repository = repository
+        self._texts = SharedTexts()
         self._volume_files = VolumeFiles()
         self._folders = Folders()
         if self._depth.storage.search_path:
@@ -115,6 +117,7 @@ class Engine:
             self._is_alone,
             self._repository,
             path,
+            self._texts,
         )
         check = StageCheck(context, self._rules, self._active.options, self._assignment, stamp)
         walked = check.walk()

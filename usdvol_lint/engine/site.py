@@ -11,7 +11,7 @@ from usdvol_lint.engine.entries import Entries
 from usdvol_lint.engine.layer_names import real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.instances import shown
-from usdvol_lint.layertext.source import LayerTexts
+from usdvol_lint.layertext.source import LayerTexts, SharedTexts
 from usdvol_lint.model import Cover, Severity, Site, Source
 from usdvol_lint.rule import NotChecked, Problem
 
@@ -45,12 +45,18 @@ class Sites:
     """Finds the sites of problems; a text layer is read once, and only if a problem is in it.
 
     `stage` is the path of the stage as its user named it.
+    `texts` are those that other stages have read too.
     With a `repository`, sites in layers outside it say where the stage's own file brings these in.
     """
 
-    def __init__(self, repository: str | None = None, stage: str = "") -> None:
+    def __init__(
+        self,
+        repository: str | None = None,
+        stage: str = "",
+        texts: SharedTexts | None = None,
+    ) -> None:
         self._stage = stage
-        self._texts = LayerTexts()
+        self._texts = LayerTexts(texts)
         self._entries = Entries(repository, self._texts) if repository else None
         self._layers: dict[str, _Layer] = {}
         self._blaming = Blaming()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.parts import parts_of
 from usdvol_lint.engine.site import Located, Sites, cover_of
+from usdvol_lint.layertext.source import SharedTexts
 from usdvol_lint.model import Finding, Lack, Severity
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
@@ -37,7 +38,7 @@ class Stamp:
     `several_selections` says whether findings need an identity, because more than one variant
     selection is checked; `is_alone` whether no other stage may complete this one.
     `rules` are all there are, by code, and `asked` how suppressions in the stage are taken.
-    `repository` and `stage` are as for `Sites`.
+    `repository`, `stage` and `texts` are as for `Sites`.
     """
 
     def __init__(
@@ -49,8 +50,9 @@ class Stamp:
         is_alone: bool = False,
         repository: str | None = None,
         stage: str = "",
+        texts: SharedTexts | None = None,
     ) -> None:
-        self.sites = Sites(repository, stage)
+        self.sites = Sites(repository, stage, texts)
         self._active = active
         self._several_selections = several_selections
         self._rules = rules
