@@ -109,16 +109,7 @@ class Engine:
     ) -> StageReport:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
-        stamp = Stamp(
-            self._active,
-            depth.selections > 0,
-            self._known,
-            self._suppressions,
-            self._is_alone,
-            self._repository,
-            path,
-            self._texts,
-        )
+        stamp = self._stamp(path)
         check = StageCheck(context, self._rules, self._active.options, self._assignment, stamp)
         walked = check.walk()
         clock.lap("walk")
@@ -144,6 +135,18 @@ class Engine:
             clock.seconds,
             particle_fields,
             completes,
+        )
+
+    def _stamp(self, path: str) -> Stamp:
+        return Stamp(
+            self._active,
+            self._depth.selections > 0,
+            self._known,
+            self._suppressions,
+            self._is_alone,
+            self._repository,
+            path,
+            self._texts,
         )
 
     def _sent(self, found: Iterable[Stamped]) -> Iterator[Stamped]:
