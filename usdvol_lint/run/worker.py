@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from usdvol_lint.engine.engine import Engine
 
 
-_LONG = 0.05
-"""Seconds of a stage after which the time that looking for garbage takes does not count."""
-_MANY = 50_000
-"""So many objects of small stages together are as much as those of a large one."""
+_FEW = 10_000
+"""So many new objects are not worth looking for garbage."""
+_SHARE = 0.05
+"""How much of the time may be spent on looking for garbage."""
 
 
 def main() -> None:
@@ -55,14 +55,32 @@ def main() -> None:
     _send(replies, Ready(usd_version()))
     concerns = _concerned(setup)
     gc.freeze()  # what all stages share is never garbage
+    garbage = _Garbage()
     while path := _next(requests):
         is_checked = concerns is None or concerns(path)
-        began = time.perf_counter()
         answers.end(engine.lint(path) if is_checked else _unchanged(path))
-        if time.perf_counter() - began > _LONG or gc.get_count()[0] > _MANY:
-            gc.collect()
+        garbage.collect()
     # The process has nothing to save: tearing down a large stage would only cost time.
     os._exit(0)
+
+
+class _Garbage:
+    """Looks for reference cycles once in a while, though stages should leave none.
+
+    To look takes the longer the more is kept for the next stages.
+    """
+
+    def __init__(self) -> None:
+        self._ended = time.perf_counter()
+        self._took = 0.0
+
+    def collect(self) -> None:
+        began = time.perf_counter()
+        if gc.get_count()[0] < _FEW or _SHARE * (began - self._ended) < self._took:
+            return
+        gc.collect()
+        self._ended = time.perf_counter()
+        self._took = self._ended - began
 
 
 def _engine(rules: Mapping[str, Rule], setup: Setup, answers: _Answers) -> Engine:
