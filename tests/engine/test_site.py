@@ -121,9 +121,10 @@ def test_the_strongest_opinion_counts(locate: Locate) -> None:
 
 def test_targets_are_an_opinion_and_a_bare_relationship_is_none(locate: Locate) -> None:
     layers = {
-        "stage.usda": "(\n    subLayers = [@./weak.usda@]\n)\n"
+        "stage.usda": "(\n    subLayers = [@./weak.usda@, @./weakest.usda@]\n)\n"
         'over "cloud"\n{\n    rel field:density\n}\n',
         "weak.usda": 'def Volume "cloud"\n{\n    rel field:density = </gone>\n}\n',
+        "weakest.usda": 'over "cloud"\n{\n    rel field:density\n}\n',
     }
     found = locate("/cloud.field:density", layers).site
     assert (found.layer, found.line) == ("weak.usda", 4)

@@ -6,7 +6,6 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import inf, nextafter
 from typing import Any, NamedTuple
 
 from pxr import Usd
@@ -106,9 +105,7 @@ def read_values(attribute: Any) -> Iterator[Value]:
         return
     get = Usd.AttributeQuery(attribute).Get  # resolves the attribute once, not at every time
     for time in times:
-        value = get(time)
-        # Where a layer's scale rounds the time down, USD gives the sample before.
-        yield Value(time, get(nextafter(time, inf)) if value is None else value)
+        yield Value(time, get(time))
 
 
 def sample_times(attribute: Any) -> list[float]:
