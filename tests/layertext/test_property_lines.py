@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 from marks import ASSETS, PROPERTIES, SAMPLES, find, in_prim, marked, with_mark
 
+from usdvol_lint.layertext.lines import TextLayer
+
 SAMPLE_QUERIES: list[tuple[int, str, dict[str, Any]]] = [
     (0, "p", {}),
     (2, "p", {"time": 1}),
@@ -73,3 +75,24 @@ def test_time_samples(place: int, name: str, what: dict[str, Any]) -> None:
 def test_assets(place: int, path: str, asset: str) -> None:
     text, expected = with_mark(ASSETS, place)
     assert find(text, path, asset=asset) == expected
+
+
+@pytest.mark.parametrize(
+    ("declaration", "below"),
+    [
+        ('    token a = "x"', '"x"'),
+        ("    token[] a = [\n", "["),
+        ('    token /* of\n two lines */ a = "x"', "token /* of"),
+        ("    token a (\n        doc = 'd'\n    )", "token a ("),
+    ],
+)
+def test_the_mark_is_below_the_value_or_else_below_the_statement(
+    declaration: str, below: str
+) -> None:
+    """Never in another line than the one that is shown."""
+    text = TextLayer(f'#usda 1.0\ndef "p"\n{{\n{declaration}\n}}\n'.encode())
+    position = text.find("/p.a")
+    assert position
+    assert position.excerpt
+    words, column = position.excerpt
+    assert (position.line, words[column - 1 :]) == (4, below)

@@ -2,99 +2,16 @@
 
 from __future__ import annotations
 
-import math
 import re
-from array import array
-from bisect import bisect_left
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import islice
-from operator import le
-from typing import NamedTuple
 
 from usdvol_lint.layertext.excerpts import excerpt
+from usdvol_lint.layertext.outline import Outline
+from usdvol_lint.layertext.statements import KEY, Property, asset_offsets, end_of, statements
 from usdvol_lint.model import Excerpt
 
-# The lexical elements in which brackets and separators have no meaning.  None of them can fail to
-# match once it has begun (the closing mark is optional) and none backtracks, so that the time is
-# linear for any text.
-_BLOCK_COMMENT = rb"/\*[^*]*+(?:\*(?!/)[^*]*+)*+(?:\*/)?+"
-_COMMENTS = (rb"#[^\n]*+", rb"//[^\n]*+", _BLOCK_COMMENT)
-STRINGS = (
-    rb'"""[^"\\]*+(?:(?:\\[\s\S]|"(?!""))[^"\\]*+)*+(?:""")?+',
-    rb"'''[^'\\]*+(?:(?:\\[\s\S]|'(?!''))[^'\\]*+)*+(?:''')?+",
-    rb'"[^"\\\r\n]*+(?:\\[^\r\n][^"\\\r\n]*+)*+"?+',
-    rb"'[^'\\\r\n]*+(?:\\[^\r\n][^'\\\r\n]*+)*+'?+",
-)
-_ASSETS = (
-    rb"@@@[^@\\\r\n]*+(?:(?:\\@@@|\\|@(?!@@))[^@\\\r\n]*+)*+(?:@{3,5})?+",
-    rb"@[^@\r\n]*+@?+",
-)
-_PATHS = (rb"<[^<>\r\n]*+>?+",)
-OPAQUE = (*STRINGS, *_ASSETS, *_COMMENTS, *_PATHS)
-
-
-def _either(*patterns: bytes) -> bytes:
-    return b"(?:" + b"|".join(patterns) + b")"
-
-
-_STRING = _either(*STRINGS)
-SPACE = _either(rb"[ \t]++", _BLOCK_COMMENT)
-_PADDING = _either(rb"[\s;]++", *_COMMENTS) + b"*+"
-_NAMED = SPACE + rb"++(?:[^\s\"'(){}=;,/]++" + SPACE + b"++)?+" + _STRING
-_BRACE_VALUE = b"=" + SPACE + rb"*+\{"
-
-
-def _tokens(*marked: bytes, plain: Iterable[bytes] = ()) -> re.Pattern[bytes]:
-    """A pattern to search with; `lastindex` of a match is which of `marked` it is, from 1.
-
-    The alternatives have to begin with a literal, so that `re` skips the bytes between two tokens
-    by table look-up: hence their (empty) groups at the end.
-    """
-    return re.compile(b"|".join([*(pattern + b"()" for pattern in marked), *plain]))
-
-
-_OPEN, _CLOSE, _OPEN_VALUE, _OPEN_VARIANT_SET, _PRIM, _, _, _TEXT = range(1, 9)
-_STRUCTURE = _tokens(
-    rb"\{",
-    rb"\}",
-    _BRACE_VALUE,
-    b"variantSet" + SPACE + b"++" + _STRING + SPACE + b"*+" + _BRACE_VALUE,
-    b"def" + _NAMED,
-    b"over" + _NAMED,
-    b"class" + _NAMED,
-    *STRINGS,
-    plain=(*_ASSETS, *_COMMENTS, *_PATHS),
-)
-_HEADER = re.compile(
-    rb"(?:(?:def|over|class|variantSet)" + _NAMED.replace(_STRING, b"") + b")?+(" + _STRING + b")"
-)
-_BRACKETS = {
-    opener: _tokens(rb"\%c" % opener, rb"\%c" % closer, plain=OPAQUE)
-    for opener, closer in (b"()", b"[]", b"{}")
-}
-_STATEMENT = re.compile(_PADDING + rb"((?:[^=(;\r\n{}#/\"'@<]++|" + _BLOCK_COMMENT + rb")*+)")
-_BREAK = _tokens(
-    *(rb"\(", rb"\[", rb"\{"),
-    *OPAQUE,
-    plain=(rb"\)", rb"\]", rb"\}", b";", b"\n", b"\r"),
-)
-_COMMENT = re.compile(_BLOCK_COMMENT)
-_ASSET = _tokens(*_ASSETS, *_PATHS, plain=(*STRINGS, *_COMMENTS))
-_SAMPLES = re.compile(_BRACE_VALUE + _PADDING)
-_ARRAY = rb"\[" + _either(rb"[^\]\"'@#/<]++", *OPAQUE) + b"*+"
-_SAMPLE = re.compile(
-    rb"([-.0-9i](?<![\w.].)(?:[0-9.]++|i?+nf)?+(?:[eE][-+]?+[0-9]++)?+)"
-    + SPACE
-    + b"*+:"
-    + _either(rb"[^,\"'@#/<\[]++", _ARRAY, *OPAQUE)
-    + b"*+,?+"
-    + _PADDING
-)
 _ELEMENT = re.compile(r"\{[^{}]*\}|[^/{}]+")
-_EQUALS = re.compile(rb"[ \t]*=[ \t]*(?=[^\s])")
-_KEY = re.compile(rb"[^:\r\n]*:[ \t]*(?=[^\s])")
 _BLOCK_SIZE = 1 << 12
 
 
@@ -105,20 +22,6 @@ class Position:
     line: int
     column: int
     excerpt: Excerpt | None = field(default=None, compare=False)
-
-
-class _Span(NamedTuple):
-    start: int
-    stop: int
-
-
-class _Statement(NamedTuple):
-    """One statement about a property; `value` is the offset at which the declaration ends."""
-
-    span: _Span
-    value: int
-    name: str
-    suffix: str
 
 
 class TextLayer:
@@ -145,14 +48,14 @@ class TextLayer:
         if spec is None:
             return None
         offset = spec.start
-        mark = spec.value if isinstance(spec, _Property) else None
+        mark = spec.value if isinstance(spec, Property) else None
         sample = None
-        if time is not None and isinstance(spec, _Property) and spec.samples:
+        if time is not None and isinstance(spec, Property) and spec.samples:
             sample = spec.sample(time)
             offset = (sample or spec.samples.span).start
-            mark = _end_of(_KEY, self._data, sample.start) if sample else None
+            mark = end_of(KEY, self._data, sample.start) if sample else None
         if asset is not None:
-            assets = _assets(self._data, [sample]) if sample else spec.assets
+            assets = asset_offsets(self._data, [sample]) if sample else spec.assets
             if asset in assets:
                 offset = mark = assets[asset]
         return self._position(offset, mark)
@@ -162,7 +65,7 @@ class TextLayer:
         spec = self._spec(path)
         return self._data[spec.start : spec.body - 1] if isinstance(spec, _Scope) else b""
 
-    def _spec(self, path: str) -> _Scope | _Property | None:
+    def _spec(self, path: str) -> _Scope | Property | None:
         path = path.partition("[")[0]
         enclosing, _, name = path.rpartition(".")
         if not enclosing or "}" in name:  # the point is one in the name of a variant
@@ -190,8 +93,8 @@ class TextLayer:
         return self._scopes[number]
 
     @cached_property
-    def _outline(self) -> _Outline:
-        return _Outline(self._data)
+    def _outline(self) -> Outline:
+        return Outline(self._data)
 
     def _position(self, offset: int, mark: int | None) -> Position:
         """The position of an offset; `mark` is where its value begins, if that is in its line."""
@@ -204,157 +107,15 @@ class TextLayer:
         line_start = self._data.rfind(b"\n", 0, offset) + 1
         text = self._data[line_start:offset].decode("utf-8", "replace")
         column = len(text.removeprefix("\ufeff")) + 1
-        return Position(line + 1, column, excerpt(self._data, line_start, mark or offset))
-
-
-class _Outline:
-    """The offsets of the prims, variant sets and variants of a text: scopes, numbered in order.
-
-    Scope 0 is the layer.  `start` and `stop` enclose a scope, `body` is after its `{`.
-    The offsets are in arrays and names are read on demand, so that the outline of a layer of a
-    million prims stays small.
-    """
-
-    def __init__(self, data: bytes) -> None:
-        self.data = data
-        self.start = array("q", [0])
-        self.body = array("q", [0])
-        self.stop = array("q", [len(data)])
-        self.after = array("q", [0])
-        """The number of the first scope that follows and is not inside."""
-        self._read()
-
-    def _read(self) -> None:
-        open_scopes = [0]
-        in_variant_set = False
-        header: int | None = None
-        open_values = 0
-        for token in _STRUCTURE.finditer(self.data):
-            kind = token.lastindex
-            if kind is None:
-                continue
-            if kind >= _TEXT:
-                if in_variant_set and header is None and not open_values:
-                    header = token.start()
-            elif kind >= _PRIM:
-                header = token.start()
-            elif kind == _CLOSE:
-                if open_values:
-                    open_values -= 1
-                elif len(open_scopes) > 1:
-                    self._close(open_scopes.pop(), token.end())
-                    in_variant_set = self.is_variant_set(open_scopes[-1])
-                    header = None
-            elif kind == _OPEN_VARIANT_SET:
-                open_scopes.append(self._open(token.start(), token.end()))
-                in_variant_set = True
-                header = None
-            elif kind == _OPEN and header is not None:
-                open_scopes.append(self._open(header, token.end()))
-                in_variant_set = False
-                header = None
-            else:
-                open_values += 1
-        for number in open_scopes:
-            self._close(number, len(self.data))
-
-    def _open(self, start: int, body: int) -> int:
-        number = len(self.start)
-        self.start.append(start)
-        self.body.append(body)
-        self.stop.append(body)
-        self.after.append(number + 1)
-        return number
-
-    def _close(self, number: int, stop: int) -> None:
-        self.stop[number] = stop
-        self.after[number] = len(self.start)
-
-    def is_variant_set(self, number: int) -> bool:
-        return number > 0 and self.data[self.start[number]] == ord("v")
-
-    def name(self, number: int) -> str:
-        header = _HEADER.match(self.data, self.start[number])
-        literal = header[1] if header else b""
-        return unquoted(literal)
-
-    def inside(self, number: int) -> Iterator[int]:
-        """The numbers of the scopes directly inside a scope."""
-        inner = number + 1
-        while inner < self.after[number]:
-            yield inner
-            inner = self.after[inner]
-
-    def own(self, number: int, start: int) -> Iterator[_Span]:
-        """The spans of a scope from `start` on that are outside of the scopes inside it."""
-        for inner in self.inside(number):
-            yield _Span(start, self.start[inner])
-            start = self.stop[inner]
-        yield _Span(start, self.stop[number])
-
-
-class _Property:
-    """The statements about one property in one scope."""
-
-    def __init__(self, data: bytes) -> None:
-        self._data = data
-        self._spans: list[_Span] = []
-        self.value: int | None = None
-        """Where the value of the first one begins, if that is in the line of the declaration."""
-        self.samples: _Statement | None = None
-
-    def add(self, statement: _Statement) -> None:
-        if not self._spans:
-            self.value = _end_of(_EQUALS, self._data, statement.value)
-        self._spans.append(statement.span)
-        if statement.suffix == "timeSamples":
-            self.samples = statement
-
-    @property
-    def start(self) -> int:
-        return self._spans[0].start
-
-    @cached_property
-    def assets(self) -> dict[str, int]:
-        return _assets(self._data, self._spans)
-
-    def sample(self, time: float) -> _Span | None:
-        """The span of the time sample with that key, within rounding; None if there is none."""
-        times, offsets = self._keys
-        at = bisect_left(times, time)
-        for i in sorted(
-            range(max(at - 1, 0), min(at + 1, len(times))), key=lambda i: abs(times[i] - time)
-        ):
-            if math.isclose(times[i], time, rel_tol=1e-6):
-                token = _SAMPLE.match(self._data, offsets[i])
-                return _Span(*token.span()) if token else None
-        return None
-
-    @cached_property
-    def _keys(self) -> tuple[array[float], array[int]]:
-        """The keys of the time samples, ascending, and their offsets."""
-        times: array[float] = array("d")
-        offsets: array[int] = array("q")
-        opening = self.samples and _SAMPLES.match(self._data, self.samples.value)
-        if not self.samples or not opening:
-            return times, offsets
-        for token in _SAMPLE.finditer(self._data, opening.end(), self.samples.span.stop):
-            try:
-                times.append(float(token[1]))
-            except ValueError:
-                continue
-            offsets.append(token.start())
-        if not all(map(le, times, islice(times, 1, None))):
-            order = sorted(range(len(times)), key=times.__getitem__)
-            times = array("d", [times[i] for i in order])
-            offsets = array("q", [offsets[i] for i in order])
-        return times, offsets
+        if mark is None or b"\n" in self._data[offset:mark]:
+            mark = offset
+        return Position(line + 1, column, excerpt(self._data, line_start, mark))
 
 
 class _Scope:
     """A prim, variant set or variant, or the layer."""
 
-    def __init__(self, outline: _Outline, number: int) -> None:
+    def __init__(self, outline: Outline, number: int) -> None:
         self._outline = outline
         self._number = number
         self.start = outline.start[number]
@@ -362,7 +123,7 @@ class _Scope:
 
     @cached_property
     def assets(self) -> dict[str, int]:
-        return _assets(self._outline.data, self._outline.own(self._number, self.start))
+        return asset_offsets(self._outline.data, self._outline.own(self._number, self.start))
 
     @cached_property
     def children(self) -> dict[str, int]:
@@ -380,89 +141,10 @@ class _Scope:
         return found
 
     @cached_property
-    def properties(self) -> dict[str, _Property]:
+    def properties(self) -> dict[str, Property]:
         outline = self._outline
-        found: dict[str, _Property] = {}
+        found: dict[str, Property] = {}
         for span in outline.own(self._number, self.body):
-            for statement in _statements(outline.data, span):
-                found.setdefault(statement.name, _Property(outline.data)).add(statement)
+            for statement in statements(outline.data, span):
+                found.setdefault(statement.name, Property(outline.data)).add(statement)
         return found
-
-
-def _statements(data: bytes, span: _Span) -> Iterator[_Statement]:
-    """The statements about properties in a span of a body that holds no prims."""
-    position = span.start
-    while position < span.stop:
-        head = _STATEMENT.match(data, position, span.stop)
-        if head is None:
-            return
-        position = _statement_stop(data, head.end(), span.stop)
-        declaration, _, suffix = _COMMENT.sub(b" ", head[1]).partition(b".")
-        words = declaration.rstrip(b"[ \t").decode("utf-8", "replace").split()
-        # `reorder properties` orders names and declares none.
-        if len(words) > 1 and words[:-1] != ["reorder"]:
-            yield _Statement(
-                _Span(head.start(1), position),
-                head.end(),
-                words[-1],
-                suffix.strip().decode("utf-8", "replace"),
-            )
-
-
-def _statement_stop(data: bytes, position: int, stop: int) -> int:
-    while token := _BREAK.search(data, position, stop):
-        if token.lastindex is None:
-            return token.end()
-        opens = token.lastindex <= len(_BRACKETS)
-        position = _bracket_stop(data, token.start(), stop) if opens else token.end()
-    return stop
-
-
-def _bracket_stop(data: bytes, position: int, stop: int) -> int:
-    """The offset after the bracket that closes the one at `position`."""
-    depth = 0
-    for token in _BRACKETS[data[position]].finditer(data, position, stop):
-        if token.lastindex == 1:
-            depth += 1
-        elif token.lastindex == 2:
-            depth -= 1
-            if depth == 0:
-                return token.end()
-    return stop
-
-
-def _end_of(pattern: re.Pattern[bytes], data: bytes, position: int) -> int | None:
-    """Where a pattern that begins at `position` ends; None if it is not there."""
-    found = pattern.match(data, position)
-    return found.end() if found else None
-
-
-def _assets(data: bytes, spans: Iterable[_Span]) -> dict[str, int]:
-    """The offset of the first occurrence of each asset path, and of each with a prim path."""
-    found: dict[str, int] = {}
-    for span in spans:
-        asset, start, stop = "", span.start, -1
-        for token in _ASSET.finditer(data, *span):
-            if token.lastindex and token.lastindex <= len(_ASSETS):
-                asset, start, stop = _asset_path(token[0]), *token.span()
-                found.setdefault(asset, start)
-            elif token.lastindex:
-                follows = token.start() == stop
-                target = token[0].decode("utf-8", "replace")
-                key = f"{asset}{target}" if follows else target
-                found.setdefault(key, start if follows else token.start())
-    return found
-
-
-def unquoted(literal: bytes) -> str:
-    """A string without its marks."""
-    marks = 3 if literal.startswith((b'"""', b"'''")) else 1
-    return literal[marks:-marks].decode("utf-8", "replace")
-
-
-def _asset_path(literal: bytes) -> str:
-    if literal.startswith(b"@@@"):
-        literal = literal[3:-3].replace(rb"\@@@", b"@@@")
-    else:
-        literal = literal[1:-1]
-    return literal.decode("utf-8", "replace")

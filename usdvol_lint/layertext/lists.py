@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from usdvol_lint.layertext.lines import OPAQUE, SPACE, STRINGS, unquoted
+from usdvol_lint.layertext.lexemes import OPAQUE, SPACE, STRINGS, unquoted
 
 _SPACES = SPACE + b"*+"
 _LIST = re.compile(
