@@ -35,8 +35,9 @@ class Deadline:
                 self._changed.notify()
 
     def clear(self) -> None:
-        """Stops the time; the thread notices once it wakes."""
-        self._at = _UNLIMITED
+        """Stops the time: whether it is expired does not change any more."""
+        with self._changed:  # the thread notices once it wakes
+            self._at = _UNLIMITED
 
     def _watch(self) -> None:
         with self._changed:

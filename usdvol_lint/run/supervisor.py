@@ -111,11 +111,12 @@ class Worker:
                 self._stdin.flush()
             while isinstance(reply := pickle.load(self._stdout), Advance | NewFindings):
                 hear(reply)
-            return reply, self._deadline.is_expired
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
-            return None, self._deadline.is_expired
+            reply = None
         finally:
             self._deadline.clear()
+        # Only now: a limit that passed while the reply came has ended the child all the same.
+        return reply, self._deadline.is_expired
 
     @property
     def _stdin(self) -> IO[bytes]:
