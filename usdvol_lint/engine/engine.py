@@ -61,7 +61,7 @@ class Engine:
     ) -> None:
         self._known = rules
         self._suppressions = suppressions or InStages()
-        self._rules = [rules[code] for code in active.severities]
+        self._rules = [rules[code] for code in sorted({*active.severities, *active.watching})]
         self._active = active
         self._assignment = Assignment(self._rules, active.options)
         self._depth = depth or Depth()

@@ -34,8 +34,6 @@ ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, UNUSED_SUPPRESSION, USD_TOO_OLD, 
 """The codes that the engine itself reports; `rules/lint/` holds only their pages."""
 NOT_IGNORABLE = frozenset({STAGE_UNREADABLE.code, RULE_FAILED.code})
 """They say that the job was not done, so nobody can switch them off."""
-OF_UNCHECKED = frozenset({USD_TOO_OLD.code, NOT_CHECKED.code})
-"""What the engine itself did not check: in force where such a thing fails a run."""
 
 
 _LETTERS, _WHOLE_CODE = 3, 6
