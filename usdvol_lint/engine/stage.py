@@ -48,13 +48,16 @@ def _open(layer: Any, session: Any | None, policy: Any) -> Any:
     """The stage of a root layer, also where USD raises for value clips that do not open.
 
     For clips without a manifest USD makes one, and so opens them with the stage.  Where that
-    raises, the stage is whole, but only to be had from the cache.
+    raises, the stage is whole, but only to be had from a cache.
     """
-    cache = Usd.StageCache()
+    # Without the context, USD would take a session of None for one that searches nowhere.
+    context = Ar.GetResolver().CreateDefaultContextForAsset(layer.identifier)
+    try:
+        return Usd.Stage.Open(layer, session, context, policy)
+    except UNREADABLE:
+        cache = Usd.StageCache()
     try:
         with Usd.StageCacheContext(cache):
-            # Without the context, USD would take a session of None for one that searches nowhere.
-            context = Ar.GetResolver().CreateDefaultContextForAsset(layer.identifier)
             return Usd.Stage.Open(layer, session, context, policy)
     except UNREADABLE as error:
         stage = next(iter(cache.GetAllStages()), None)
