@@ -11,20 +11,13 @@ def sample_range_differs(particles: Prim, facts: Facts) -> Problems:
     for span in arrays.spans():
         start, end, first, last = map(format_time, (*wanted, span.first, span.last))
         are_positions = span.arrays[0] is arrays.positions
-        if are_outside := span.last < wanted.start or span.first > wanted.end:
-            held = [
-                (
-                    f"the {'last' if span.last < wanted.start else 'first'} one is held throughout",
-                    (wanted.start, wanted.end),
-                )
-            ]
-            severity, advice = None if are_positions else INFO, span.advice_on_shift(wanted.start)
-            advice = f"if they are to begin with the stage, {advice}"
+        if are_outside := span.is_outside(wanted):
+            severity = None if are_positions else INFO
+            advice = f"if they are to begin with the stage, {span.advice_on_shift(wanted.start)}"
         else:
-            held = list(span.held(*wanted))
             severity = None if wanted.is_asked else INFO
             advice = "write the frames that are missing" + ", or correct the range of the stage" * (not wanted.is_asked)
-        seen = [words for words, times in held if not span.is_hidden(times)]
+        seen = [words for words, times in span.held(wanted) if not span.is_hidden(times)]
         is_told = facts.tells("STG008") and facts.layers.rate_is_unsaid(span.attribute)
         if seen and (are_positions or are_outside) and not is_told and span.is_animated:
             yield Problem(

@@ -44,22 +44,29 @@ class Span:
         """Whether two of the samples of an array differ."""
         return any(map(_differ, self.arrays))
 
-    def held(self, start: float, end: float) -> Iterator[tuple[str, tuple[float, float]]]:
-        """What of a time range they do not cover but hold a value in, in words, and when.
+    def is_outside(self, time_range: tuple[float, float]) -> bool:
+        """Whether all samples are before a time range, or after it."""
+        return self.last < time_range[0] or self.first > time_range[1]
 
-        A sample holds until the next would come; one without elements is not held.
+    def held(self, time_range: tuple[float, float]) -> Iterator[tuple[str, tuple[float, float]]]:
+        """What is shown where they do not cover a time range, in words, and when.
+
+        A sample holds until the next would come.  That one without elements is held is told only
+        of a whole range: there are no particles before they come, and after they died.
         """
+        start, end = time_range
         sizes = self.arrays[0].sizes
+        if self.is_outside(time_range):
+            which, time = ("last", self.last) if self.last < start else ("first", self.first)
+            empty = "" if sizes.at(time) else ", without elements,"
+            yield f"the {which} one{empty} is held throughout", (start, end)
+            return
         if self.first - start > self.step - 1e-6 and sizes.at(self.first):
-            yield (
-                f"the first one is held until {format_time(self.first)}",
-                (start, self.first - 1e-6),
-            )
+            words = f"the first one is held until {format_time(self.first)}"
+            yield words, (start, self.first - 1e-6)
         if end - self.last > self.step - 1e-6 and sizes.at(self.last):
-            yield (
-                f"the last one is held from {format_time(self.last)} on",
-                (self.last + self.step, end),
-            )
+            words = f"the last one is held from {format_time(self.last)} on"
+            yield words, (self.last + self.step, end)
 
     def is_hidden(self, times: tuple[float, float]) -> bool:
         """Whether the particle field is invisible from one time to the other."""
