@@ -6,14 +6,14 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import redirect_stdout, suppress
+from contextlib import redirect_stdout
 from importlib import import_module, invalidate_caches
 from types import ModuleType
 
+from usdvol_lint.config.installed import installed_packs
 from usdvol_lint.model import PackError
 from usdvol_lint.rule import Rule
 
-ENTRY_POINT_GROUP = "usdvol_lint.packs"
 _BUILT_IN = "usdvol_lint.rules"
 _CODE = re.compile(r"[A-Z]{3}\d{3}")
 
@@ -37,33 +37,17 @@ def _built_in_folder() -> str:
 
 
 def _installed_packs() -> Iterator[tuple[str, str]]:
-    # Importing importlib.metadata takes ten times as long as seeing that there are no packs.
-    if not any(map(_names_packs, sys.path)):
-        return
-    from importlib.metadata import entry_points
-    from importlib.util import find_spec
+    for name, package in installed_packs().items():
+        from importlib.util import find_spec  # costs start-up time, and few have such packs
 
-    for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
         try:
-            spec = find_spec(entry.value)
+            spec = find_spec(package)
         except (ImportError, ValueError):
             spec = None
         folders = list(spec.submodule_search_locations or ()) if spec else []
         if not folders:
-            raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
-        yield entry.value, folders[0]
-
-
-def _names_packs(folder: str) -> bool:
-    """Whether some distribution in a folder of `sys.path` declares a rule pack."""
-    with suppress(OSError):
-        for name in os.listdir(folder or "."):
-            if name.endswith("-info"):
-                declared = os.path.join(folder, name, "entry_points.txt")
-                with suppress(OSError), open(declared, "rb") as file:
-                    if ENTRY_POINT_GROUP.encode() in file.read():
-                        return True
-    return False
+            raise PackError(f"rule pack {name!r}: there is no package {package!r}")
+        yield package, folders[0]
 
 
 def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[str, str]]:
