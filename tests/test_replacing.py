@@ -15,6 +15,12 @@ def put(file: Path, text: str) -> None:
         stream.write(text.encode("utf-8"))
 
 
+def interrupted(file: Path) -> None:
+    with replacing(file) as stream:
+        stream.write(b"two")
+        raise KeyboardInterrupt
+
+
 def test_what_was_planted_is_not_written_to(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -47,9 +53,8 @@ def test_nobody_can_foresee_the_name(tmp_path: Path) -> None:
 
 def test_a_failure_leaves_what_was_there(tmp_path: Path) -> None:
     put(tmp_path / "a", "one")
-    with pytest.raises(KeyboardInterrupt), replacing(tmp_path / "a") as stream:
-        stream.write(b"two")
-        raise KeyboardInterrupt
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(tmp_path / "a")
     assert [path.read_text("utf-8") for path in tmp_path.iterdir()] == ["one"]
 
 
