@@ -6,7 +6,7 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import redirect_stdout
+from contextlib import contextmanager, redirect_stdout
 from importlib import import_module, invalidate_caches
 from types import ModuleType
 
@@ -15,6 +15,8 @@ from usdvol_lint.model import PackError
 from usdvol_lint.rule import Rule
 
 _BUILT_IN = "usdvol_lint.rules"
+_NAMED = "usdvol_lint_pack_"
+"""What the names of packages begin with that are made for folders."""
 _CODE = re.compile(r"[A-Z]{3}\d{3}")
 
 
@@ -61,7 +63,7 @@ def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[s
         if folder in known:
             continue
         # Named after its path: two packs in one process may both have a module `checks`.
-        name = f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}"
+        name = f"{_NAMED}{crc32(os.fsencode(folder)):08x}"
         _forget(name)
         yield _mount(name, folder), folder
 
@@ -89,7 +91,9 @@ def import_rules(package: str, folder: str) -> list[Rule]:
     Raises PackError for a module that can't be imported, a malformed code, or no rule at all.
     """
     rules: list[Rule] = []
-    with redirect_stdout(sys.stderr):  # what a module prints stays out of the report
+    leaves_no_trace = package.startswith(_NAMED)
+    # What a module prints stays out of the report.
+    with redirect_stdout(sys.stderr), _writing_bytecode(not leaves_no_trace):
         for name, path in _modules(package, folder):
             module = _import(name, path)
             rules += [value for value in vars(module).values() if isinstance(value, Rule)]
@@ -104,6 +108,17 @@ def import_rules(package: str, folder: str) -> list[Rule]:
                 f"not {rule.code!r} ({rule.name})"
             )
     return rules
+
+
+@contextmanager
+def _writing_bytecode(wanted: bool) -> Iterator[None]:
+    """Whether Python may write what it compiles beside the source, as far as it does so at all."""
+    before = sys.dont_write_bytecode
+    sys.dont_write_bytecode = before or not wanted
+    try:
+        yield
+    finally:
+        sys.dont_write_bytecode = before
 
 
 def _modules(package: str, folder: str) -> Iterator[tuple[str, str]]:
