@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from pxr import Sdf, Usd
 
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
+from usdvol_lint.engine.taking import Edit, Takings
 from usdvol_lint.engine.variables import deciding_layer
 from usdvol_lint.facts.usd.bringing import node_of
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
@@ -41,7 +42,13 @@ class Blaming:
 
     def __init__(self) -> None:
         self._has_variables: bool | None = None
+        self._takings = Takings()
         self._clip_sets: dict[Any, list[tuple[ClipSet, frozenset[str]]]] = {}
+
+    def recomposed(self) -> None:
+        """Says that the stage was composed in another way."""
+        self._takings.recomposed()
+        self._clip_sets.clear()
 
     def blame(self, problem: Problem | NotChecked) -> Blame:
         """What is to blame for a problem."""
@@ -50,6 +57,8 @@ class Blaming:
         own = self._own(problem)
         against = (*problem.against, *_forwarded(at)) if _is_relationship(at) else problem.against
         others = [each for other in against if (each := self._opinion(other, problem))]
+        if edit := self._edit(problem, own):
+            others.append((edit.prim, Blame(edit.spec)))
         if own.spec is None or not others:
             return own
         opinions = [Opinion(each.GetPrim(), blame.spec) for each, blame in others]
@@ -61,6 +70,12 @@ class Blaming:
         name = theirs.property if theirs.clip else _property_of(found.spec)
         name = name or (None if path else own.property)
         return theirs._replace(property=name, subject=problem.subject or path or theirs.subject)
+
+    def _edit(self, problem: Problem | NotChecked, own: Blame) -> Edit | None:
+        """The edit of another layer that takes away what is missing."""
+        may_miss = problem.absent or _is_relationship(problem.at)
+        is_top = own.spec is None or own.spec.layer == problem.at.GetStage().GetRootLayer()
+        return self._takings.edit(problem) if may_miss and not is_top else None
 
     def _own(self, problem: Problem | NotChecked) -> Blame:
         """The spec whose opinion counts where the problem is."""

@@ -61,6 +61,10 @@ class Sites:
         self._layers: dict[str, _Layer] = {}
         self._blaming = Blaming()
 
+    def recomposed(self) -> None:
+        """Says that the stage was composed in another way."""
+        self._blaming.recomposed()
+
     def locate(self, problem: Problem | NotChecked) -> Located:
         """The site of a problem, what is to blame for it, and how many instances show it."""
         at = problem.at

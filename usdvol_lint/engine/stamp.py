@@ -81,6 +81,7 @@ class Stamp:
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
+        self.sites.recomposed()
         if "_suppressions" in self.__dict__:
             self._suppressions.recomposed()
 
