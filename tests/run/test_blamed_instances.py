@@ -131,3 +131,38 @@ def test_a_field_of_an_instance_is_compared_with_its_siblings(find: Find, shots:
     plain, instance = (find(f"shots/{shot}.usda", rules=("AST017",)) for shot in ("one", "two"))
     assert [each.fingerprint for each in plain] == [each.fingerprint for each in instance]
     assert [each.code for each in plain] == ["AST017"]
+
+
+FORWARDING = CLEAN.replace("</tank", "</tank/tank").replace("</tank/tank/density>", "</tank.proxy>")
+FORWARDED = f'def Xform "tank"\n{{\nrel %s = </tank/tank/density>\n{FORWARDING}\n}}\n'
+
+
+@pytest.mark.parametrize("name", ["proxy", "field:density"])
+def test_what_only_an_instance_breaks_is_no_mistake_of_the_asset(
+    name: str, find: Find, shots: Path
+) -> None:
+    """A prototype lacks the properties of its instances: what made them so is to blame, once."""
+    asset = FORWARDED % name
+    write(shots.parent / "assets", tank=LAYER + asset.replace("tank.proxy", f"tank.{name}"))
+    instances = "".join(refers(each, meta=INSTANCE) for each in "AB")
+    write(shots, one=STAGE + refers("A"), two=STAGE + instances)
+    rules = ("VOL", "SCH014")
+    assert find("assets/tank.usda", "shots/one.usda", rules=rules) == []
+    [cause] = find("shots/two.usda", rules=rules)
+    assert cause.code == "VOL005"
+    assert (cause.source.layer, cause.source.path) == ("shots/two.usda", "/A")
+
+
+def test_a_variant_above_an_instance_may_say_what_is_below_it(find: Find, shots: Path) -> None:
+    meta = 'variants = {\nstring look = "thin"\n}\nprepend variantSets = "look"\n'
+    misnamed = 'over "Tank"\n{\nfloat3[] extent = [(0, 0, 0), (1, 1, 1)]\n}\n'
+    thick = 'variantSet "look" = {\n"thick" {\ndef Xform "Tank"\n{\n}\n}\n"thin" {\n}\n}\n'
+    inside = LAYER.replace("tank", "set") + f'def Xform "set"\n{{\n{CLEAN}\n}}\n'
+    chosen = refers("set", "./inner.usda", meta, misnamed + thick)
+    write(shots.parent / "assets", inner=inside, set=LAYER.replace("tank", "set") + chosen)
+    write(shots, one=STAGE + refers("A", "../assets/set.usda", INSTANCE))
+    assert find("assets/set.usda", "shots/one.usda", rules=("STG010",)) == []
+    other = LAYER.replace("tank", "set") + chosen.replace('def Xform "Tank"', 'def Xform "Jar"')
+    write(shots.parent / "assets", set=other)
+    both = find("assets/set.usda", "shots/one.usda", rules=("STG010",))
+    assert [(each.source.layer, each.count) for each in both] == [("assets/set.usda", 2)]
