@@ -166,3 +166,20 @@ def test_a_variant_above_an_instance_may_say_what_is_below_it(find: Find, shots:
     write(shots.parent / "assets", set=other)
     both = find("assets/set.usda", "shots/one.usda", rules=("STG010",))
     assert [(each.source.layer, each.count) for each in both] == [("assets/set.usda", 2)]
+
+
+def test_what_two_layers_say_below_an_instance_are_two(find: Find, shots: Path) -> None:
+    """What a layer on top adds moves nothing."""
+    inside = LAYER.replace("tank", "set") + f'def Xform "set"\n{{\n{CLEAN}\n}}\n'
+    write(shots.parent / "assets", set=inside)
+    lost = 'over "tank"\n{\nover "density"\n{\ntoken fieldName = "fuel"\n}\n}\n'
+    write(shots, layout=STAGE + refers("a", "../assets/set.usda", INSTANCE, lost))
+    more = 'over "a"\n{\nover "tank"\n{\nfloat3[] extent = [(0, 0, 0), (9, 9, 9)]\n}\n}\n'
+    write(shots, top=STAGE.replace(META, f"{META}subLayers = [@./layout.usda@]\n") + more)
+    [alone] = find("shots/layout.usda", rules=("STG006",))
+    causes = find("shots/top.usda", rules=("STG006",))
+    assert alone.source == Source("shots/layout.usda", "/a/tank/density", "fieldName")
+    assert {each.source for each in causes} == {
+        alone.source,
+        Source("shots/top.usda", "/a/tank", "extent"),
+    }
