@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from identities import CLEAN, LAYER, META, SPLATS, STAGE, Find, refers
+from identities import CLEAN, HEAD, LAYER, META, SPLATS, STAGE, Find, refers
 from process import ASSETS, write
 from pxr import Usd
 
@@ -166,6 +166,50 @@ def test_a_variant_above_an_instance_may_say_what_is_below_it(find: Find, shots:
     write(shots.parent / "assets", set=other)
     both = find("assets/set.usda", "shots/one.usda", rules=("STG010",))
     assert [(each.source.layer, each.count) for each in both] == [("assets/set.usda", 2)]
+
+
+CLIPS = (
+    "asset[] assetPaths = [@./clip.usda@]",
+    'string primPath = "/tank"',
+    "double2[] active = [(1, 0)]",
+    "asset manifestAssetPath = @./manifest.usda@",
+)
+UNTOLD = CLEAN.replace("asset filePath = @./cloud.vdb@\n", "")
+
+
+@pytest.mark.parametrize(
+    ("keys", "code"),
+    [
+        (CLIPS, "AST014"),
+        (CLIPS[:2], "AST016"),
+        ((CLIPS[0], CLIPS[1].replace("tank", "tnak"), CLIPS[2]), "AST016"),
+    ],
+)
+@pytest.mark.parametrize("is_below", [False, True])
+def test_clips_that_are_faulty_are_one_cause_on_instances_too(
+    is_below: bool, keys: tuple[str, ...], code: str, find: Find, shots: Path
+) -> None:
+    """Also where they would not reach into these if they were not."""
+    meta = "clips = {{\ndictionary default = {{\n{}\n}}\n}}".format("\n".join(keys))
+    ranged = META + "startTimeCode = 1\nendTimeCode = 2\n"
+    said = 'over "density"\n{\nasset filePath.timeSamples = { 1: @./cloud.vdb@ }\n}\n'
+    inside = UNTOLD
+    if is_below:
+        inside = UNTOLD.replace("</tank", "</tank/smoke").replace('"tank"', '"smoke"')
+        inside = f'def Xform "tank"\n{{\n{inside}}}\n'
+        said = f'over "smoke"\n{{\n{said}}}\n'
+    bearing = inside.replace('"tank"', f'"tank" (\n{meta}\n)', 1)
+    write(
+        shots.parent / "assets",
+        tank=LAYER.replace(META, ranged) + bearing,
+        clip=HEAD + f'over "tank"\n{{\n{said}}}\n',
+        manifest=HEAD + 'over "tank"\n{\n}\n',
+    )
+    instances = "".join(refers(name, meta=INSTANCE) for name in "AB")
+    write(shots, one=STAGE.replace(META, ranged) + instances)
+    rules = ("AST001", "AST014", "AST016")
+    [cause] = find("assets/tank.usda", "shots/one.usda", rules=rules)
+    assert (cause.code, cause.source.layer, cause.count) == (code, "assets/tank.usda", 3)
 
 
 def test_what_two_layers_say_below_an_instance_are_two(find: Find, shots: Path) -> None:
