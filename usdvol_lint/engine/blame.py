@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
 
+from usdvol_lint.engine.fallbacks import losing_fallback
 from usdvol_lint.engine.saying import has_value, maker, of_prim, saying, weakest, with_metadata
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
 from usdvol_lint.engine.taking import Edit, Takings
@@ -15,7 +16,7 @@ from usdvol_lint.facts.usd.bringing import node_of
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-from usdvol_lint.rule import NAME, VALUED_NAME, NotChecked, Problem
+from usdvol_lint.rule import NAME, TYPE, VALUED_NAME, NotChecked, Problem
 
 
 class Blame(NamedTuple):
@@ -82,6 +83,8 @@ class Blaming:
         if not isinstance(at, Usd.Property):
             if blocked := _blocked(problem):
                 return Blame(blocked, str(blocked.name), subject)
+            if problem.of == TYPE and (losing := losing_fallback(prim)):
+                return Blame(losing, None, subject or str(prim.GetTypeName()))
             return Blame(problem.spec or of_prim(prim, problem.of), None, subject)
         name = at.GetName()
         if problem.spec:
