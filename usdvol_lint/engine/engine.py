@@ -21,6 +21,7 @@ from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.folders import Folders
+from usdvol_lint.facts.grids.known import KnownContents
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.layertext.source import SharedTexts
 from usdvol_lint.model import Completion, Finding, StageReport, Status, in_order
@@ -28,7 +29,6 @@ from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import named
 from usdvol_lint.rule import Rule
 from usdvol_lint.suppressions import InStages
-from usdvol_lint.volumefile.cache import VolumeFiles
 
 _SENT_AT_ONCE = 100
 """From this many findings on they are sent in batches."""
@@ -73,7 +73,7 @@ class Engine:
         self._is_alone = is_alone
         self._repository = repository
         self._texts = SharedTexts()
-        self._volume_files = VolumeFiles()
+        self._known_contents = KnownContents()
         self._folders = Folders()
         if self._depth.storage.search_path:
             from usdvol_lint.engine.search_path import set_search_path
@@ -93,7 +93,7 @@ class Engine:
         context = Context.of(
             stage,
             self._depth,
-            self._volume_files,
+            self._known_contents,
             self._folders,
             self._advance,
             self._telling,
