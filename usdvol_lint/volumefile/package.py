@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from struct import Struct
-from zipfile import ZIP_STORED, BadZipFile, ZipFile, ZipInfo
+from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 _LOCAL_HEADER = Struct("<4s22xHH")
 _SIGNATURE = b"PK\3\4"
@@ -22,7 +22,12 @@ class Package:
 
     def __init__(self, path: str) -> None:
         self._path = path
-        members = _directory(path, "utf-8") or _directory(path, None)
+        self._why_not = "is not listed in the directory of its package"
+        try:
+            members = _directory(path, "utf-8") or _directory(path, None)
+        except _TooLargeError:
+            members = []
+            self._why_not = "lies in a package of more files than are looked through"
         self._members = {member.filename: member for member in members}
 
     @property
@@ -36,7 +41,7 @@ class Package:
             raise NotInPlaceError("lies in a package inside of its package")
         member = self._members.get(inner)
         if member is None:
-            raise NotInPlaceError("is not listed in the directory of its package")
+            raise NotInPlaceError(self._why_not)
         if member.compress_type != ZIP_STORED or member.flag_bits & _ENCRYPTED:
             raise NotInPlaceError("is compressed or encrypted in its package")
         header = self._read(member.header_offset)
@@ -61,12 +66,16 @@ def first_in(path: str) -> str:
     return next(iter(Package(path).names), "")
 
 
+class _TooLargeError(Exception):
+    pass
+
+
 class _Archive(io.FileIO):
     """An archive of which no more is read at once than a directory may take."""
 
     def read(self, size: int | None = -1, /) -> bytes:
         if size is not None and size > _LARGEST_DIRECTORY:
-            raise BadZipFile("a directory that is too large")
+            raise _TooLargeError
         return super().read(_LARGEST_DIRECTORY if size is None or size < 0 else size) or b""
 
 
@@ -78,5 +87,7 @@ def _directory(path: str, encoding: str | None) -> list[ZipInfo]:
     try:
         with _Archive(path) as file, ZipFile(file, metadata_encoding=encoding) as archive:
             return archive.infolist()
+    except _TooLargeError:
+        raise
     except Exception:  # of a forged one zipfile raises many types, such as struct.error
         return []

@@ -63,7 +63,10 @@ def test_a_directory_that_is_too_large_is_not_read(
     (tmp_path / "a.usdz").write_bytes(archive([(b"%09d" % n, b"") for n in range(50)]))
     assert len(Package(str(tmp_path / "a.usdz")).names) == 50
     monkeypatch.setattr(packages, "_LARGEST_DIRECTORY", 2000)
-    assert Package(str(tmp_path / "a.usdz")).names == []
+    package = Package(str(tmp_path / "a.usdz"))
+    assert package.names == []
+    with pytest.raises(NotInPlaceError, match="of more files than are looked through"):
+        package.locate("000000007")
 
 
 def test_what_a_reader_raises_takes_no_other_finding_along(

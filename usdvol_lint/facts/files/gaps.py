@@ -106,7 +106,7 @@ def _gaps(sequence: SampleSequence, numbering: Numbering) -> list[Gap]:
 
 
 def _are_steps(steps: Iterable[float]) -> bool:
-    """Whether a number of frames follows from each step: none is rounded to 0, or beyond all numbers."""
+    """Whether each step is a number of frames: none is rounded to 0, or beyond all numbers."""
     return all(step and math.isfinite(step) for step in steps)
 
 
