@@ -149,7 +149,7 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
                 f"--output {destination.file}: a report is not written to a file that is called "
                 "like an input: name another one"
             )
-        if os.path.isdir(file):
+        if os.path.isdir(file) or not os.path.basename(destination.file):
             raise UsageError(f"--output {destination.file}: this is a folder, name a file")
         if canonical(destination.file) in read:
             said = "the run reads this file: name another one"
