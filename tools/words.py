@@ -43,6 +43,12 @@ _FIRST = (
     '{"usdvol_lint_baseline":1,"fingerprint_version":1,"root":".","arguments":[],"settings":'
     '{"rules":{},"load":"all","content":"all","times":"all","variants":"selected"}}'
 )
+_SAID = {
+    "{first}": _FIRST,
+    "{other}": _FIRST.replace('"."', '".."'),
+    "{nowhere}": _FIRST.replace('"."', '"a\\u0000b"'),
+    "{digits}": "9" * 5000,
+}
 _ROUGH = ROOT / "tests" / "packs" / "rough"
 _VOLUME = (
     '#usda 1.0\ndef Volume "{name}"\n{{\n    float3[] extent = [(0, 0, 0), (1, 1, 1)]\n'
@@ -129,7 +135,9 @@ def _said_of_name(name: str) -> str:
 
 
 def _said_of_baseline(text: str) -> str:
-    holds = text.replace("{first}", _FIRST).replace("{other}", _FIRST.replace('"."', '".."'))
+    holds = text
+    for name, said in _SAID.items():
+        holds = holds.replace(name, said)
     Path("known.jsonl").write_text(holds, encoding="utf-8")
     shown = f"known.jsonl: {' | '.join(text.splitlines()).replace('{first}', '…')}".rstrip()
     return _said_to("--isolated --baseline known.jsonl smoke.usda", shown)

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from usdvol_lint import __version__
 from usdvol_lint.baseline.entry import (
     Entry,
+    FrameLimit,
     by_fingerprint,
     checked,
     entry_as_json,
@@ -50,6 +51,7 @@ def read_lines(file: str, text: str) -> Baseline:
     """The baseline in a text of JSON Lines; raises UsageError with the number of the line."""
     first: dict[str, Any] = {}
     entries = []
+    limit = FrameLimit(file)
     lines = text.split("\n")
     for number, line in enumerate(lines, 1):
         if not line.strip():
@@ -62,7 +64,8 @@ def read_lines(file: str, text: str) -> Baseline:
         elif not first:
             raise UsageError(f"{where}: no line above says what the run was: {_ANEW}")
         else:
-            entries.append(checked(where, entry_from_json(where, table, table)))
+            entry = checked(where, entry_from_json(where, table, table))
+            entries.append(limit.counted(entry))
     if not first:
         raise UsageError(f"{file}:1: no baseline, there is nothing in it")
     return _baseline(file, first, entries)
@@ -107,7 +110,11 @@ def check_version(where: str, table: Mapping[str, Any], key: str, ours: int, wha
 
 def _baseline(file: str, first: dict[str, Any], entries: list[Entry]) -> Baseline:
     where = f"{file}:1"
-    root = root_from(file, string(where, first, "root"))
+    said = string(where, first, "root")
+    try:
+        root = root_from(file, said)
+    except ValueError:  # NUL, or half of a pair of UTF-16
+        raise UsageError(f"{where}: its root is {quoted(said[:40])}, which is no path") from None
     if not os.path.isdir(root):
         raise UsageError(f"{where}: its root is {quoted(root)}, and there is no such folder")
     settings = table_of(where, first, "settings")
