@@ -130,6 +130,8 @@ def _complete_from(constant: str) -> Any:
               help="Worker processes (default: one for each processor that it may use).")
 @click.option("--timeout", type=float, metavar="SECONDS",
               help="Time limit for one stage (default: 300).")
+@click.option("--memory-limit", metavar="SIZE",
+              help="Memory for one worker process, such as 4G, or none (default: its share).")
 @click.option("--show-settings", is_flag=True,
               help="Print the settings in force, as a configuration file, and exit.")
 @click.option("--list-rules", is_flag=True, help="Print every rule and exit.")

@@ -17,7 +17,17 @@ from usdvol_lint.config.values import CHECKS, globs, level, one_of, shown
 from usdvol_lint.model import UsageError
 
 _REPLACING = (
-    *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
+    *(
+        "jobs",
+        "timeout",
+        "memory-limit",
+        "fail-on",
+        "load",
+        "content",
+        "variants",
+        "times",
+        "statistics",
+    ),
     *("max-places", "root", "baseline", "today", "fail-on-unchecked", "frames"),
 )
 """The options that replace what the file says."""
