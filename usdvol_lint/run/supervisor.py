@@ -89,13 +89,6 @@ class Worker:
         self._setup, self._ready_limit = setup, limit
         self._memory = memory or self._memory
         self._get_ready()
-        assert self._process
-        if self._memory.is_chosen and self._memory.is_too_large(self._process.pid):
-            own, most = format_size(self._memory.own), format_size(self._memory.limit)
-            raise UsageError(
-                f"a memory limit of {most} is too low: a process takes {own} before it opens a "
-                "stage; raise --memory-limit (memory-limit in a configuration)"
-            )
 
     def _get_ready(self) -> None:
         for pause in _PAUSES:
@@ -115,6 +108,12 @@ class Worker:
         reply, expired = self._ask(self._setup, self._ready_limit, lambda message: None)
         if isinstance(reply, Refusal):
             raise UsageError(" ".join(reply.reason.split()))
+        if self._deadline.is_over or (self._memory.is_chosen and self._is_too_large()):
+            own, most = format_size(self._memory.own), format_size(self._memory.limit)
+            raise UsageError(
+                f"a memory limit of {most} is too low: a process takes {own} before it opens a "
+                "stage; raise --memory-limit (memory-limit in a configuration)"
+            )
         if not isinstance(reply, Ready):
             raise self._not_ready(expired)
         self.usd_version, self.said = reply.usd_version, reply.said

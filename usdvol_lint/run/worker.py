@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, BinaryIO
 from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
+from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
 from usdvol_lint.run.requests import Requests
 
@@ -38,8 +39,10 @@ def main() -> None:
     try:
         from usdvol_lint.engine.plugins import load_plugins
     except ImportError as error:
-        advice = "install usd-core, or put the folder with the pxr of another USD on PYTHONPATH"
-        return _send(replies, Refusal(f"USD can't be imported ({error}): {advice}"))
+        advice = narrow_limits() or (
+            ": install usd-core, or put the folder with the pxr of another USD on PYTHONPATH"
+        )
+        return _send(replies, Refusal(f"USD can't be imported ({error}){advice}"))
     from usdvol_lint.engine.asked_types import check_types
     from usdvol_lint.engine.usd_version import usd_version
 
