@@ -7,6 +7,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
+
 from faults.kinds import KINDS
 from faults.outcome import ERROR, REPORT
 
