@@ -29,15 +29,16 @@ _AS_SOMEBODY = (
 """root may have any number of processes; whoever has no name here still reads the checkout."""
 
 
-def killed(folder: Path, chance: Random, stages: int, jobs: int = 2) -> Iterator[Outcome]:
+def killed(folder: Path, chance: Random, stages: int) -> Iterator[Outcome]:
     """Workers are killed at random, also while they start."""
     write_stages(folder, stages)
 
     def kill_one(parent: psutil.Process) -> None:
-        time.sleep(chance.expovariate(0.7))
+        time.sleep(chance.expovariate(0.4))
         _kill(chance.choice(parent.children() or [None]))
 
-    yield outcome(folder, f"-j{jobs}", meanwhile=kill_one)
+    for jobs in (2, 2, 1):
+        yield outcome(folder, f"-j{jobs}", meanwhile=kill_one)
 
 
 def killed_starting(folder: Path, chance: Random, stages: int) -> Iterator[Outcome]:

@@ -204,7 +204,10 @@ def test_a_process_whose_parent_has_gone_ends(name: str, tmp_path: Path) -> None
         workers = psutil.Process(parent.pid).children()
         assert workers
         parent.kill()
-    assert psutil.wait_procs(workers, timeout=30)[1] == []
+    _, left = psutil.wait_procs(workers, timeout=30)
+    for worker in left:
+        worker.kill()
+    assert left == []
 
 
 # --- what does not start --------------------------------------------------------------------------

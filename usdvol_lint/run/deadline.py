@@ -28,6 +28,7 @@ class Deadline:
         self._is_too_large = is_too_large
         self._at = _UNLIMITED
         self._number = 0
+        self._looks = True
         self._is_closed = False
         self._changed = threading.Condition()
         self._thread: threading.Thread | None = None
@@ -40,9 +41,10 @@ class Deadline:
             thread.start()
             self._thread = thread
 
-    def set(self, seconds: float) -> None:
-        """Lets the time run from now on."""
+    def set(self, seconds: float, looks: bool = True) -> None:
+        """Lets the time run from now on; unless it `looks`, nothing is asked meanwhile."""
         self.start()
+        self._looks = looks
         self.is_expired = self.is_over = False
         with self._changed:
             self._number += 1
@@ -78,7 +80,7 @@ class Deadline:
     def _look(self) -> None:
         """Ends what has become too large, unless it is done by the time that this is known."""
         number = self._number
-        if self._at == _UNLIMITED or not self._is_too_large:
+        if self._at == _UNLIMITED or not self._is_too_large or not self._looks:
             return
         self._changed.release()  # nobody waits for this
         try:

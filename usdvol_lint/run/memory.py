@@ -64,8 +64,9 @@ class Memory:
         return self._is_great()
 
     def _is_great(self) -> bool:
-        least = self._least or self.own
-        return self.own - least > min(_GROWTH, max(self.limit - least, 0) / 2)
+        if self._least is None:
+            return False
+        return self.own - self._least > min(_GROWTH, max(self.limit - self._least, 0) / 2)
 
     def _measured(self, pid: int) -> int:
         """The bytes that a process keeps resident and shares with nobody; 0 if that is not known.

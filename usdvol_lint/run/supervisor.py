@@ -108,7 +108,7 @@ class Worker:
         reply, expired = self._ask(self._setup, self._ready_limit, lambda message: None)
         if isinstance(reply, Refusal):
             raise UsageError(" ".join(reply.reason.split()))
-        if self._deadline.is_over or (self._memory.is_chosen and self._is_too_large()):
+        if self._memory.is_chosen and isinstance(reply, Ready) and self._is_too_large():
             own, most = format_size(self._memory.own), format_size(self._memory.limit)
             raise UsageError(
                 f"a memory limit of {most} is too low: a process takes {own} before it opens a "
@@ -213,7 +213,8 @@ class Worker:
 
         `hear` is called with each message that comes before the reply.
         """
-        self._deadline.set(limit)
+        # What a process takes to get ready is looked at then; most runs don't take long enough.
+        self._deadline.set(limit, looks=not isinstance(message, Setup))
         try:
             with suppress(OSError):  # a child that has gone may have said why
                 pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
