@@ -9,6 +9,8 @@ from collections.abc import Callable
 _UNLIMITED = float("inf")
 _LOOKS_EVERY = 0.25
 """Seconds between two looks: a process can hardly take more than half a gigabyte meanwhile."""
+_FEW_SECONDS = 1.0
+"""In so short a time only a stage that takes long is looked at."""
 
 
 class Deadline:
@@ -28,7 +30,9 @@ class Deadline:
         self._is_too_large = is_too_large
         self._at = _UNLIMITED
         self._number = 0
+        self._met = 0
         self._looks = True
+        self._looks_from = 0.0
         self._is_closed = False
         self._changed = threading.Condition()
         self._thread: threading.Thread | None = None
@@ -45,6 +49,8 @@ class Deadline:
         """Lets the time run from now on; unless it `looks`, nothing is asked meanwhile."""
         self.start()
         self._looks = looks
+        if looks:
+            self._looks_from = self._looks_from or time.monotonic() + _FEW_SECONDS
         self.is_expired = self.is_over = False
         with self._changed:
             self._number += 1
@@ -80,7 +86,10 @@ class Deadline:
     def _look(self) -> None:
         """Ends what has become too large, unless it is done by the time that this is known."""
         number = self._number
+        is_long, self._met = number == self._met, number
         if self._at == _UNLIMITED or not self._is_too_large or not self._looks:
+            return
+        if not is_long and time.monotonic() < self._looks_from:
             return
         self._changed.release()  # nobody waits for this
         try:
