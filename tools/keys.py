@@ -147,6 +147,22 @@ KEYS: Mapping[str, Key] = {
         "`timeout = 60`",
         {"type": "number", "exclusiveMinimum": 0, "maximum": LONGEST_TIMEOUT},
     ),
+    "memory-limit": Key(
+        'memory that one worker process may keep for itself, such as `"4G"` or `"500M"`; '
+        '`"none"` is any, `"auto"` four fifths of what there is, divided by `jobs`',
+        '`"auto"`',
+        '`memory-limit = "4G"`',
+        {
+            "anyOf": [
+                {"enum": ["auto", "none"]},
+                {"type": "integer", "minimum": 0},
+                {
+                    "type": "string",
+                    "pattern": r"^\s*\d{1,15}(\.\d{1,6})?\s*[KMGTkmgt]?([Ii]?[Bb])?\s*$",
+                },
+            ]
+        },
+    ),
     "load": Key('payloads: `"all"` or `"none"`', '`"all"`', '`load = "none"`', _one_of(LOADS)),
     "content": Key(
         'the files of each field that are looked into: `"all"`, `"first"` or `"off"`',

@@ -31,6 +31,7 @@ output-format = "concise"
 show = ["info", "known"]
 jobs = 2
 timeout = 12.5
+memory-limit = "4G"
 load = "none"
 content = "first"
 variants = "all"
@@ -160,6 +161,7 @@ TABLES = {
     "ignore": st.lists(FILLED),
     "version-pattern": st.sampled_from([r"v\d+", "'\"\x00"]),
     "timeout": st.floats(1e-9, 1e6),
+    "memory-limit": st.sampled_from(["auto", "none", "1.5g", "512MiB", 0, 1 << 30]),
     "suppress": st.lists(st.fixed_dictionaries({"files": PATTERNS, "reason": FILLED})),
     "per-path": st.lists(
         st.fixed_dictionaries(

@@ -25,7 +25,7 @@ from usdvol_lint.run.interruption import Interruption
 from usdvol_lint.run.lint import Naming, lint
 from usdvol_lint.run.processors import owned
 from usdvol_lint.run.roots import checkout_of, root_of
-from usdvol_lint.words import quoted
+from usdvol_lint.words import printable, quoted
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -61,6 +61,9 @@ def _linted(paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] |
     except (Exception, KeyboardInterrupt) as error:
         job.write_failure(error)
         raise
+    if report.run.usd_said and not given["quiet"]:
+        said = "; ".join(report.run.usd_said)
+        click.echo(f"usdvol-lint: USD could not load all its plugins: {printable(said)}", err=True)
     report = report._replace(run=run_info(report.run, job.config))
     if report.interrupted:
         return job.end_early(report)
