@@ -16,7 +16,7 @@ from typing import Any
 from usdvol_lint import schema
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.trouble import UnreadableStageError
-from usdvol_lint.engine.walk import walk
+from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts import Context, Facts
 from usdvol_lint.facts.found import Wing, column, fact, summary
 from usdvol_lint.packs.catalog import load
@@ -75,7 +75,7 @@ def _print(name: str, wing: Wing, answers: Iterable[tuple[str, str]]) -> None:
 def facts_of(stage: Any) -> Facts:
     """The facts of a stage for all rules, as the engine makes them."""
     context = Context.of(stage)
-    walked = walk(stage, list(load().rules.values()), context.kinds)
+    walked = walk(stage, asked_by(load().rules.values()), context.kinds)
     return Facts(context, walked)
 
 

@@ -102,7 +102,8 @@ KEYS: Mapping[str, Key] = {
         _ref("options"),
     ),
     "packs": Key(
-        "folders with [rules](getting-started.md#a-rule-pack-of-your-own), relative to this file",
+        "folders with [rules](getting-started.md#a-rule-pack-of-your-own), relative to this file, "
+        "which `--config` has to name then; installed packs by their names",
         "`[]`",
         '`packs = ["pipeline/rules"]`',
         _list_of(_TEXT),
@@ -145,6 +146,22 @@ KEYS: Mapping[str, Key] = {
         "`300.0`",
         "`timeout = 60`",
         {"type": "number", "exclusiveMinimum": 0, "maximum": LONGEST_TIMEOUT},
+    ),
+    "memory-limit": Key(
+        'memory that one worker process may keep for itself, such as `"4G"` or `"500M"`; '
+        '`"none"` is any, `"auto"` four fifths of what there is, divided by `jobs`',
+        '`"auto"`',
+        '`memory-limit = "4G"`',
+        {
+            "anyOf": [
+                {"enum": ["auto", "none"]},
+                {"type": "integer", "minimum": 0},
+                {
+                    "type": "string",
+                    "pattern": r"^\s*\d{1,15}(\.\d{1,6})?\s*[KMGTkmgt]?([Ii]?[Bb])?\s*$",
+                },
+            ]
+        },
     ),
     "load": Key('payloads: `"all"` or `"none"`', '`"all"`', '`load = "none"`', _one_of(LOADS)),
     "content": Key(

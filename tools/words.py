@@ -43,6 +43,12 @@ _FIRST = (
     '{"usdvol_lint_baseline":1,"fingerprint_version":1,"root":".","arguments":[],"settings":'
     '{"rules":{},"load":"all","content":"all","times":"all","variants":"selected"}}'
 )
+_SAID = {
+    "{first}": _FIRST,
+    "{other}": _FIRST.replace('"."', '".."'),
+    "{nowhere}": _FIRST.replace('"."', '"a\\u0000b"'),
+    "{digits}": "9" * 5000,
+}
 _ROUGH = ROOT / "tests" / "packs" / "rough"
 _VOLUME = (
     '#usda 1.0\ndef Volume "{name}"\n{{\n    float3[] extent = [(0, 0, 0), (1, 1, 1)]\n'
@@ -77,6 +83,7 @@ def _of_bad_input(data: Mapping[str, Any]) -> Iterator[str]:
         (here / "pyproject.toml").write_text("", encoding="utf-8")
         yield _paragraph("The command line", map(_said_to, data["commands"]))
         yield _paragraph("A configuration file", map(_said_of_settings, data["configurations"]))
+        yield _paragraph("A configuration file that was found", map(_said_of_found, data["found"]))
         yield _paragraph("A pyproject.toml", map(_said_of_project, data["projects"]))
         yield _paragraph("A file by another name", map(_said_of_name, data["misnamed"]))
         yield _paragraph("A baseline", map(_said_of_baseline, data["baselines"]))
@@ -104,6 +111,14 @@ def _said_of_settings(text: str) -> str:
     return _said_to("--show-settings --config usdvol-lint.toml", text)
 
 
+def _said_of_found(text: str) -> str:
+    own = Path("usdvol-lint.toml")
+    own.write_text(f"{text}\n", encoding="utf-8")
+    said = _said_to("--show-settings", text)
+    own.unlink()
+    return said
+
+
 def _said_of_project(text: str) -> str:
     project = Path("pyproject.toml")
     project.write_text(f"{text}\n", encoding="utf-8")
@@ -120,7 +135,9 @@ def _said_of_name(name: str) -> str:
 
 
 def _said_of_baseline(text: str) -> str:
-    holds = text.replace("{first}", _FIRST).replace("{other}", _FIRST.replace('"."', '".."'))
+    holds = text
+    for name, said in _SAID.items():
+        holds = holds.replace(name, said)
     Path("known.jsonl").write_text(holds, encoding="utf-8")
     shown = f"known.jsonl: {' | '.join(text.splitlines()).replace('{first}', '…')}".rstrip()
     return _said_to("--isolated --baseline known.jsonl smoke.usda", shown)

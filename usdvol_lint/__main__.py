@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 
 if __name__ == "__main__" and not sys.flags.safe_path:
     # `python -m` puts the working directory first, which may be a stranger's checkout.
@@ -22,8 +23,22 @@ _STARTS_NO_CHILD = {
 
 
 def main() -> None:
-    """Answers `--version` and `--help` itself; all else goes to the command line."""
+    """Answers `--version` and `--help` itself; all else goes to the command line.
+
+    What ends it before the command line can say so is one line all the same: 1 would mean findings.
+    """
+    try:
+        _main()
+    except KeyboardInterrupt as signal:
+        _fail("interrupted", 128 + (signal.args[0] if signal.args else 2))
+    except Exception as error:  # such as a module that no memory or file handle is left for
+        words = " ".join(f"{type(error).__name__}: {error}".split())
+        _fail(f"error: it can't be started ({words.removesuffix(': ')}); look at `ulimit -a`", 2)
+
+
+def _main() -> None:
     _open_standard_streams()
+    _use_utf8()
     arguments = sys.argv[1:]
     if arguments == ["--version"]:
         _print(f"usdvol-lint {__version__}\n")
@@ -49,6 +64,13 @@ def _open_standard_streams() -> None:
         sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
 
 
+def _use_utf8() -> None:
+    """Begins anew where the locale is no UTF-8, as USD's names of files are whatever the locale."""
+    if sys.getfilesystemencoding() != "utf-8" and os.environ.get("PYTHONUTF8") != "1":
+        os.environ["PYTHONUTF8"] = "1"
+        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
+
+
 def _print(text: str) -> None:
     try:
         print(text, end="", flush=True)
@@ -56,15 +78,20 @@ def _print(text: str) -> None:
         os._exit(2)
 
 
+def _fail(words: str, code: int) -> None:
+    """Says in one line why nothing was done, if anybody can hear it, and ends the process."""
+    with suppress(OSError):
+        print(f"usdvol-lint: {words}", file=sys.stderr, flush=True)
+    os._exit(code)
+
+
 def _lint(arguments: list[str]) -> None:
     """Starts the process that imports USD, and imports the command line meanwhile."""
-    from usdvol_lint.child import start_child
+    from usdvol_lint.child import kill_child, start_child
 
-    try:
+    child = None
+    with suppress(OSError):  # no file handles or processes left: it is tried again, and then said
         child = start_child()
-    except OSError as error:  # no file handles or processes left
-        print(f"usdvol-lint: error: no process can be started: {error.strerror}", file=sys.stderr)
-        sys.exit(2)
     import gc
     import signal
 
@@ -78,7 +105,8 @@ def _lint(arguments: list[str]) -> None:
 
         code = run_command(arguments, child)
     finally:
-        child.kill()
+        if child:
+            kill_child(child)
     _leave(code)
 
 

@@ -161,6 +161,7 @@ class RunInfo(NamedTuple):
     """What may differ between equal runs.
 
     `config_extends` are the files that the configuration file extends, the nearest first.
+    `usd_said` is what USD said of its own plugins, which is about no stage.
     """
 
     date: str = ""
@@ -169,6 +170,7 @@ class RunInfo(NamedTuple):
     seconds: float = 0.0
     jobs: int = 1
     config_extends: tuple[str, ...] = ()
+    usd_said: tuple[str, ...] = ()
 
 
 class Report(NamedTuple):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+_UNITS = ((1 << 40, "T"), (1 << 30, "G"), (1 << 20, "M"), (1 << 10, "K"))
+
 
 def quoted(text: str) -> str:
     """Text in quotes, unchanged, backslashes too, but for what `printable` escapes."""
@@ -75,3 +77,9 @@ def _end_of_run(times: Sequence[float], start: int) -> int:
 
 def _same(one: float, other: float) -> bool:
     return abs(one - other) < 1e-6
+
+
+def format_size(size: float) -> str:
+    """A number of bytes as `--memory-limit` takes it: `512M`, `4G`, `1.25G`."""
+    unit, letter = next((each for each in _UNITS if size >= each[0]), _UNITS[-1])
+    return f"{size / unit:.4g}{letter}"

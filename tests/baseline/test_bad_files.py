@@ -102,6 +102,23 @@ BAD = {
         replaced('"root":"."', '"root":"gone"', 0),
         "b.jsonl:1: its root is 'gone', and there is no such folder",
     ),
+    "a root that is no path": (
+        replaced('"root":"."', '"root":"a\\u0000b"', 0),
+        "b.jsonl:1: its root is 'a\\x00b', which is no path",
+    ),
+    "a root that is half a character": (
+        replaced('"root":"."', '"root":"\\ud800"', 0),
+        "b.jsonl:1: its root is '\\ud800', which is no path",
+    ),
+    "a number of thousands of digits": (
+        edited(lambda lines: lines.append('{"a":' + "9" * 5000 + "}")),
+        "b.jsonl:4: no JSON, as a baseline is: a number of too many digits",
+    ),
+    "frames without end": (
+        replaced('"frames":"all"', f'"frames":"{"0-999990," * 3000}"'),
+        "b.jsonl:2: cover: 'frames' must be ranges such as '3, 7-9', or 'all', "
+        f"not '{('0-999990,' * 7)[:59]}…",
+    ),
     "arguments": (
         replaced('"arguments":["."]', '"arguments":[3]', 0),
         "b.jsonl:1: 'arguments' must be a list of texts",
@@ -173,3 +190,11 @@ def test_what_merges_and_editors_leave_is_read(tmp_path: Path) -> None:
     assert len(held(file)) == 2
     now = report(tmp_path, cause(frames=(3.0, 7.0)), cause(frames=(3.0, 4.0), prim="/B"))
     assert states(using(file).apply(now).report) == ["known", "known"]
+
+
+def test_many_frames_in_all_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("usdvol_lint.baseline.entry._MOST_FRAMES", 9)
+    causes = [cause(prim=f"/A{last}", frames=tuple(map(float, range(last)))) for last in (4, 5, 6)]
+    shared = [cause(prim=f"/B{number}", frames=(1.0, 2.0, 3.0)) for number in range(9)]
+    assert len(held(written(tmp_path, *shared))) == 9
+    assert said(written(tmp_path, *causes)) == (f"b.jsonl: more than 9 frames in all: {ANEW}")

@@ -31,6 +31,7 @@ output-format = "concise"
 show = ["info", "known"]
 jobs = 2
 timeout = 12.5
+memory-limit = "4G"
 load = "none"
 content = "first"
 variants = "all"
@@ -73,6 +74,7 @@ def test_every_key_comes_back(tool: Callable[..., Ran], tmp_path: Path) -> None:
     tables = tomllib.loads(EVERY_KEY)
     assert tables.keys() == CHECKS.keys() - {"extend"}
     (tmp_path / "usdvol-lint.toml").write_text(EVERY_KEY, encoding="utf-8")
+    named = ("--config", tmp_path / "usdvol-lint.toml")
     more = ("--ignore", "VOL", "--severity", "STU002=info", "--no-baseline", "--pack", "here")
     shutil.copytree(STUDIO, tmp_path / "here", ignore=lambda folder, names: ["volume_seen.py"])
     (tmp_path / "here" / "house" / "volume_name.py").write_text(
@@ -83,8 +85,8 @@ def test_every_key_comes_back(tool: Callable[..., Ran], tmp_path: Path) -> None:
         encoding="utf-8",
     )
     for arguments in ((), more):
-        was = settings(tool(*AS_JSON, *arguments))
-        printed = tool("--show-settings", *arguments)
+        was = settings(tool(*AS_JSON, *named, *arguments))
+        printed = tool("--show-settings", *named, *arguments)
         assert (printed.code, printed.err) == (0, "")
         (tmp_path / "elsewhere").mkdir(exist_ok=True)
         (tmp_path / "elsewhere" / "usdvol-lint.toml").write_text(printed.out, encoding="utf-8")
@@ -159,6 +161,7 @@ TABLES = {
     "ignore": st.lists(FILLED),
     "version-pattern": st.sampled_from([r"v\d+", "'\"\x00"]),
     "timeout": st.floats(1e-9, 1e6),
+    "memory-limit": st.sampled_from(["auto", "none", "1.5g", "512MiB", 0, 1 << 30]),
     "suppress": st.lists(st.fixed_dictionaries({"files": PATTERNS, "reason": FILLED})),
     "per-path": st.lists(
         st.fixed_dictionaries(

@@ -45,7 +45,10 @@ def test_an_error_that_nobody_can_read_is_no_finding(tmp_path: Path) -> None:
 def test_no_handles_left(tmp_path: Path) -> None:
     (tmp_path / "a.usda").write_text(BROKEN)
     done = shell("ulimit -n 8; usdvol-lint --isolated a.usda", tmp_path)
-    said = "usdvol-lint: error: no process can be started: Too many open files\n"
+    said = (
+        "usdvol-lint: error: no process can be started: Too many open files; "
+        "this shell allows a process 8 open files (ulimit -n): raise that\n"
+    )
     assert (done.returncode, done.stdout, done.stderr) == (2, "", said)
 
 

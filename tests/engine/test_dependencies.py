@@ -106,3 +106,9 @@ def test_a_folder_that_changed_as_one(folder: Path) -> None:
     concerns = concerned(frozenset(names_of(str(folder / "second" / "other"))), Storage())
     assert concerns("searched.usda")  # nobody knows what was in it
     assert not concerns("alone.usda")
+
+
+def test_a_path_that_is_not_utf_8_may_use_anything(folder: Path) -> None:
+    """USD takes no such path; that it can't be read is told where the stage is checked."""
+    concerns = concerned(frozenset(names_of(str(folder / "alone.usda"))), Storage())
+    assert concerns("bad\udcff.usda")

@@ -273,3 +273,11 @@ def test_mutants_raise_nothing_else(tmp_path: Path) -> None:
             else:
                 for grid in file.grids:
                     grid.world_bounds(0.5)
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), -float("inf")])
+def test_a_version_that_is_no_number(read: Reader, number: float) -> None:
+    file = Ogawa()
+    version = file.attribute("version_number", 13, struct.pack("<3d", 1, number, 3))
+    error = refusal(read, file.finish(version, version=False))
+    assert (error.code, error.message) == ("not-a-volume-file", "the container holds no Field3D")

@@ -161,6 +161,28 @@ def test_many_entries_take_memory_in_proportion(read: Reader) -> None:
         assert read(content).metadata == {"same": Metadatum("bool", True, 1)}
 
 
+def test_texts_that_nobody_asks_for_are_passed_over(read: Reader) -> None:
+    """However many and long they are, and what is asked for is read behind them."""
+    long = [(f"m{number}", w.string(b"x" * (1 << 20))) for number in range(12)]
+    many = [(f"n{number}", w.string(b"x" * 60_000)) for number in range(200)]
+    short = [(f"s{number}", w.string(b"x" * 100)) for number in range(2000)]
+    file = w.metadata(dict(long + many + short))
+    grid = w.Grid(metadata={"name": w.string("density"), "class": w.string("level set")})
+    content = w.vdb(grid, metadata_bytes=file)
+    with memory_below(len(content) + (6 << 20)):
+        found = read(content)
+    assert (found.grids[0].name, found.grids[0].grid_class) == ("density", "level set")
+    kept = [value.value for value in found.metadata.values() if value.value is not None]
+    assert 60 < len(kept) < 1000
+
+
+def test_names_without_end_are_refused(read: Reader, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("usdvol_lint.volumefile.window._MOST_TEXT", 1 << 20)
+    grids = [w.Grid("d" * 60_000, metadata={}) for _ in range(20)]
+    error = refusal(read, w.vdb(*grids))
+    assert (error.code, error.message) == ("not-a-volume-file", "more than 1 MiB of names")
+
+
 WHOLE = sorted(SAMPLES.glob("*.vdb"))
 
 

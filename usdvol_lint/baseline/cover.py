@@ -20,6 +20,7 @@ ALL = "all"
 SHARES = ("1 particle", "0.1 %", "1 %", "10 %", "half", "all")
 """The steps of a share of an array: at most so much."""
 _LIMITS = (0.001, 0.01, 0.1, 0.5)
+_LONGEST_SHOWN = 60
 _ONE_ELEMENT = (1.0, 1)
 _SHARE_AND_ELEMENTS = (_ONE_ELEMENT, *((limit, None) for limit in (*_LIMITS, 1.0)))
 _LEVELS = {severity.label: severity for severity in Severity}
@@ -81,7 +82,8 @@ def _level(value: Any) -> Severity:
 
 
 def _shown(value: Any) -> str:
-    return quoted(value) if isinstance(value, str) else repr(value)
+    shown = quoted(value) if isinstance(value, str) else repr(value)
+    return shown if len(shown) <= _LONGEST_SHOWN else f"{shown[:_LONGEST_SHOWN]}…"
 
 
 def join(one: Cover, other: Cover) -> Cover:

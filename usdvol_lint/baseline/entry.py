@@ -13,6 +13,7 @@ from usdvol_lint.packs.catalog import NOT_IGNORABLE
 from usdvol_lint.results import Cause, State
 from usdvol_lint.words import printable
 
+_MOST_FRAMES = 10_000_000
 ANONYMOUS = "anon:"
 """The identifiers of layers without a file begin so, and hold for one process."""
 
@@ -34,6 +35,29 @@ class Entry(NamedTuple):
 def entry_of(cause: Cause) -> Entry:
     """What a baseline holds of a cause."""
     return Entry(cause.fingerprint, cause.code, cause.source, cause.cover)
+
+
+class FrameLimit:
+    """Holds a file to no more frames than any run tells: a short text may say many.
+
+    Entries with equal texts share their frames, which count once.
+    """
+
+    def __init__(self, file: str) -> None:
+        self._file = file
+        self._seen: dict[int, tuple[float, ...]] = {}
+        self._left = _MOST_FRAMES
+
+    def counted(self, entry: Entry) -> Entry:
+        """The entry; raises UsageError where it is one too many."""
+        frames = entry.cover.frames
+        if frames and id(frames) not in self._seen:
+            self._seen[id(frames)] = frames
+            self._left -= len(frames)
+            if self._left < 0:
+                hint = "write the baseline anew"
+                raise UsageError(f"{self._file}: more than {_MOST_FRAMES:,} frames in all: {hint}")
+        return entry
 
 
 def least_held(settings: Mapping[str, object]) -> Severity:

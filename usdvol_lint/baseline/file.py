@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from usdvol_lint import __version__
 from usdvol_lint.baseline.entry import (
     Entry,
+    FrameLimit,
     by_fingerprint,
     checked,
     entry_as_json,
@@ -20,6 +21,7 @@ from usdvol_lint.baseline.scope import Scope, arguments_from_json, scope_as_json
 from usdvol_lint.baseline.values import line_of, string, table_of, value_of
 from usdvol_lint.model import UsageError
 from usdvol_lint.paths import canonical
+from usdvol_lint.replacing import replacing
 from usdvol_lint.words import quoted
 
 FORMAT_KEY = "usdvol_lint_baseline"
@@ -49,6 +51,7 @@ def read_lines(file: str, text: str) -> Baseline:
     """The baseline in a text of JSON Lines; raises UsageError with the number of the line."""
     first: dict[str, Any] = {}
     entries = []
+    limit = FrameLimit(file)
     lines = text.split("\n")
     for number, line in enumerate(lines, 1):
         if not line.strip():
@@ -61,7 +64,8 @@ def read_lines(file: str, text: str) -> Baseline:
         elif not first:
             raise UsageError(f"{where}: no line above says what the run was: {_ANEW}")
         else:
-            entries.append(checked(where, entry_from_json(where, table, table)))
+            entry = checked(where, entry_from_json(where, table, table))
+            entries.append(limit.counted(entry))
     if not first:
         raise UsageError(f"{file}:1: no baseline, there is nothing in it")
     return _baseline(file, first, entries)
@@ -106,7 +110,11 @@ def check_version(where: str, table: Mapping[str, Any], key: str, ours: int, wha
 
 def _baseline(file: str, first: dict[str, Any], entries: list[Entry]) -> Baseline:
     where = f"{file}:1"
-    root = root_from(file, string(where, first, "root"))
+    said = string(where, first, "root")
+    try:
+        root = root_from(file, said)
+    except ValueError:  # NUL, or half of a pair of UTF-16
+        raise UsageError(f"{where}: its root is {quoted(said[:40])}, which is no path") from None
     if not os.path.isdir(root):
         raise UsageError(f"{where}: its root is {quoted(root)}, and there is no such folder")
     settings = table_of(where, first, "settings")
@@ -144,16 +152,10 @@ def as_text(baseline: Baseline) -> str:
 
 def write_baseline(baseline: Baseline) -> None:
     """Writes a file, or leaves the one that is there; raises OSError."""
-    target = Path(os.path.realpath(baseline.file))
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
-        with temporary.open("wb") as stream:
-            stream.write(as_text(baseline).encode("utf-8"))
-            stream.flush()
-            os.fsync(stream.fileno())  # some disks are full only here
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with replacing(Path(baseline.file)) as stream:
+        stream.write(as_text(baseline).encode("utf-8"))
+        stream.flush()
+        os.fsync(stream.fileno())  # some disks are full only here
 
 
 def check_writable(option: str, file: Path, replaces: bool = True) -> None:

@@ -6,12 +6,13 @@ import re
 from bisect import bisect_left
 from collections.abc import Iterator
 from functools import lru_cache
+from itertools import islice
 
 from usdvol_lint.words import format_time, frame_ranges
 
 TOLERANCE = 1e-6
 """Time codes that are no farther apart are one: offsets and scales are undone in floating point."""
-_LONGEST_RANGE = 1_000_000
+_MOST = 1_000_000
 _NUMBER = r"(-?(?:inf|\d+(?:\.\d+)?(?:e[+-]?\d+)?))"
 _RANGE = re.compile(rf"{_NUMBER}(?:-{_NUMBER}(?:x{_NUMBER})?)?")
 _SHOWN = 8
@@ -44,7 +45,11 @@ def frames_from_text(text: str) -> tuple[float, ...]:
     Equal texts share their frames: in a baseline many causes cover the same.
     """
     parts = text.split(",") if text.strip() else []
-    return tuple(sorted(frame for part in parts for frame in _range(part.strip())))
+    frames = (frame for part in parts for frame in _range(part.strip()))
+    read = sorted(islice(frames, _MOST + 1))
+    if len(read) > _MOST:
+        raise ValueError(f"more than {_MOST} frames")
+    return tuple(read)
 
 
 def _range(part: str) -> Iterator[float]:
@@ -59,7 +64,7 @@ def _range(part: str) -> Iterator[float]:
 
 def _even(first: float, last: float, step: float) -> Iterator[float]:
     """Evenly spread frames from the first to the last: a step that was rounded doesn't add up."""
-    if not (step > 0 and first < last and (last - first) / step < _LONGEST_RANGE):
+    if not (step > 0 and first < last and (last - first) / step < _MOST):
         raise ValueError(f"no frames: {first} to {last} by {step}")
     gaps = max(round((last - first) / step), 1)
     return (first + (last - first) * gap / gaps for gap in range(gaps + 1))

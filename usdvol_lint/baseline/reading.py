@@ -7,7 +7,14 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from usdvol_lint.baseline.entry import Entry, by_fingerprint, entry_from_json, is_held, least_held
+from usdvol_lint.baseline.entry import (
+    Entry,
+    FrameLimit,
+    by_fingerprint,
+    entry_from_json,
+    is_held,
+    least_held,
+)
 from usdvol_lint.baseline.file import FORMAT_KEY, Baseline, check_version, read_lines
 from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 from usdvol_lint.baseline.scope import arguments_from_json, scope_from_json
@@ -79,6 +86,7 @@ def _from_report(file: str, report: dict[str, Any]) -> Baseline:
 
 def _held(file: str, report: dict[str, Any], least: Severity) -> Iterator[Entry]:
     """The causes of a report that a baseline of its run would hold."""
+    limit = FrameLimit(file)
     for number, cause in enumerate(list_of(file, report, "causes")):
         where = f"{file}: causes[{number}]"
         if not isinstance(cause, dict):
@@ -88,4 +96,4 @@ def _held(file: str, report: dict[str, Any], least: Severity) -> Iterator[Entry]
         if state not in set(State) or severity not in LEVELS:
             raise UsageError(f"{where}: 'state' or 'severity' is none that there is")
         if is_held(entry, State(state), Severity[severity.upper()], least):
-            yield entry
+            yield limit.counted(entry)

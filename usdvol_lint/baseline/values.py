@@ -29,6 +29,8 @@ def value_of(text: str) -> Any:
         raise ValueError(f"{error.msg} ({line}column {error.colno})") from None
     except RecursionError:
         raise ValueError("nested too deep") from None
+    except ValueError:  # Python converts no number of more than some thousand digits
+        raise ValueError("a number of too many digits") from None
 
 
 def string(where: str, table: Mapping[str, Any], key: str) -> str:

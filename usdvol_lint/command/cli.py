@@ -12,6 +12,7 @@ from usdvol_lint import __version__
 from usdvol_lint.command.arguments import OUTPUTS, Arguments
 from usdvol_lint.command.codes import CLEAN, FAILED, FINDINGS, ended_by, signal_of
 from usdvol_lint.model import UsageError
+from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.words import printable
 
 if TYPE_CHECKING:
@@ -130,6 +131,7 @@ def _complete_from(constant: str) -> Any:
               help="Worker processes (default: one for each processor that it may use).")
 @click.option("--timeout", type=float, metavar="SECONDS",
               help="Time limit for one stage (default: 300).")
+@click.option("--memory-limit", metavar="SIZE", help="Memory for one worker, such as 4G, or none.")
 @click.option("--show-settings", is_flag=True,
               help="Print the settings in force, as a configuration file, and exit.")
 @click.option("--list-rules", is_flag=True, help="Print every rule and exit.")
@@ -191,6 +193,8 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
     except (click.Abort, KeyboardInterrupt) as error:
         _tell("interrupted")
         return ended_by(signal_of(error))
+    except MemoryError:
+        _tell(f"error: no memory is left{narrow_limits()}")
     except Exception as error:  # a bug of ours must exit with 2 too: 1 would mean findings
         words = " ".join(f"{type(error).__name__}: {error}".split())
         _tell(f"internal error: {words} (--verbose shows more)")
@@ -203,7 +207,7 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
 
 def _report(error: Exception, arguments: list[str] | None) -> None:
     """Writes the reports that are asked for, which were not written where the error came early."""
-    from usdvol_lint.command.linting import report_misuse
+    from usdvol_lint.command.failed import report_misuse
 
     with suppress(OSError, UsageError):
         report_misuse(sys.argv[1:] if arguments is None else arguments, error)

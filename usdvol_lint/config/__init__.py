@@ -52,7 +52,8 @@ class Config(NamedTuple):
 
     `select` is None for the rules that are on by default; without any selector it is none at all.
     `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
-    for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
+    for each stage, `memory_limit` a size for each process; `packs` are folders, besides what is
+    installed; `options` are those of rules, by code or name of the rule.
     `fail_on_unchecked` says that what was not checked fails a run at any level.
     `show` is what reports for people have besides errors and warnings.
     `max_places` is how many places of a cause a report has in full; `root` is the folder that
@@ -82,6 +83,7 @@ class Config(NamedTuple):
     show: tuple[str, ...] = ()
     jobs: int = 0
     timeout: float = 300.0
+    memory_limit: str = "auto"
     load: str = "all"
     content: str = "all"
     variants: str = "selected"

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from usdvol_lint.suppressions import Suppression
 
 LONGEST_TIMEOUT = 1_000_000
+_SIZES = {"": 1, "K": 1 << 10, "M": 1 << 20, "G": 1 << 30, "T": 1 << 40}
+_NO_SIZES = {"auto": None, "none": 0, "0": 0}
 _NO_LEVELS = ("ignore", "ignored", "off", "none", "never", False)
 """What somebody writes for the severity of a rule that is to report nothing."""
 
@@ -140,6 +142,31 @@ def _timeout(where: str, value: Any) -> float:
     return float(value)
 
 
+def _memory_limit(where: str, value: Any) -> str:
+    """The value, if it is a size, or says that there is no limit."""
+    is_number = isinstance(value, int) and not isinstance(value, bool)
+    text = str(value) if is_number else value
+    try:
+        bytes_of(text)
+    except (TypeError, ValueError):
+        wanted = "a size such as 4G or 500M, or none"
+        raise UsageError(f"{where} must be {wanted}, not {value!r}") from None
+    return str(text)
+
+
+def bytes_of(size: str) -> int | None:
+    """A size in bytes, 0 for any, None for a share of what there is; raises ValueError."""
+    if size in _NO_SIZES:
+        return _NO_SIZES[size]
+    import re  # few runs have one
+
+    number = r"\s*(\d{1,15}(?:\.\d{1,6})?)\s*([KMGT]?)(?:I?B)?\s*"
+    found = re.fullmatch(number, size, re.ASCII | re.IGNORECASE)
+    if not found:
+        raise ValueError(size)
+    return int(float(found[1]) * _SIZES[found[2].upper()])
+
+
 def _times(where: str, value: Any) -> str | int:
     """The value, if it says which time samples of particles are read."""
     if isinstance(value, str) and value.isascii() and value.isdigit():
@@ -195,6 +222,7 @@ CHECKS: Mapping[str, Callable[[str, Any], Any]] = {
     "show": shown,
     "jobs": partial(_whole_number, least=0),
     "timeout": _timeout,
+    "memory-limit": _memory_limit,
     "load": partial(one_of, allowed=LOADS),
     "content": partial(one_of, allowed=CONTENTS),
     "variants": partial(one_of, allowed=VARIANTS),

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from usdvol_lint import schema
-from usdvol_lint.engine.asked_types import unknown_types
+from usdvol_lint.engine.asked_types import IdleRule
 from usdvol_lint.engine.assign import Assignment, Options
 from usdvol_lint.engine.failures import PACK_FAILURES, Failures
 from usdvol_lint.engine.identity import Identity
+from usdvol_lint.engine.lacking import absent_under
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.usd_version import usd_version
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
+from usdvol_lint.model import Finding
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
 from usdvol_lint.rule import STAGE, Problem, Rule
 
@@ -39,7 +41,7 @@ class StageCheck:
 
     def walk(self) -> Walked:
         """The prims that the rules ask for, under the variant selection composed now."""
-        return walk(self._context.stage, self._rules, self._context.kinds)
+        return walk(self._context.stage, self._assignment.asked_for, self._context.kinds)
 
     def facts(self, walked: Walked) -> Facts:
         """The facts under the variant selection composed now."""
@@ -58,10 +60,10 @@ class StageCheck:
             )
             yield from self._stamp.stamp(USD_TOO_OLD, too_old)
 
-    def unknown_types(self, facts: Facts) -> Iterator[Stamped]:
+    def idle(self, facts: Facts, rules: Iterable[IdleRule]) -> Iterator[Stamped]:
         """Reports the rules that ask for types which nobody knows."""
-        for rule, idle in unknown_types(self._rules, facts.stage.GetPseudoRoot()):
-            yield from self._stamp.stamp(rule, idle)
+        for each in rules:
+            yield from self._stamp.stamp(each.rule, each.told_at(facts.stage.GetPseudoRoot()))
 
     def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:
         """What the rules find under the selection composed now, and where they failed."""
@@ -85,10 +87,17 @@ class StageCheck:
             for stamped in self._other(error):
                 if stamped.identity not in known:
                     known.add(stamped.identity)
-                    site = stamped.finding.site._replace(variant=selection)
-                    yield stamped._replace(finding=stamped.finding._replace(site=site))
+                    yield stamped._replace(finding=self._under(selection, stamped.finding))
         for left_out in selections.not_checked():
             yield from self._stamp.stamp(NOT_CHECKED, left_out)
+
+    def _under(self, selection: str | None, finding: Finding) -> Finding:
+        """A finding as it is told that only another selection shows."""
+        finding = finding._replace(site=finding.site._replace(variant=selection))
+        if not selection or not finding.absent:
+            return finding
+        root = self._context.stage.GetRootLayer().realPath
+        return finding._replace(absent=absent_under(selection, finding.absent, root))
 
     def _other(self, fault: Unreadable | None) -> Iterator[Stamped]:
         """What the selection composed now shows, or `fault`, which kept USD from composing it."""

@@ -10,6 +10,7 @@ from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
+from usdvol_lint.engine.asked_types import idle_rules
 from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.failures import still_holding, unreadable
@@ -20,6 +21,7 @@ from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.folders import Folders
+from usdvol_lint.facts.grids.known import KnownContents
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.layertext.source import SharedTexts
 from usdvol_lint.model import Completion, Finding, StageReport, Status, in_order
@@ -27,7 +29,6 @@ from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.paths import named
 from usdvol_lint.rule import Rule
 from usdvol_lint.suppressions import InStages
-from usdvol_lint.volumefile.cache import VolumeFiles
 
 _SENT_AT_ONCE = 100
 """From this many findings on they are sent in batches."""
@@ -63,6 +64,8 @@ class Engine:
         self._suppressions = suppressions or InStages()
         self._rules = [rules[code] for code in sorted({*active.severities, *active.watching})]
         self._active = active
+        self._telling = active.telling
+        self._idle = tuple(idle_rules(self._rules))
         self._assignment = Assignment(self._rules, active.options)
         self._depth = depth or Depth()
         self._advance = advance
@@ -70,7 +73,7 @@ class Engine:
         self._is_alone = is_alone
         self._repository = repository
         self._texts = SharedTexts()
-        self._volume_files = VolumeFiles()
+        self._known_contents = KnownContents()
         self._folders = Folders()
         if self._depth.storage.search_path:
             from usdvol_lint.engine.search_path import set_search_path
@@ -90,10 +93,10 @@ class Engine:
         context = Context.of(
             stage,
             self._depth,
-            self._volume_files,
+            self._known_contents,
             self._folders,
             self._advance,
-            self._active.telling,
+            self._telling,
         )
         found: list[Stamped] = []
         try:
@@ -114,7 +117,7 @@ class Engine:
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)
-        found += self._sent(chain(check.usd_version(facts), check.unknown_types(facts)))
+        found += self._sent(chain(check.usd_version(facts), check.idle(facts, self._idle)))
         found += self._sent(check.selection(walked, facts))
         completes = _completion(facts)
         stats = _stats(walked, facts, context.disk)

@@ -14,6 +14,7 @@ class Trouble(NamedTuple):
     """Why a stage was not checked; `layer`, `line` and `column` are where text does not parse.
 
     `layer` is None if that is the stage's root layer, `detail` is what `--verbose` adds.
+    `of_machine` names what of the machine is to blame, where it is not the stage.
     """
 
     message: str
@@ -22,6 +23,7 @@ class Trouble(NamedTuple):
     line: int | None = None
     column: int | None = None
     detail: str | None = None
+    of_machine: str | None = None
 
 
 class UnreadableStageError(Exception):
@@ -40,6 +42,7 @@ def report_trouble(
     found: Iterable[Finding] = (),
 ) -> StageReport:
     """A stage's report: one LNT001 finding, and those `found` before the trouble."""
+    layer = None if trouble.of_machine else canonical(trouble.layer or path)
     finding = Finding(
         code=STAGE_UNREADABLE.code,
         name=STAGE_UNREADABLE.name,
@@ -48,7 +51,7 @@ def report_trouble(
         site=Site(
             display_beside(path, trouble.layer or path), line=trouble.line, column=trouble.column
         ),
-        source=Source(canonical(trouble.layer or path)),
+        source=Source(layer, subject=trouble.of_machine or ""),
         cover=Cover(Severity.ERROR),
         suggestion=trouble.suggestion,
         help=help_for(STAGE_UNREADABLE),

@@ -17,10 +17,10 @@ from usdvol_lint.facts.volumes import Volumes
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.disk import Disk
     from usdvol_lint.facts.files.folders import Folders
+    from usdvol_lint.facts.grids.known import KnownContents
     from usdvol_lint.facts.usd.drawn import Drawn
     from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
     from usdvol_lint.facts.volumes.usage import UsedFields
-    from usdvol_lint.volumefile.cache import VolumeFiles
 
 _W = TypeVar("_W", bound=Wing)
 
@@ -28,7 +28,7 @@ _W = TypeVar("_W", bound=Wing)
 class Context(NamedTuple):
     """What the facts of a stage share under all variant selections.
 
-    `disk`: caches the state of files; `volume_files`: caches their content, across stages too.
+    `disk`: caches the state of files; `known`: what volume files hold, across stages too.
     `used`: collects the fields that are used under any selection.
     `advance`: called with how many samples of a long sequence were processed.
     `telling`: the codes of the rules in whose favour others are silent; None if all are.
@@ -38,7 +38,7 @@ class Context(NamedTuple):
     kinds: PrimKinds
     depth: Depth
     disk: Disk
-    volume_files: VolumeFiles
+    known: KnownContents
     used: UsedFields
     advance: Callable[[int], None]
     telling: frozenset[str] | None
@@ -48,22 +48,23 @@ class Context(NamedTuple):
         cls,
         stage: Any,
         depth: Depth = Depth(),  # noqa: B008  (it can't change)
-        volume_files: VolumeFiles | None = None,
+        known: KnownContents | None = None,
         folders: Folders | None = None,
         advance: Callable[[int], None] = lambda samples: None,
         telling: frozenset[str] | None = None,
     ) -> Context:
-        """The context of a stage with empty caches, but for `volume_files` and `folders`."""
+        """The context of a stage with empty caches, but for `known` and `folders`."""
         from usdvol_lint.facts.files.disk import Disk
         from usdvol_lint.facts.files.storage import Whereabouts
-        from usdvol_lint.facts.usd.kinds import PrimKinds
+        from usdvol_lint.facts.grids.known import KnownContents
+        from usdvol_lint.facts.usd.kinds import kinds_on
         from usdvol_lint.facts.volumes.usage import UsedFields
-        from usdvol_lint.volumefile.cache import VolumeFiles
 
-        kinds = PrimKinds(stage.GetMetadata("fallbackPrimTypes"))
-        files = volume_files or VolumeFiles()
+        kinds = kinds_on(stage)
+        known = known or KnownContents()
+        known.begin_stage()
         disk = Disk(folders, Whereabouts(depth.storage))
-        return cls(stage, kinds, depth, disk, files, UsedFields(), advance, telling)
+        return cls(stage, kinds, depth, disk, known, UsedFields(), advance, telling)
 
 
 class Walked(NamedTuple):
@@ -101,7 +102,7 @@ class Facts:
         from usdvol_lint.facts.prims.tables import Tables
         from usdvol_lint.facts.usd.clips import Clips
 
-        stage, kinds, depth, disk, volume_files, used, advance, telling = context
+        stage, kinds, depth, disk, known, used, advance, telling = context
         clips = Clips(walked.clipped)
         tables = Tables(walked.kept, kinds, AuthoredReader(kinds, clips), telling)
         self.stage = stage
@@ -111,7 +112,7 @@ class Facts:
         self.files = Files(tables, stage, clips, disk, advance, bool(depth.frames))
         overs = Overs(stage, kinds, tables, walked.undefined, walked.overs, walked.drawn)
         self.layers = Layers(tables, stage, clips, kinds, overs, walked.drawn, depth.frames)
-        self.grids = Grids(tables, self.files, depth.content, volume_files, advance)
+        self.grids = Grids(tables, self.files, depth.content, known, advance)
         self.volumes = Volumes(
             tables,
             stage,

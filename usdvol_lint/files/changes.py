@@ -27,6 +27,8 @@ _FETCH = (
     "GIT_DEPTH: 0 for GitLab, or 'git fetch --unshallow'"
 )
 
+_NO_GIT = "--changed-since needs git, which is not installed"
+
 
 def changes_since(revision: str, arguments: Sequence[str], settings: Iterable[str]) -> Changes:
     """What changed since the merge base of a revision and HEAD, in the repository of the arguments.
@@ -131,8 +133,8 @@ class _Git:
 
     def differing(self, *between: str) -> Iterator[tuple[str, str | None, str]]:
         """The paths that git tells to differ, of a submodule with its commits."""
-        # Git may be set to tell nothing of submodules.
-        raw = ("--raw", "-z", "--no-abbrev", "--no-renames", "--ignore-submodules=none")
+        # Git may be set to tell nothing of submodules; what is in their folders is asked there.
+        raw = ("--raw", "-z", "--no-abbrev", "--no-renames", "--ignore-submodules=dirty")
         told = self._asked("diff", *raw, "--no-ext-diff", *between, "--").split(b"\0")
         for entry, name in zip(told[::2], told[1::2], strict=False):
             before, after, old, new, _ = entry.removeprefix(b":").decode("ascii").split()
@@ -179,7 +181,7 @@ class _Git:
 
     def _call(self, *arguments: str) -> tuple[int, bytes, bytes]:
         """The exit code, and what git wrote to standard output and standard error."""
-        command = ["git", "-C", self.folder, *arguments]
+        command = [_program(), "-C", self.folder, "-c", "core.fsmonitor=false", *arguments]
         kept = {name: os.environ[name] for name in os.environ if name not in self._unset}
         environment = {**kept, "LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}
         try:
@@ -191,7 +193,7 @@ class _Git:
                 env=environment,
             )
         except FileNotFoundError:
-            raise UsageError("--changed-since needs git, which is not installed") from None
+            raise UsageError(_NO_GIT) from None
         return done.returncode, done.stdout, done.stderr
 
 
@@ -204,6 +206,16 @@ def _submodule(path: str) -> _Git | None:
     except _NoRepositoryError:
         return None
     return inner if os.path.realpath(inner.folder) == os.path.realpath(path) else None
+
+
+def _program() -> str:
+    """Git where PATH has it: Windows would look into the working directory first."""
+    name = "git.exe" if os.name == "nt" else "git"
+    files = (os.path.join(each, name) for each in os.get_exec_path() if os.path.isabs(each))
+    for file in files:
+        if os.path.isfile(file) and os.access(file, os.X_OK):
+            return file
+    raise UsageError(_NO_GIT)
 
 
 def _path(name: bytes) -> str:

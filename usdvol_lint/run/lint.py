@@ -36,7 +36,16 @@ if TYPE_CHECKING:
 
 _SHAPING = (
     *("options", "packs", "fail_on", "fail_on_unchecked", "show", "rules_as_of"),
-    *("load", "content", "variants", "variant_limit", "times", "timeout", "suppressions"),
+    *(
+        "load",
+        "content",
+        "variants",
+        "variant_limit",
+        "times",
+        "timeout",
+        "memory_limit",
+        "suppressions",
+    ),
 )
 
 
@@ -118,7 +127,7 @@ class _Run(NamedTuple):
             root=root,
             stages=stages,
             causes=(),
-            run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs),
+            run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs, usd_said=self.pool.said),
             arguments=chosen.looked_at(stages, root),
             left_out=left_out,
             nothing=nothing,
@@ -186,7 +195,7 @@ def stage_reports(
     is_alone = len(futures) == 1 and not config.stages
     stages = in_stages(config)
     setup = Setup(active, config.packs, config.depth, stages, is_alone, repository, changed)
-    pool.run(setup, jobs, config.timeout, shown.advance)
+    pool.run(setup, jobs, config.timeout, shown.advance, config.memory_limit)
     if interruption:
         interruption.stops(pool.interrupt)
     while futures:

@@ -10,7 +10,12 @@ from concurrent.futures import Future, InvalidStateError
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from usdvol_lint.model import StageReport, UsageError
+from usdvol_lint.engine.trouble import report_trouble
+from usdvol_lint.model import StageReport, Status, UsageError
+from usdvol_lint.run.endings import not_started
+from usdvol_lint.run.limits import narrow_limits
+from usdvol_lint.run.memory import Memory
+from usdvol_lint.run.processors import owned
 from usdvol_lint.run.protocol import Setup
 from usdvol_lint.run.supervisor import Worker
 
@@ -36,6 +41,8 @@ class Pool:
 
     def __init__(self, child: subprocess.Popen[bytes] | None = None) -> None:
         self._first = Worker(child)
+        self._able = 0
+        self._lock = threading.Lock()
         self._waiting: queue.SimpleQueue[tuple[str, Future[StageReport]]] = queue.SimpleQueue()
         self._workers: list[Worker] = [self._first]
         self._closed = False
@@ -44,6 +51,11 @@ class Pool:
     @property
     def usd_version(self) -> str:
         return self._first.usd_version
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """What USD said of itself, and not of a stage."""
+        return self._first.said
 
     def submit(self, path: str) -> Future[StageReport]:
         """Queues a stage; nothing happens to it before `run`."""
@@ -58,45 +70,92 @@ class Pool:
         jobs: int,
         limit: float,
         advance: Callable[[int], None] = lambda samples: None,
+        memory: str = "auto",
     ) -> None:
         """Starts to work the queue off with at most `jobs` workers, in threads; does not wait.
 
-        `limit` are the seconds that one stage may take; a future holds what its stage came to.
+        `limit` are the seconds that one stage may take, `memory` is what one worker may keep; a
+        future holds what its stage came to.
         Raises UsageError if the first worker can't work.
         """
-        self._first.prepare(setup, _ready_limit(limit))
-        workers = min(jobs, self._waiting.qsize())
-        _in_a_thread(self._work_off, self._first, limit, advance)
+        workers = max(1, min(jobs, owned(), self._waiting.qsize()))
+        self._first.prepare(setup, _ready_limit(limit), Memory(memory, workers))
+        self._able = workers
+        try:
+            _in_a_thread(self._work_off, self._first, limit, advance)
+        except RuntimeError as error:
+            raise UsageError(f"no thread can be started{narrow_limits()}") from error
         for number in range(1, workers):
-            _in_a_thread(self._join_later, number, setup, limit, advance)
+            own = Memory(memory, workers)
+            try:
+                _in_a_thread(self._join_later, number, setup, limit, advance, own)
+            except RuntimeError:
+                self._give_up(UsageError(f"no thread can be started{narrow_limits()}"))
 
     def _join_later(
-        self, number: int, setup: Setup, limit: float, advance: Callable[[int], None]
+        self,
+        number: int,
+        setup: Setup,
+        limit: float,
+        advance: Callable[[int], None],
+        memory: Memory,
     ) -> None:
         time.sleep(_START_DELAY * number)
-        if self._waiting.empty() or self._closed:
+        if self._closed or self._is_done():
             return
         worker = Worker()
         self._workers.append(worker)
         try:
-            worker.prepare(setup, _ready_limit(limit))
-        except UsageError:  # the others do its work, or did it and ended the run
-            return
-        self._work_off(worker, limit, advance)
+            worker.prepare(setup, _ready_limit(limit), memory)
+        except UsageError as error:  # the others do its work, or did it and ended the run
+            self._give_up(error)
+        else:
+            self._work_off(worker, limit, advance)
 
     def _work_off(self, worker: Worker, limit: float, advance: Callable[[int], None]) -> None:
         while not self._closed:
             try:
                 path, future = self._waiting.get_nowait()
             except queue.Empty:
-                return
+                if self._is_done():
+                    return
+                continue
             with suppress(InvalidStateError):  # of a run that was interrupted
                 try:
                     report = worker.lint(path, limit, advance)
+                except UsageError as error:
+                    return self._give_up(error, (path, future))
                 except Exception as error:  # raised again where the result is asked for
                     future.set_exception(error)
                 else:
                     future.set_result(report)
+
+    def _is_done(self) -> bool:
+        """Whether no stage is waiting, so that a worker leaves."""
+        with self._lock:
+            is_done = self._waiting.empty()
+            self._able -= is_done
+        return is_done
+
+    def _give_up(
+        self, error: UsageError, stage: tuple[str, Future[StageReport]] | None = None
+    ) -> None:
+        """Leaves what is waiting to other workers, with the `stage` of one that can't go on.
+
+        Where there are none, what is reported on each stage is why.
+        """
+        with self._lock:
+            if stage:
+                self._waiting.put(stage)
+            self._able -= 1
+            if self._able:
+                return
+        with suppress(queue.Empty):
+            while True:
+                path, future = self._waiting.get_nowait()
+                with suppress(InvalidStateError):
+                    trouble = not_started(str(error))
+                    future.set_result(report_trouble(path, trouble, Status.CRASHED))
 
     def interrupt(self) -> None:
         """Ends the run at once: no stage that is not done yet has a report any more."""

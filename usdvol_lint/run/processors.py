@@ -6,7 +6,9 @@ import os
 from collections.abc import Iterator
 from math import ceil
 
-_ROOT = "/sys/fs/cgroup"
+from usdvol_lint.run.control_groups import OWN, ROOT, granted
+
+_OLD_NAMES = ("cpu.cfs_quota_us", "cpu.cfs_period_us")
 
 
 def owned() -> int:
@@ -17,32 +19,8 @@ def owned() -> int:
     return max(1, min([found or 1, *(ceil(quota) for quota in _quotas())]))
 
 
-def _quotas(root: str = _ROOT, own: str = "/proc/self/cgroup") -> Iterator[float]:
+def _quotas(root: str = ROOT, own: str = OWN) -> Iterator[float]:
     """The processors that each control group around this process has, where one is limited."""
-    for line in _text(own).splitlines():
-        _, controllers, path = line.split(":", 2)
-        if not controllers:
-            yield from _limits(root, path, "cpu.max")
-        elif "cpu" in controllers.split(","):
-            yield from _limits(f"{root}/{controllers}", path, "cpu.cfs_quota_us")
-
-
-def _limits(root: str, path: str, name: str) -> Iterator[float]:
-    """What a group and those above it say; in a container only the outermost may be there."""
-    while True:
-        words = _text(f"{root}{path}/{name}").split()
-        if len(words) == 1:  # of version 1, where the period is in a file of its own
-            words += _text(f"{root}{path}/cpu.cfs_period_us").split()
+    for words in granted("cpu", "cpu.max", _OLD_NAMES, root, own):
         if len(words) == 2 and words[0].isdigit() and words[1].isdigit() and int(words[1]):
             yield int(words[0]) / int(words[1])
-        if not path.strip("/"):
-            return
-        path = path.rpartition("/")[0]
-
-
-def _text(path: str) -> str:
-    try:
-        with open(path, encoding="utf-8", errors="replace") as file:
-            return file.read()
-    except OSError:
-        return ""

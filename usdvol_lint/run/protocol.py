@@ -35,9 +35,10 @@ class Setup(NamedTuple):
 
 
 class Ready(NamedTuple):
-    """The worker's answer to Setup."""
+    """The worker's answer to Setup; `said` is what USD said of its own plugins."""
 
     usd_version: str
+    said: tuple[str, ...] = ()
 
 
 class Refusal(NamedTuple):

@@ -2,71 +2,137 @@
 
 from __future__ import annotations
 
+import errno
 import pickle
-import signal
-import threading
 import time
-from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from typing import IO, TYPE_CHECKING, Any
 
-from usdvol_lint.child import start_child
+from usdvol_lint.child import kill_child, start_child
 from usdvol_lint.engine.trouble import Trouble, report_trouble
 from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.run.deadline import Deadline
+from usdvol_lint.run.endings import MORE_MEMORY, cause_of, crashed, timed_out, too_large
+from usdvol_lint.run.last_words import LastWords
+from usdvol_lint.run.limits import narrow_limits
+from usdvol_lint.run.memory import Memory
 from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.replies import replies_of, wait_for_end
+from usdvol_lint.words import format_size
 
 if TYPE_CHECKING:
     import subprocess
 
-_FROM_OUTSIDE = frozenset({"SIGHUP", "SIGKILL", "SIGTERM"})
+_PAUSES = (0.2, 0.6, 1.8)
+"""Seconds before a process that did not start is tried again."""
+_PATIENCE = 5.0
+"""Seconds that a process has to go once it was ended; one that waits for a disk goes later."""
+_START_AHEAD = 1.0
+"""Seconds that a process has to import USD before it takes the place of one that has grown."""
+_PASSING = frozenset({errno.EAGAIN, errno.ENOMEM})
+
+
+class NoProcessError(UsageError):
+    """That a process can't be started; where `is_passing`, it may be possible a little later."""
+
+    def __init__(self, reason: str, is_passing: bool) -> None:
+        super().__init__(reason)
+        self.is_passing = is_passing
 
 
 class Worker:
-    """One child process, replaced by a new one when it died or was ended.
+    """One child process, replaced by a new one when it died, was ended or has grown.
 
     It is `child` or a new one, and imports USD until it is asked something.
     """
 
     def __init__(self, child: subprocess.Popen[bytes] | None = None) -> None:
         self.usd_version = ""
-        self._deadline = Deadline(self.kill)
-        self._adopt(child or start_child())
-
-    def _adopt(self, child: subprocess.Popen[bytes]) -> None:
-        self._process = child
+        self.said: tuple[str, ...] = ()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._successor: subprocess.Popen[bytes] | None = None
+        self._successor_is_ready_at = 0.0
         self._is_gone = False
-        self._stderr: deque[bytes] = deque(maxlen=20)
-        self._listener = threading.Thread(
-            target=_drain, args=(child.stderr, self._stderr), daemon=True
-        )
-        self._listener.start()
+        self._is_over = False
+        self._memory = Memory()
+        self._deadline = Deadline(self._end, self._is_too_large)
+        with suppress(NoProcessError):  # it is tried again once it is needed
+            self._begin(child)
 
-    def prepare(self, setup: Setup, limit: float) -> None:
+    def _begin(self, child: subprocess.Popen[bytes] | None = None) -> None:
+        """Starts a child, or takes this one; raises NoProcessError."""
+        try:
+            child = child or start_child()
+        except OSError as error:
+            reason = f"no process can be started: {error.strerror}{narrow_limits()}"
+            raise NoProcessError(reason, error.errno in _PASSING) from error
+        try:
+            self._deadline.start()
+            assert child.stderr
+            self._last_words = LastWords(child.stderr)
+        except RuntimeError as error:
+            kill_child(child)
+            reason = f"no thread can be started{narrow_limits()}"
+            raise NoProcessError(reason, is_passing=True) from error
+        self._process = child
+        self._replies = replies_of(child)
+        self._is_gone = False
+        self._memory.begin()
+
+    def prepare(self, setup: Setup, limit: float, memory: Memory | None = None) -> None:
         """Hands over the rules; raises UsageError if the child is not ready within `limit` seconds.
 
-        It is a UsageError too if the child can't load the rules, or can't import USD.
+        It is a UsageError too if the child can't load the rules, or can't import USD.  One that is
+        ended from outside while it does is replaced a few times.
         """
         self._setup, self._ready_limit = setup, limit
-        reply, expired = self._ask(setup, limit, lambda message: None)
+        self._memory = memory or self._memory
+        self._get_ready()
+
+    def _get_ready(self) -> None:
+        for pause in _PAUSES:
+            try:
+                return self._greet()
+            except NoProcessError as error:
+                if not error.is_passing or self._is_over:
+                    raise
+            self._let_go()
+            time.sleep(pause)
+        self._greet()
+
+    def _greet(self) -> None:
+        """Hands the rules to a child; raises UsageError if it refuses or does not get ready."""
+        if self._process is None:
+            self._begin()
+        reply, expired = self._ask(self._setup, self._ready_limit, lambda message: None)
         if isinstance(reply, Refusal):
             raise UsageError(" ".join(reply.reason.split()))
+        if self._memory.is_chosen and isinstance(reply, Ready) and self._is_too_large():
+            own, most = format_size(self._memory.own), format_size(self._memory.limit)
+            raise UsageError(
+                f"a memory limit of {most} is too low: a process takes {own} before it opens a "
+                "stage; raise --memory-limit (memory-limit in a configuration)"
+            )
         if not isinstance(reply, Ready):
-            how = f"not ready after {limit:g} s" if expired else _cause(self._process.wait())
-            words = self._last_words().splitlines() or ["it said nothing"]
-            raise UsageError(f"the process that loads USD does not start ({how}): {words[-1]}")
-        self.usd_version = reply.usd_version
+            raise self._not_ready(expired)
+        self.usd_version, self.said = reply.usd_version, reply.said
+
+    def _not_ready(self, expired: bool) -> NoProcessError:
+        code = self._code()
+        how = f"not ready after {self._ready_limit:g} s" if expired else cause_of(code)
+        words = self._last_words.text().splitlines() or ["it said nothing"]
+        advice = narrow_limits() or (f"; {MORE_MEMORY}" if how == "SIGKILL" else "")
+        reason = f"the process that loads USD does not start ({how}): {words[-1]}{advice}"
+        return NoProcessError(reason, is_passing=code < 0 and not expired)
 
     def lint(self, path: str, limit: float, advance: Callable[[int], None]) -> StageReport:
         """The report on a stage, also where the child crashes or takes more than `limit` seconds.
 
         `advance` is called with numbers of samples, as those of a long sequence are read.
+        Raises UsageError if no child can be started any more to check it.
         """
-        if self._is_gone:
-            self.stop()
-            self._adopt(start_child())
-            self.prepare(self._setup, self._ready_limit)
+        self._renew()
         began = time.perf_counter()
         found: list[Finding] = []
 
@@ -77,25 +143,68 @@ class Worker:
                 advance(message.samples)
 
         reply, timed_out = self._ask(path, limit, hear)
-        self._is_gone = timed_out or not isinstance(reply, Done)
+        self._is_gone = timed_out or self._deadline.is_over or not isinstance(reply, Done)
         if isinstance(reply, Done):
             return reply.with_findings(found)
         seconds = {"total": time.perf_counter() - began}
-        trouble = self._timed_out(limit) if timed_out else self._crashed()
         status = Status.TIMED_OUT if timed_out else Status.CRASHED
-        return report_trouble(path, trouble, status, seconds, found)
+        return report_trouble(path, self._trouble(timed_out, limit), status, seconds, found)
+
+    def _renew(self) -> None:
+        """Puts a new child in the place of one that has gone, or has grown: that starts ahead."""
+        if self._is_gone or self._process is None:
+            self._let_go()
+            self._get_ready()
+        elif self._successor:
+            if time.monotonic() >= self._successor_is_ready_at:
+                successor, self._successor = self._successor, None
+                self._let_go()
+                with suppress(NoProcessError):
+                    self._begin(successor)
+                self._get_ready()
+        elif self._memory.has_grown(self._process.pid):
+            with suppress(OSError):  # the one that has grown goes on
+                self._successor = start_child()
+                self._successor_is_ready_at = time.monotonic() + _START_AHEAD
 
     def kill(self) -> None:
-        """Ends the child at once, without waiting until it has gone."""
-        self._process.kill()
+        """Ends the child at once, without waiting until it has gone; no other takes its place."""
+        self._is_over = True
+        self._end()
+        if self._successor:
+            kill_child(self._successor)
 
     def stop(self) -> None:
         """Ends the child, and waits until it has gone."""
         self.kill()
-        self._process.wait()
-        for stream in (self._stdin, self._stdout):
-            with suppress(OSError):
-                stream.close()
+        self._deadline.close()
+        self._let_go()
+
+    def _end(self) -> None:
+        if self._process:
+            kill_child(self._process)
+
+    def _is_too_large(self) -> bool:
+        return self._process is not None and self._memory.is_too_large(self._process.pid)
+
+    def _let_go(self) -> None:
+        """Ends the child, waits until it has gone, and closes its pipes."""
+        if self._process:
+            self._end()
+            wait_for_end(self._process, _PATIENCE)
+            for stream in (self._stdin, self._replies):
+                with suppress(OSError):
+                    stream.close()
+        self._process = None
+
+    def _code(self) -> int:
+        """The exit code of the child, which is about to go or has gone."""
+        assert self._process
+        code = wait_for_end(self._process, _PATIENCE)
+        if code is None:
+            self._end()
+            code = wait_for_end(self._process, _PATIENCE)
+        return 1 if code is None else code
 
     def _ask(
         self, message: Setup | str, limit: float, hear: Callable[[Advance | NewFindings], None]
@@ -104,12 +213,13 @@ class Worker:
 
         `hear` is called with each message that comes before the reply.
         """
-        self._deadline.set(limit)
+        # What a process takes to get ready is looked at then; most runs don't take long enough.
+        self._deadline.set(limit, looks=not isinstance(message, Setup))
         try:
             with suppress(OSError):  # a child that has gone may have said why
                 pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
                 self._stdin.flush()
-            while isinstance(reply := pickle.load(self._stdout), Advance | NewFindings):
+            while isinstance(reply := pickle.load(self._replies), Advance | NewFindings):
                 hear(reply)
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
             reply = None
@@ -120,54 +230,13 @@ class Worker:
 
     @property
     def _stdin(self) -> IO[bytes]:
+        assert self._process
         assert self._process.stdin
         return self._process.stdin
 
-    @property
-    def _stdout(self) -> IO[bytes]:
-        assert self._process.stdout
-        return self._process.stdout
-
-    def _timed_out(self, limit: float) -> Trouble:
-        return Trouble(
-            f"stopped after {limit:g} s, the limit for one stage",
-            "a large stage or a slow disk needs more: raise --timeout, or look at less with "
-            "--content first --times ends; a pipe or a corrupt layer never ends",
-        )
-
-    def _crashed(self) -> Trouble:
-        code = self._process.wait()
-        cause = _cause(code)
-        if 0 <= code < 256 or cause == "SIGINT":  # which is how Python ends by KeyboardInterrupt
-            what = "the process that checked it ended early"
-            advice = (
-                "a bug of usdvol-lint, a rule pack or a USD plugin; --verbose shows what it said"
-            )
-        elif cause in _FROM_OUTSIDE:
-            what = "the process that checked it was ended from outside"
-            advice = "give the machine more memory, or let fewer work at once with --jobs"
-        else:
-            what = "the USD library crashed while reading it"
-            advice = (
-                "the file or a layer it names is probably corrupt: open it with usdcat to see which"
-            )
-        return Trouble(f"{what} ({cause})", advice, detail=self._last_words())
-
-    def _last_words(self) -> str:
-        self._process.wait()
-        self._listener.join(timeout=1)
-        return b"".join(self._stderr).decode("utf-8", "replace").strip()
-
-
-def _drain(stream: IO[bytes], lines: deque[bytes]) -> None:
-    with stream:
-        lines.extend(stream)
-
-
-def _cause(code: int) -> str:
-    if code >= 0:
-        return f"exit code {code if code < 256 else hex(code)}"
-    try:
-        return signal.Signals(-code).name
-    except ValueError:
-        return f"signal {-code}"
+    def _trouble(self, is_late: bool, limit: float) -> Trouble:
+        if is_late:
+            return timed_out(limit)
+        if self._deadline.is_over:
+            return too_large(self._memory.own, self._memory.limit)
+        return crashed(self._code(), self._last_words.text())

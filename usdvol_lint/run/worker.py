@@ -8,12 +8,14 @@ import pickle
 import signal
 import time
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
+from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.requests import Requests
 
 if TYPE_CHECKING:
     from usdvol_lint.engine.engine import Engine
@@ -26,7 +28,7 @@ _SHARE = 0.05
 
 
 def main() -> None:
-    """Answers each path with a report, until the pipe closes."""
+    """Answers each path with a report, until the pipe closes, which ends the process."""
     # Facts are many, live as long as their stage, and have no reference cycles: collecting garbage
     # again and again takes a third of the time on a stage of 100,000 prims.
     gc.disable()
@@ -35,16 +37,17 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     requests, replies = _take_pipes()
     try:
-        from pxr import Usd  # noqa: F401
+        from usdvol_lint.engine.plugins import load_plugins
     except ImportError as error:
-        advice = "install usd-core, or put the folder with the pxr of another USD on PYTHONPATH"
-        return _send(replies, Refusal(f"USD can't be imported ({error}): {advice}"))
+        advice = narrow_limits() or (
+            ": install usd-core, or put the folder with the pxr of another USD on PYTHONPATH"
+        )
+        return _send(replies, Refusal(f"USD can't be imported ({error}){advice}"))
     from usdvol_lint.engine.asked_types import check_types
     from usdvol_lint.engine.usd_version import usd_version
 
-    setup: Setup | None = _next(requests)
-    if setup is None:
-        return
+    said = load_plugins()
+    setup: Setup = requests.next()
     try:
         rules = load(setup.packs).rules
         check_types(rules.values())
@@ -52,16 +55,14 @@ def main() -> None:
         return _send(replies, Refusal(str(error)))
     answers = _Answers(replies)
     engine = _engine(rules, setup, answers)
-    _send(replies, Ready(usd_version()))
+    _send(replies, Ready(usd_version(), said))
     concerns = _concerned(setup)
     gc.freeze()  # what all stages share is never garbage
     garbage = _Garbage()
-    while path := _next(requests):
+    while path := requests.next():
         is_checked = concerns is None or concerns(path)
         answers.end(engine.lint(path) if is_checked else _unchanged(path))
         garbage.collect()
-    # The process has nothing to save: tearing down a large stage would only cost time.
-    os._exit(0)
 
 
 class _Garbage:
@@ -132,22 +133,14 @@ class _Answers:
         self._sent = []
 
 
-def _next(requests: BinaryIO) -> Any:
-    """The next message, or None if the parent has gone."""
-    try:
-        return pickle.load(requests)
-    except EOFError:
-        return None
-
-
-def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
+def _take_pipes() -> tuple[Requests, BinaryIO]:
     """Requests and replies; what anything prints goes to standard error instead."""
     replies = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     requests = os.fdopen(os.dup(0), "rb")
     with open(os.devnull, "rb") as nothing:
         os.dup2(nothing.fileno(), 0)
-    return requests, replies
+    return Requests(requests), replies
 
 
 def _send(replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | Done) -> None:

@@ -57,7 +57,7 @@ class Group:
 def volume_file(root: Group) -> VolumeFile:
     """The Field3D file in a container; raises VolumeFileError if it is not one."""
     version = root.value("version_number")
-    if not (isinstance(version, tuple) and len(version) == 3):
+    if not (isinstance(version, tuple) and len(version) == 3 and finite(version)):
         raise VolumeFileError("not-a-volume-file", "the container holds no Field3D")
     major, minor, patch = map(int, version)
     grids: list[Grid] = []

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
 from struct import Struct
-from zipfile import ZIP_STORED, BadZipFile, ZipFile, ZipInfo
+from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 _LOCAL_HEADER = Struct("<4s22xHH")
 _SIGNATURE = b"PK\3\4"
 _ENCRYPTED = 1
+_LARGEST_DIRECTORY = 12 << 20
+"""In bytes: 100,000 files with long names take less, and what is read of it five times as much."""
 
 
 class NotInPlaceError(Exception):
@@ -19,7 +22,12 @@ class Package:
 
     def __init__(self, path: str) -> None:
         self._path = path
-        members = _directory(path, "utf-8") or _directory(path, None)
+        self._why_not = "is not listed in the directory of its package"
+        try:
+            members = _directory(path, "utf-8") or _directory(path, None)
+        except _TooLargeError:
+            members = []
+            self._why_not = "lies in a package of more files than are looked through"
         self._members = {member.filename: member for member in members}
 
     @property
@@ -33,22 +41,42 @@ class Package:
             raise NotInPlaceError("lies in a package inside of its package")
         member = self._members.get(inner)
         if member is None:
-            raise NotInPlaceError("is not listed in the directory of its package")
+            raise NotInPlaceError(self._why_not)
         if member.compress_type != ZIP_STORED or member.flag_bits & _ENCRYPTED:
             raise NotInPlaceError("is compressed or encrypted in its package")
-        with open(self._path, "rb") as file:
-            file.seek(member.header_offset)
-            header = file.read(_LOCAL_HEADER.size)
+        header = self._read(member.header_offset)
         if len(header) < _LOCAL_HEADER.size or not header.startswith(_SIGNATURE):
             raise NotInPlaceError("is not where the directory of its package says")
         # The extra field, which aligns the data, has another size here than in the directory.
         _, name, extra = _LOCAL_HEADER.unpack(header)
         return member.header_offset + _LOCAL_HEADER.size + name + extra, member.file_size
 
+    def _read(self, offset: int) -> bytes:
+        """The local header at an offset, which may be one that no file has; empty if so."""
+        try:
+            with open(self._path, "rb") as file:
+                file.seek(offset)
+                return file.read(_LOCAL_HEADER.size)
+        except (OSError, OverflowError, ValueError):
+            return b""
+
 
 def first_in(path: str) -> str:
     """The path of the first member of a package, which is the layer that USD opens; or ""."""
     return next(iter(Package(path).names), "")
+
+
+class _TooLargeError(Exception):
+    pass
+
+
+class _Archive(io.FileIO):
+    """An archive of which no more is read at once than a directory may take."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        if size is not None and size > _LARGEST_DIRECTORY:
+            raise _TooLargeError
+        return super().read(_LARGEST_DIRECTORY if size is None or size < 0 else size) or b""
 
 
 def _directory(path: str, encoding: str | None) -> list[ZipInfo]:
@@ -57,7 +85,9 @@ def _directory(path: str, encoding: str | None) -> list[ZipInfo]:
     USD writes names in UTF-8 without saying so, for which `encoding` stands.
     """
     try:
-        with ZipFile(path, metadata_encoding=encoding) as archive:
+        with _Archive(path) as file, ZipFile(file, metadata_encoding=encoding) as archive:
             return archive.infolist()
-    except (BadZipFile, NotImplementedError, OSError, ValueError):
+    except _TooLargeError:
+        raise
+    except Exception:  # of a forged one zipfile raises many types, such as struct.error
         return []

@@ -20,7 +20,10 @@ LONGEST_TYPE: Final = 1 << 10
 MOST: Final = 100_000
 """More entries, or grids, than any writer writes."""
 
-_LARGEST_VALUE = 1 << 20
+_LARGEST_VALUE = 1 << 16
+_ASKED_FOR = frozenset(("name", "class", "vector_type"))
+_ENTRY_KEPT = 64
+"""What an entry takes beside its texts, by a low estimate."""
 _SMALLEST_ENTRY = 12
 _U32 = Struct("<I")
 _VALUES = {
@@ -59,7 +62,8 @@ def read_metadata(window: Window) -> dict[str, Metadatum]:
             raise invalid("metadata without a name", at)
         value_type = window.string(LONGEST_TYPE)
         (size,) = window.unpack(_U32)
-        value = _read_value(window, value_type, size)
+        window.keep(_ENTRY_KEPT)
+        value = _read_value(window, name, value_type, size)
         if value_type in _VALUES and value_type != "bool":
             is_corner = value_type == "vec3i" and name in BOUNDS_NAMES
             window.note(name if is_corner else "number", size)
@@ -70,7 +74,7 @@ def read_metadata(window: Window) -> dict[str, Metadatum]:
     return entries
 
 
-def _read_value(window: Window, value_type: str, size: int) -> MetadataValue:
+def _read_value(window: Window, name: str, value_type: str, size: int) -> MetadataValue:
     form = _VALUES.get(value_type)
     if form is not None:
         if size != form.size:
@@ -78,7 +82,9 @@ def _read_value(window: Window, value_type: str, size: int) -> MetadataValue:
             raise invalid(message, window.position - _U32.size)
         values: tuple[float, ...] = window.unpack(form)
         return values if len(values) > 1 else values[0]
-    if value_type == "string" and size <= _LARGEST_VALUE:
+    is_text = value_type == "string" and size <= _LARGEST_VALUE
+    if is_text and (name in _ASKED_FOR or window.has_room(size)):
+        window.keep(size)
         return window.read(size).decode("utf-8", "surrogateescape")
     window.skip(size)
     return None

@@ -15,6 +15,8 @@ _FLAGS = os.O_RDONLY | sum(
     getattr(os, name, 0) for name in ("O_NONBLOCK", "O_CLOEXEC", "O_NOINHERIT", "O_BINARY")
 )
 _CHUNK = 8192
+_MOST_TEXT = 32 << 20
+"""In bytes, of all names in a file: no writer writes as many, and they are kept."""
 _LENGTH = Struct("<I")
 
 
@@ -31,12 +33,12 @@ class Window:
 
     Reading starts at `position` and may not pass `limit`, which is `size` unless the caller
     limits it to a section: bytes beyond `size` make a file truncated, beyond `limit` invalid.
-    `status` is that of the real file; `notes` are the reader's.
+    `status` is that of the real file; `notes` are the reader's, `text` is how much of it they keep.
     """
 
     __slots__ = (
         *("_at", "_base", "_buffer", "_descriptor", "_end", "_start"),
-        *("limit", "notes", "position", "size", "status"),
+        *("limit", "notes", "position", "size", "status", "text"),
     )
 
     def __init__(self, descriptor: int, status: os.stat_result, start: int, size: int) -> None:
@@ -50,6 +52,7 @@ class Window:
         self.size = size
         self.limit = size
         self.position = 0
+        self.text = 0
 
     def __enter__(self) -> Window:
         return self
@@ -96,7 +99,19 @@ class Window:
                 f"text of {length} bytes where at most {longest} make sense",
                 self.position - _LENGTH.size,
             )
+        self.keep(length)
         return self.read(length).decode("utf-8", "surrogateescape")
+
+    def keep(self, count: int) -> None:
+        """Counts what is kept of a file; raises VolumeFileError once that is too much."""
+        self.text += count
+        if self.text > _MOST_TEXT:
+            message = f"more than {_MOST_TEXT >> 20} MiB of names"
+            raise VolumeFileError("not-a-volume-file", message, self.position)
+
+    def has_room(self, count: int) -> bool:
+        """Whether so much may be kept of what nobody asks for: an eighth of the whole."""
+        return self.text + count <= _MOST_TEXT // 8
 
     def skip(self, count: int) -> None:
         self.require(count)

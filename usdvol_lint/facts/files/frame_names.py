@@ -19,6 +19,10 @@ _NO_FRAMES = re.compile(
     re.IGNORECASE,
 )
 """Words before a number that is no frame's."""
+_LONGEST_NAME = 1024
+"""No file system has longer names, but a path may."""
+LONGEST_NUMBER = 255
+"""The digits of the longest number that a file's name may have; a prim's may have more."""
 
 
 class FrameName(NamedTuple):
@@ -40,14 +44,15 @@ class FrameName(NamedTuple):
     def among(self, names: Iterable[str]) -> dict[int, str]:
         """The names that differ from this one in the number alone, by their numbers."""
         width = len(self.digits)
-        number = rf"[0-9]{{{width}}}|[1-9][0-9]{{{width},}}" if width else "[0-9]+"
+        longer = rf"[1-9][0-9]{{{width},{LONGEST_NUMBER}}}"
+        number = rf"[0-9]{{{width}}}|{longer}" if width else rf"[0-9]{{1,{LONGEST_NUMBER}}}"
         alike = re.compile(f"{re.escape(self.before)}({number}){re.escape(self.after)}").fullmatch
         return {int(found[1]): found[0] for found in map(alike, names) if found}
 
 
 def read_frame_name(name: str) -> FrameName | None:
     """A name that ends in a number of three digits or more, unless a word says it is no frame."""
-    found = _NUMBERED.fullmatch(name)
+    found = _NUMBERED.fullmatch(name) if len(name) <= _LONGEST_NAME else None
     if found is None:
         return None
     return None if _ends_in(_NO_FRAMES, found[1]) else FrameName(*found.groups())
@@ -59,11 +64,11 @@ def numbers_an_issue(before: str) -> bool:
 
 
 def _ends_in(words: re.Pattern[str], before: str) -> bool:
-    word = _WORD.search(before)
+    word = _WORD.search(before[-_LONGEST_NAME:])
     return bool(word and words.fullmatch(word[1]))
 
 
 def read_lost_number(name: str) -> FrameName | None:
     """A name that ends in what stands before a number, as `smoke..vdb` does."""
-    found = _NUMBER_LOST.fullmatch(name)
+    found = _NUMBER_LOST.fullmatch(name) if len(name) <= _LONGEST_NAME else None
     return FrameName(*found.groups()) if found else None

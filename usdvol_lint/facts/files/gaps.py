@@ -88,7 +88,7 @@ def _gaps(sequence: SampleSequence, numbering: Numbering) -> list[Gap]:
     """
     count, steps, usual = len(sequence.samples), sequence.steps, sequence.step
     irregular = [index for index, step in enumerate(steps) if step != usual]
-    if len(irregular) * 5 > count:
+    if len(irregular) * 5 > count or not _are_steps(steps):
         return []
     numbers = numbering.numbers
     jumps = list(map(sub, numbers[1:], numbers))
@@ -103,6 +103,11 @@ def _gaps(sequence: SampleSequence, numbering: Numbering) -> list[Gap]:
     if sum(length - 1 for _, length in found) > count:
         return []  # more is missing than present: these are separate ranges
     return [_gap(sequence, numbers[index], index, length, pace) for index, length in found]
+
+
+def _are_steps(steps: Iterable[float]) -> bool:
+    """Whether each step is a number of frames: none is rounded to 0, or beyond all numbers."""
+    return all(step and math.isfinite(step) for step in steps)
 
 
 def _isolated(irregular: Iterable[int]) -> Iterator[int]:

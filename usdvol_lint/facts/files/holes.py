@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import os
+import sys
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -104,7 +106,8 @@ def _holes(samples: Iterable[AssetSample]) -> Iterator[_Hole]:
 def _frames(hole: _Hole, step: float) -> int:
     """For how many frames nothing is named: until the next file, whatever samples there are."""
     start, end = (sample.time or 0.0 for sample in (hole.samples[0], hole.after))
-    return max(len(hole.samples), round((end - start) / step) if step else 0)
+    frames = (end - start) / step if step else 0.0
+    return max(len(hole.samples), round(frames)) if math.isfinite(frames) else sys.maxsize
 
 
 def _paths(sequence: SampleSequence, hole: _Hole) -> tuple[str, ...]:

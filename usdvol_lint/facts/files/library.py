@@ -7,11 +7,11 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from usdvol_lint.facts.files.frame_names import FrameName, numbers_an_issue
+from usdvol_lint.facts.files.frame_names import LONGEST_NUMBER, FrameName, numbers_an_issue
 from usdvol_lint.facts.usd.instances import on_stage
 
 _SEPARATORS = re.compile(r"[/\\\[\]]")
-_NUMBERED = re.compile(r"(?s)(.*?)([0-9]+)")
+_NUMBERED = re.compile(rf"(?s)(.*[^0-9]|)([0-9]{{1,{LONGEST_NUMBER}}})")
 
 
 def is_library_item(field: Any, file: FrameName) -> bool:

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from usdvol_lint.facts.files.frame_names import LONGEST_NUMBER
+
 _MARK = re.compile(r"[$%#@<{*`]")
 _FRAME = re.compile(
     r"""
@@ -23,10 +25,6 @@ _OTHER = re.compile(
     re.IGNORECASE,
 )
 _VARIABLE = re.compile(r"\$\{([A-Za-z_]\w*)\}|\$([A-Za-z_]\w*)|%([A-Za-z_]\w*)%")
-
-
-_DIGITS_OF_WIDTH = 3
-"""The name of a file has at most 255 bytes."""
 
 
 class Frame(NamedTuple):
@@ -78,9 +76,9 @@ def matching_frames(pattern: str, names: Iterable[str]) -> list[Frame]:
     width = next((digits for digits in found.groups() if digits), "").lstrip("0") or "1"
     if found.group()[0] in "#@":
         width = str(len(found.group()))
-    if len(width) > _DIGITS_OF_WIDTH:
+    if len(width) > len(str(LONGEST_NUMBER)) or int(width) > LONGEST_NUMBER:
         return []
     before, after = map(re.escape, (pattern[: found.start()], pattern[found.end() :]))
-    name_of = re.compile(rf"{before}(-?\d{{{width},}}){after}")
+    name_of = re.compile(rf"{before}(-?\d{{{width},{LONGEST_NUMBER}}}){after}")
     matches = map(name_of.fullmatch, names)
     return sorted(Frame(int(match[1]), match[0]) for match in matches if match)

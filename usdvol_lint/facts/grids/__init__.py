@@ -13,19 +13,19 @@ from usdvol_lint.facts.found import Wing, column, summary
 if TYPE_CHECKING:
     from usdvol_lint.facts.files import Files
     from usdvol_lint.facts.grids.changes import GridChanges
-    from usdvol_lint.facts.grids.claims import ClaimReader, FieldClaims
+    from usdvol_lint.facts.grids.claims import FieldClaims
     from usdvol_lint.facts.grids.contents import ContentClass
+    from usdvol_lint.facts.grids.known import KnownContents
     from usdvol_lint.facts.grids.reader import ContentReader
     from usdvol_lint.facts.grids.timelines import FieldContents, Timeline
     from usdvol_lint.facts.prims.tables import Table, Tables
-    from usdvol_lint.volumefile.cache import VolumeFiles
 
 
 class Grids(Wing):
     """What fields claim about the content of their files, and that content.
 
-    `content` is how many of a field's files are read: all, first or off; `volume_files` keeps what
-    was read, for other stages too; `advance` is told of progress in long sequences.
+    `content` is how many of a field's files are read: all, first or off; `known` keeps what was
+    read, for other stages too; `advance` is told of progress in long sequences.
     """
 
     def __init__(
@@ -33,19 +33,19 @@ class Grids(Wing):
         tables: Tables,
         files: Files,
         content: str,
-        volume_files: VolumeFiles,
+        known: KnownContents,
         advance: Callable[[int], None],
     ) -> None:
         super().__init__(tables)
         self._files = files
         self._content = content
-        self._volume_files = volume_files
+        self._known = known
         self._advance = advance
 
     @column
     def claims(self, table: Table) -> Sequence[FieldClaims]:
         """What each field claims about the content of its files."""
-        return self._claim_reader.read(table.batch, table.authored)
+        return self._known.claims.read(table.batch, table.authored)
 
     @column
     def timelines(self, table: Table) -> Sequence[Timeline]:
@@ -74,14 +74,15 @@ class Grids(Wing):
     def changes(self, field: Any) -> GridChanges | None:
         """The frames of a field's sequence that hold other grids than most of its frames.
 
-        None for all but the first of the fields that share a sequence.
+        None for all but the first, by path, of the fields that share a sequence.
         """
         timeline = self.timelines(field)
         if len(timeline.classes) < 2:
             return None
         from usdvol_lint.facts.grids.changes import find_grid_changes
+        from usdvol_lint.facts.usd.instances import as_shown
 
-        sharing = self._sharing[tuple(timeline.files)]
+        sharing = as_shown(self._sharing[tuple(timeline.files)])
         return find_grid_changes(list(map(self.contents, sharing))) if sharing[0] == field else None
 
     @cached_property
@@ -93,16 +94,10 @@ class Grids(Wing):
         return found
 
     @cached_property
-    def _claim_reader(self) -> ClaimReader:
-        from usdvol_lint.facts.grids.claims import ClaimReader
-
-        return ClaimReader()
-
-    @cached_property
     def _content_reader(self) -> ContentReader:
         from usdvol_lint.facts.grids.reader import ContentReader
 
-        return ContentReader(self._volume_files, self._content, self._advance)
+        return ContentReader(self._known, self._content, self._advance)
 
     def is_for_index(self, field: Any) -> bool:
         """Whether a field or the prim above it has settings of NVIDIA IndeX."""

@@ -27,7 +27,7 @@ _TYPES = {name: int if name == "index" else str for name in _ATTRIBUTES.values()
 class Claim:
     """What a field claims about its file at one time; what is not authored is empty or None.
 
-    Compared by identity: fields of a stage with the same values share one.
+    Compared by identity: fields with the same values share one.
     """
 
     name: str = ""
@@ -41,7 +41,7 @@ class Claim:
 class FieldClaims:
     """The claims of a field over time, which change at `times`.
 
-    Fields of a stage with the same values and without time samples share one.
+    Fields with the same values and without time samples share one.
     """
 
     def __init__(self, default: Claim, samples: Sequence[tuple[float, Claim]] = ()) -> None:
@@ -57,11 +57,20 @@ class FieldClaims:
 
 
 class ClaimReader:
-    """Reads the claims of the fields of a stage."""
+    """Reads the claims of fields, on one stage after the other."""
 
     def __init__(self) -> None:
         self._claims: dict[tuple[Any, ...], Claim] = {}
         self._constants: dict[tuple[Any, ...], FieldClaims] = {}
+
+    def __len__(self) -> int:
+        """How many claims are known."""
+        return len(self._claims) + len(self._constants)
+
+    def forget(self) -> None:
+        """Makes every claim anew from now on."""
+        self._claims.clear()
+        self._constants.clear()
 
     def read(self, batch: PrimBatch, authored: Authored) -> list[FieldClaims]:
         """The claims of each of many fields; `authored` is what all of them share."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Hashable
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 from usdvol_lint.facts.files.assets import AssetSample
 from usdvol_lint.facts.grids.claims import Claim
@@ -196,8 +196,10 @@ class ContentClass:
     """An equivalence class of contents: a rule's question has the same answer for all of them.
 
     They differ in nothing but the sample, bounds, transforms and numbers in messages.
-    `content` is the first of them.  Fields of a stage share the classes.
+    `content` is the first of them.  Fields share the classes, on one stage and on the next.
     """
+
+    LASTS: ClassVar = True
 
     __slots__ = ("_answers", "content")
 

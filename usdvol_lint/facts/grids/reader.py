@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from pxr import Ar
@@ -13,10 +13,12 @@ from usdvol_lint.facts.files.paths import is_packaged
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.grids.claims import Claim, FieldClaims
 from usdvol_lint.facts.grids.contents import Content, ContentClass
+from usdvol_lint.facts.grids.known import KnownContents
 from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.attributes import Authored
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.steps import StepSamples, Time
-from usdvol_lint.volumefile.cache import Reading, VolumeFiles
+from usdvol_lint.volumefile.cache import Reading
 from usdvol_lint.volumefile.model import Fault, Format
 
 _FORMATS: dict[str, Format] = {"OpenVDBAsset": "openvdb", "Field3DAsset": "field3d"}
@@ -27,18 +29,18 @@ _NOTHING = Timeline((), 0)
 class ContentReader:
     """Reads the files of the fields of a stage."""
 
-    def __init__(self, files: VolumeFiles, depth: str, advance: Callable[[int], None]) -> None:
+    def __init__(self, known: KnownContents, depth: str, advance: Callable[[int], None]) -> None:
         """`depth` is how many of a field's files are read: all, first or off.
 
         `advance` is told how many files were read since its last call.
         """
-        self._files = files
+        self._files = known.files
         self._depth = depth
         self._advance = advance
         self._formats: dict[frozenset[str], Format | None] = {}
         self._readings: dict[str, Reading] = {}
         self._packages: dict[str, Any] = {}
-        self._classes: dict[Hashable, ContentClass] = {}
+        self._classes = known.classes
         self._single: dict[tuple[AssetSample, FieldClaims, Format], Timeline] = {}
 
     def read(
@@ -102,14 +104,25 @@ class ContentReader:
     def _reading(self, resolved: str) -> Reading:
         reading = self._readings.get(resolved)
         if reading is None:
-            if is_packaged(resolved):
-                reading = self._read_packaged(*Ar.SplitPackageRelativePathOuter(resolved))
-            elif os.path.isabs(resolved):
-                reading = self._files.read(resolved)
-            else:
-                reading = _unread("it is no file on disk")
-            self._readings[resolved] = reading
+            reading = self._readings[resolved] = self._read_safely(resolved)
         return reading
+
+    def _read_safely(self, resolved: str) -> Reading:
+        """What is read of a file: whatever its bytes are, the other files of the stage are read."""
+        try:
+            return self._read_file(resolved)
+        except UNREADABLE:
+            raise  # USD's own, which the engine tells
+        except Exception as error:
+            said = " ".join(f"{type(error).__name__}: {error}".split())
+            return _unread(f"reading it failed, {said:.200}")
+
+    def _read_file(self, resolved: str) -> Reading:
+        if is_packaged(resolved):
+            return self._read_packaged(*Ar.SplitPackageRelativePathOuter(resolved))
+        if os.path.isabs(resolved):
+            return self._files.read(resolved)
+        return _unread("it is no file on disk")
 
     def _read_packaged(self, package: str, inner: str) -> Reading:
         from usdvol_lint.volumefile.package import NotInPlaceError, Package

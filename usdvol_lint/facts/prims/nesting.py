@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_parent, get_type
+from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_parent, get_path, get_type
+from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
 _NOT_CACHED = object()
@@ -60,17 +61,17 @@ class Nesting:
         ]
 
     def below(self, prim: Any) -> Iterator[Nested]:
-        """The topmost Gprims below a prim, one in each instance.
+        """The topmost Gprims below a prim, of those in each instance the first by path.
 
         Volumes and particle fields are left out: they are reported as nested themselves.
         """
-        blamed = set()
+        first: dict[Any, Any] = {}
         for gprim in self._topmost_gprims(prim):
             instance = _outermost_instance(gprim)
             to_blame = gprim if instance == prim else instance
-            if to_blame not in blamed and not self._is_reported_itself(gprim):
-                blamed.add(to_blame)
-                yield Nested(gprim, to_blame)
+            if not self._is_reported_itself(gprim):
+                first[to_blame] = min(first.get(to_blame, gprim), gprim, key=get_path)
+        return (Nested(gprim, to_blame) for to_blame, gprim in first.items())
 
     def _is_reported_itself(self, gprim: Any) -> bool:
         is_volume = self._kinds.is_a(gprim, schema.VOLUME)
@@ -111,7 +112,7 @@ class Nesting:
         """The prim, if it is a Gprim; above a prototype, the first that its instances have."""
         if self._is_gprim(prim):
             return prim
-        instances = prim.GetInstances() if prim.IsPrototype() else ()
+        instances = as_shown(prim.GetInstances()) if prim.IsPrototype() else ()
         return next(filter(None, map(self._at_or_above, instances)), None)
 
 

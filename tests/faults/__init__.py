@@ -1,0 +1,1 @@
+"""Faults that runs have to end well with: see `python -m tests.faults --help`."""

@@ -1,0 +1,44 @@
+"""What the parent asks of a worker, read in a thread of its own."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import threading
+from queue import SimpleQueue
+from typing import Any, BinaryIO
+
+
+class Requests:
+    """The messages in a pipe, in their order.
+
+    Once the pipe has ended nobody waits for an answer any more, so the process ends at once, even
+    if it is busy.
+    """
+
+    def __init__(self, pipe: BinaryIO) -> None:
+        self._pipe = pipe
+        self._read: SimpleQueue[Any] | None = SimpleQueue()
+        try:
+            threading.Thread(target=self._read_on, args=(self._read,), daemon=True).start()
+        except RuntimeError:  # no threads left: it ends once it has answered
+            self._read = None
+
+    def next(self) -> Any:
+        """The next message, as soon as it is there."""
+        message = self._read.get() if self._read else self._load()
+        if isinstance(message, Exception):
+            raise message
+        return message
+
+    def _load(self) -> Any:
+        try:
+            return pickle.load(self._pipe)
+        except (EOFError, OSError):
+            os._exit(0)
+        except Exception as error:  # raised where it is asked for
+            return error
+
+    def _read_on(self, read: SimpleQueue[Any]) -> None:
+        while True:
+            read.put(self._load())
