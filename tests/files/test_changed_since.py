@@ -227,6 +227,9 @@ def test_stages_that_use_what_changed(repository: Path) -> None:
     ran = run(*chosen, ".", cwd=repository)
     said = "nothing to check: none of 4 stages uses a file that changed since 'main'\n"
     assert (ran.code, ran.out, ran.err) == (0, said, "")
+    ran = run(*chosen, "sub.usda", cwd=repository)
+    said = "nothing to check: the stage uses no file that changed since 'main'\n"
+    assert (ran.code, ran.out, ran.err) == (0, said, "")
     (repository / "sub.usda").write_text(STAGE % ("", "    # more\n"), encoding="utf-8")
     assert checked() == {"shot.usda", "sub.usda"}
     git(repository, "checkout", "--quiet", "sub.usda")
