@@ -82,7 +82,8 @@ def _leaving_unchecked(catalog: Catalog) -> frozenset[str]:
 
 
 def _names_not_checked(rule: Rule) -> bool:
-    return any(value is NotChecked for value in rule.check.__globals__.values())
+    """Whether the module of a rule names `NotChecked`, without which no rule yields one."""
+    return any(value is NotChecked for value in getattr(rule.check, "__globals__", {}).values())
 
 
 def _dated(active: ActiveRules, as_of: str | None, catalog: Catalog) -> ActiveRules:
