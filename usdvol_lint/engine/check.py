@@ -16,8 +16,10 @@ from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
+from usdvol_lint.facts.usd.instances import cut_short, shown
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
-from usdvol_lint.rule import STAGE, Problem, Rule
+from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
+from usdvol_lint.words import counted
 
 
 class StageCheck:
@@ -76,6 +78,8 @@ class StageCheck:
                 failures.add(rule, prim, error)
         for prim, fault in facts.tables.unreadable:
             failures.add(NOT_CHECKED, prim, fault)
+        for prim, looked_at in cut_short(facts.stage):
+            yield from self._stamp.stamp(NOT_CHECKED, _partly_placed(prim, looked_at))
         yield from failures.findings(self._stamp.sites)
         yield from self._stamp.suppressions(facts.stage, failures.prims)
 
@@ -117,3 +121,13 @@ class StageCheck:
         for rule in self._rules:
             if STAGE in rule.on:
                 yield rule, root
+
+
+def _partly_placed(prim: Any, looked_at: int) -> NotChecked:
+    """That a prim is shown more often than could be looked at."""
+    return NotChecked(
+        f"where it is and when it is visible was looked at in {looked_at:,} of the "
+        f"{counted(shown(prim).instances)} places at which instances show it",
+        at=prim,
+        suggestion="check the asset that is instanced by itself",
+    )

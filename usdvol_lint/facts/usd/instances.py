@@ -12,8 +12,11 @@ from pxr import Sdf
 from usdvol_lint.facts.usd.settled import settle
 
 _MOST_PATHS = 10_000
-_MOST_CHARACTERS = 50_000_000
-"""So many are put together on the way to the paths of a prim: those of deep prototypes are long."""
+_MOST_STEPS = 250_000
+"""So many steps up from each prim above the paths of one prim, together: as many as USD takes.
+
+It makes each prim above an instance anew, from the root of the stage.
+"""
 
 
 class Standing(IntEnum):
@@ -42,6 +45,7 @@ class _Prototypes:
         self.standings: dict[Any, Standing] = {}
         self.instances: dict[Any, list[Any]] = {}
         self.shown: dict[Any, Shown] = {}
+        self.cut: dict[Any, int] = {}
 
 
 _PROTOTYPES: WeakKeyDictionary[Any, _Prototypes] = WeakKeyDictionary()
@@ -97,18 +101,26 @@ def shown_paths(prim: Any) -> list[str]:
     """The stage paths at which a prim appears, in ascending order; not all where it has very many.
 
     A few prototypes in one another can show a prim more often than a computer can count.
+    `cut_short` tells of which prims there are more.
     """
     found: list[str] = []
-    waiting, left = [(prim, "")], _MOST_CHARACTERS
+    waiting, left = [(prim, "")], _MOST_STEPS
     while waiting and len(found) < _MOST_PATHS and (left > 0 or not found):
-        prim, below = waiting.pop()
-        if prim.IsInPrototype():
-            below = path_in_prototype(prim) + below
-            waiting += ((each, below) for each in reversed(instances_of(prototype_of(prim))))
-            left -= len(below)
+        each, below = waiting.pop()
+        if each.IsInPrototype():
+            below = path_in_prototype(each) + below
+            waiting += ((outer, below) for outer in reversed(instances_of(prototype_of(each))))
         else:
-            found.append(f"{prim.GetPath()}{below}")
+            found.append(f"{each.GetPath()}{below}")
+            left -= found[-1].count("/") ** 2
+    if waiting:
+        _known(prim).cut[prim] = len(found)
     return sorted(found)
+
+
+def cut_short(stage: Any) -> list[tuple[Any, int]]:
+    """The prims that are shown more often than their `shown_paths` were, and how many these are."""
+    return list(_PROTOTYPES[stage].cut.items()) if stage in _PROTOTYPES else []
 
 
 def instances_of(prototype: Any) -> list[Any]:
