@@ -18,18 +18,18 @@ class Forwarding:
 
     def targets(self, relationship: Any) -> list[Any]:
         """What USD calls the forwarded targets."""
-        end = self._end(relationship)
-        return get_targets(end) if end else []
+        targets: list[Any] = get_targets(self._end(relationship))
+        return targets
 
-    def _end(self, relationship: Any) -> Any | None:
-        """The first relationship of a chain that does not forward to one; None if it is a ring."""
+    def _end(self, relationship: Any) -> Any:
+        """The first relationship of a chain that does not forward to one; any of a ring."""
         stage = relationship.GetStage()
         passed: dict[Any, None] = {}
         end = relationship
         while following := _only(own_targets(end)):
             path = end.GetPath()
             if path in self._ends or path in passed:
-                end = self._ends.get(path)
+                end = self._ends.get(path, end)
                 break
             following = stage.GetRelationshipAtPath(following)
             if not following:
