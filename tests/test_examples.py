@@ -164,9 +164,9 @@ def test_rule_pack_of_the_guide_works(tmp_path: Path) -> None:
     folder = tmp_path / "pipeline" / "rules"
     folder.mkdir(parents=True)
     (folder / "file_outside_store.py").write_text(module, encoding="utf-8")
-    (tmp_path / "usdvol-lint.toml").write_text(settings, encoding="utf-8")
+    (tmp_path / "studio.toml").write_text(settings, encoding="utf-8")
     shot = os.path.relpath(ROOT / "docs" / "examples" / "shot" / "assets", tmp_path)
-    done = run("--output-format", "json", shot, folder=tmp_path)
+    done = run("--config", "studio.toml", "--output-format", "json", shot, folder=tmp_path)
     causes = json.loads(done.stdout)["causes"]
     assert {(cause["code"], cause["message"]) for cause in causes} == {
         ("PIP001", "'../cache/puff.0008.vdb' lies outside '/mnt/caches/'")

@@ -22,7 +22,7 @@ ENGINE = ROOT / "usdvol_lint"
 RULES = ROOT / "rules"
 
 PACKAGES = (
-    {"words", "nearest"},
+    {"words", "nearest", "replacing"},
     {"model"},
     {"results", "releases"},
     {"suppressions"},

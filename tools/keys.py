@@ -102,7 +102,8 @@ KEYS: Mapping[str, Key] = {
         _ref("options"),
     ),
     "packs": Key(
-        "folders with [rules](getting-started.md#a-rule-pack-of-your-own), relative to this file",
+        "folders with [rules](getting-started.md#a-rule-pack-of-your-own), relative to this file, "
+        "which `--config` has to name then; installed packs by their names",
         "`[]`",
         '`packs = ["pipeline/rules"]`',
         _list_of(_TEXT),

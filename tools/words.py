@@ -77,6 +77,7 @@ def _of_bad_input(data: Mapping[str, Any]) -> Iterator[str]:
         (here / "pyproject.toml").write_text("", encoding="utf-8")
         yield _paragraph("The command line", map(_said_to, data["commands"]))
         yield _paragraph("A configuration file", map(_said_of_settings, data["configurations"]))
+        yield _paragraph("A configuration file that was found", map(_said_of_found, data["found"]))
         yield _paragraph("A pyproject.toml", map(_said_of_project, data["projects"]))
         yield _paragraph("A file by another name", map(_said_of_name, data["misnamed"]))
         yield _paragraph("A baseline", map(_said_of_baseline, data["baselines"]))
@@ -102,6 +103,14 @@ def _said_to(arguments: str, shown: str = "") -> str:
 def _said_of_settings(text: str) -> str:
     Path("usdvol-lint.toml").write_text(f"{text}\n", encoding="utf-8")
     return _said_to("--show-settings --config usdvol-lint.toml", text)
+
+
+def _said_of_found(text: str) -> str:
+    own = Path("usdvol-lint.toml")
+    own.write_text(f"{text}\n", encoding="utf-8")
+    said = _said_to("--show-settings", text)
+    own.unlink()
+    return said
 
 
 def _said_of_project(text: str) -> str:

@@ -24,6 +24,7 @@ _STARTS_NO_CHILD = {
 def main() -> None:
     """Answers `--version` and `--help` itself; all else goes to the command line."""
     _open_standard_streams()
+    _use_utf8()
     arguments = sys.argv[1:]
     if arguments == ["--version"]:
         _print(f"usdvol-lint {__version__}\n")
@@ -47,6 +48,13 @@ def _open_standard_streams() -> None:
             os.open(os.devnull, os.O_RDWR)
     if sys.stderr is None:
         sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
+
+
+def _use_utf8() -> None:
+    """Begins anew where the locale is no UTF-8, as USD's names of files are whatever the locale."""
+    if sys.getfilesystemencoding() != "utf-8" and os.environ.get("PYTHONUTF8") != "1":
+        os.environ["PYTHONUTF8"] = "1"
+        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
 
 def _print(text: str) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from process import ONLY_STUDIO, STUDIO, Ran, run, volume, write
 
-ROOTED = f"root = '.'\npacks = ['{STUDIO.as_posix()}']\nselect = ['STU']\nbaseline = 'b.jsonl'\n"
+ROOTED = "root = '.'\nselect = ['STU']\nbaseline = 'b.jsonl'\n"
 
 
 @pytest.fixture
@@ -20,62 +20,67 @@ def library(tmp_path: Path) -> Path:
     return tmp_path
 
 
+def checked(*arguments: str | Path, cwd: Path) -> Ran:
+    """A run with the rules of a studio, and with the configuration that is found there."""
+    return run("--pack", STUDIO, *arguments, cwd=cwd)
+
+
 def test_a_library_is_adopted(library: Path) -> None:
     """The finding of today is known tomorrow, from any folder; a new stage over it is not."""
-    assert run(".", "--no-baseline", cwd=library).code == 1
-    ran = run("--write-baseline", "b.jsonl", ".", cwd=library)
+    assert checked(".", "--no-baseline", cwd=library).code == 1
+    ran = checked("--write-baseline", "b.jsonl", ".", cwd=library)
     assert (ran.code, ran.err) == (0, "")
     assert len((library / "b.jsonl").read_text("utf-8").splitlines()) == 1 + len(states(library))
-    assert run(".", cwd=library).code == 0
-    assert run(library, cwd=write(library / "sub")).code == 0
+    assert checked(".", cwd=library).code == 0
+    assert checked(library, cwd=write(library / "sub")).code == 0
     assert set(states(library)) == {"known"}
 
     write(library / "sub", mist=volume("mist"))
-    assert run(".", cwd=library).code == 1
-    assert run("--write-baseline", "b.jsonl", "sub", cwd=library).code == 0
-    assert run(".", cwd=library).code == 0, "what sub does not cover was kept"
+    assert checked(".", cwd=library).code == 1
+    assert checked("--write-baseline", "b.jsonl", "sub", cwd=library).code == 0
+    assert checked(".", cwd=library).code == 0, "what sub does not cover was kept"
 
 
 def states(library: Path) -> list[str]:
-    ran = run(".", "--output-format", "json", cwd=library)
+    ran = checked(".", "--output-format", "json", cwd=library)
     return [cause["state"] for cause in ran.json["causes"]]
 
 
 def test_what_is_gone_is_told_and_pruned(library: Path) -> None:
-    run("--write-baseline", "b.jsonl", ".", cwd=library)
+    checked("--write-baseline", "b.jsonl", ".", cwd=library)
     (library / "smoke.usda").unlink()
-    assert run(".", cwd=library).code == 0
-    assert run(".", "--fail-on-unpruned", cwd=library).code == 1
-    ran = run("fog.usda", "--prune-baseline", cwd=library)
+    assert checked(".", cwd=library).code == 0
+    assert checked(".", "--fail-on-unpruned", cwd=library).code == 1
+    ran = checked("fog.usda", "--prune-baseline", cwd=library)
     assert (ran.code, ran.err) == (
         2,
         "usdvol-lint: error: --prune-baseline: this run sees less than b.jsonl has: "
         "not checked: .\n",
     )
-    assert run("fog.usda", "--fail-on-unpruned", cwd=library).code == 0
-    assert run(".", "--prune-baseline", cwd=library).code == 0
-    assert run(".", "--fail-on-unpruned", cwd=library).code == 0
+    assert checked("fog.usda", "--fail-on-unpruned", cwd=library).code == 0
+    assert checked(".", "--prune-baseline", cwd=library).code == 0
+    assert checked(".", "--fail-on-unpruned", cwd=library).code == 0
 
 
 def test_a_stage_that_cannot_be_read_stays_red(library: Path) -> None:
     (library / "broken.usda").write_text("nonsense", encoding="utf-8")
-    ran = run("--write-baseline", "b.jsonl", ".", cwd=library)
+    ran = checked("--write-baseline", "b.jsonl", ".", cwd=library)
     assert ran.code == 2
     assert ran.err == (
         "usdvol-lint: error: b.jsonl is written, but it can't hold broken.usda (LNT001): "
         "mend it, or check the others without it\n"
     )
-    assert run(".", cwd=library).code == 2
-    assert run("fog.usda", "smoke.usda", cwd=library).code == 0
+    assert checked(".", cwd=library).code == 2
+    assert checked("fog.usda", "smoke.usda", cwd=library).code == 0
 
 
 def test_a_report_is_a_baseline(library: Path) -> None:
     report = ("--no-baseline", "--output-format", "json", "--output", "r.json")
-    assert run(".", *report, cwd=library).code == 1
+    assert checked(".", *report, cwd=library).code == 1
     assert json.loads((library / "r.json").read_text("utf-8"))["schema_version"].startswith("2.")
-    assert run(".", "--baseline", "r.json", cwd=library).code == 0
+    assert checked(".", "--baseline", "r.json", cwd=library).code == 0
     (library / "smoke.usda").unlink()
-    assert run(".", "--baseline", "r.json", "--fail-on-unpruned", cwd=library).code == 1
+    assert checked(".", "--baseline", "r.json", "--fail-on-unpruned", cwd=library).code == 1
 
 
 @pytest.mark.parametrize(
@@ -125,7 +130,7 @@ def test_what_is_asked_for_wrongly(
 
 
 def test_another_root(library: Path) -> None:
-    run("--write-baseline", "b.jsonl", ".", cwd=library)
-    ran = run("--root", "..", ".", cwd=library)
+    checked("--write-baseline", "b.jsonl", ".", cwd=library)
+    ran = checked("--root", "..", ".", cwd=library)
     assert ran.code == 2
     assert ": leave out --root, or write it anew" in ran.err

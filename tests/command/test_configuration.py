@@ -92,7 +92,7 @@ strict = true
         "variant_limit": 7,
         "timeout": 12.0,
     }
-    shown = settings(tool(*AS_JSON))
+    shown = settings(tool(*AS_JSON, "--config", tmp_path / "usdvol-lint.toml"))
     assert {key: shown[key] for key in expected} == expected
 
 
@@ -255,7 +255,7 @@ options.volume-name.allowed = ["fog"]
 """,
         encoding="utf-8",
     )
-    ran = run(".", cwd=tmp_path)
+    ran = run("--config", "usdvol-lint.toml", ".", cwd=tmp_path)
     said = "mist.usda:2:1: STU001 warning </mist> name 'mist', wanted fog\n"
     assert ran == Ran(1, said, "")
 

@@ -138,23 +138,24 @@ def test_what_is_selected_above_is_not_ignored_below(
 
 def test_a_chain_from_one_project_to_another(show: Path, tool: Callable[..., Ran]) -> None:
     """Each path is relative to its own file."""
-    configure(show, "extend = 'base/pyproject.toml'\ntimeout = 7", "")
+    file = configure(show, "extend = 'base/pyproject.toml'\ntimeout = 7", "")
     base = show.parent / "studio" / "base"
     base.mkdir()
     (base / "pyproject.toml").write_text("[tool.usdvol-lint]\npacks = ['../rules']\njobs = 3\n")
     write(show, fog=volume("fog"))
-    ran = run("--select", "STU001", "-v", "--output-format", "json", "fog.usda", cwd=show)
+    named = ("--config", file, "--select", "STU001")
+    ran = run(*named, "-v", "--output-format", "json", "fog.usda", cwd=show)
     assert ran.json["settings"]["timeout"] == 7
     assert [cause["code"] for cause in ran.json["causes"]] == ["STU001"]
     names = ("usdvol-lint.toml", "../studio/usdvol-lint.toml", "../studio/base/pyproject.toml")
     files = [path(show, name) for name in names]
     run_info = ran.json["run"]
     assert [run_info["config_file"], *run_info["config_extends"]] == files
-    text = run("--select", "STU001", "-v", "fog.usda", cwd=show).out
+    text = run(*named, "-v", "fog.usda", cwd=show).out
     assert text.splitlines()[-1] == (
         f"configuration: {files[0]}, which extends {files[1]}, {files[2]}"
     )
-    assert "configuration" not in run("--select", "STU001", "fog.usda", cwd=show).out
+    assert "configuration" not in run(*named, "fog.usda", cwd=show).out
     assert run("--isolated", "-v", "fog.usda", cwd=show).out.endswith("configuration: none\n")
 
 

@@ -285,3 +285,21 @@ def test_what_is_no_report_has_no_file(
     said = f"--output is for reports, and {arguments[0]} writes none: leave it out, and redirect "
     assert (ran.code, ran.out, said in ran.err) == (2, "", True)
     assert not (tmp_path / "report.txt").exists()
+
+
+def test_a_report_on_a_run_that_failed_has_its_own_words(
+    tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    """Names stay what they are, and the upload takes the place of the one of its category."""
+    asked = "--output-format sarif --output r.sarif --output-format gitlab --output r.json"
+    for wrong in ("--bogus", "--quiet"):
+        ran = tool(
+            "--isolated", *asked.split(), "--category=shots", wrong, "--baseline", "a\nb", "."
+        )
+        assert ran.code == 2
+        [sarif] = json.loads((tmp_path / "r.sarif").read_text())["runs"]
+        assert sarif["automationDetails"]["id"] == "usdvol-lint/shots/"
+    [notification] = sarif["invocations"][0]["toolExecutionNotifications"]
+    [entry] = json.loads((tmp_path / "r.json").read_text())
+    said = r"a\x0ab: there is no such baseline; --write-baseline a\x0ab writes one"
+    assert notification["message"]["text"] == entry["description"] == said

@@ -215,6 +215,7 @@ def test_infos_are_shown_to_those_who_ask(
             "--timeout must be a number of seconds above 0, at most 1,000,000, not nan",
         ),
         ("--output-format json --output . .", "--output .: this is a folder, name a file"),
+        ("--output-format json --output r/ .", "--output r/: this is a folder, name a file"),
         (
             "--output-format json --output gone/x.json .",
             "--output gone/x.json: there is no folder gone",

@@ -73,6 +73,7 @@ def test_every_key_comes_back(tool: Callable[..., Ran], tmp_path: Path) -> None:
     tables = tomllib.loads(EVERY_KEY)
     assert tables.keys() == CHECKS.keys() - {"extend"}
     (tmp_path / "usdvol-lint.toml").write_text(EVERY_KEY, encoding="utf-8")
+    named = ("--config", tmp_path / "usdvol-lint.toml")
     more = ("--ignore", "VOL", "--severity", "STU002=info", "--no-baseline", "--pack", "here")
     shutil.copytree(STUDIO, tmp_path / "here", ignore=lambda folder, names: ["volume_seen.py"])
     (tmp_path / "here" / "house" / "volume_name.py").write_text(
@@ -83,8 +84,8 @@ def test_every_key_comes_back(tool: Callable[..., Ran], tmp_path: Path) -> None:
         encoding="utf-8",
     )
     for arguments in ((), more):
-        was = settings(tool(*AS_JSON, *arguments))
-        printed = tool("--show-settings", *arguments)
+        was = settings(tool(*AS_JSON, *named, *arguments))
+        printed = tool("--show-settings", *named, *arguments)
         assert (printed.code, printed.err) == (0, "")
         (tmp_path / "elsewhere").mkdir(exist_ok=True)
         (tmp_path / "elsewhere" / "usdvol-lint.toml").write_text(printed.out, encoding="utf-8")

@@ -14,7 +14,7 @@ from walks import CLOUD, INSTANCE, LIVE, asks, instancer, write_stage
 
 from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.engine.walk import walk
+from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.grids.contents import ContentClass
 from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -79,7 +79,7 @@ def Sphere "ball"
     ]
     rules = [asks(name, name) for name, _ in asked]
     rules.append(asks("TWO001", "Volume", "Gprim", "MaterialBindingAPI"))
-    found = walk(stage, rules, PrimKinds())
+    found = walk(stage, asked_by(rules), PrimKinds())
     pairs = Counter((rule.code, prim.GetName()) for rule, prim in assigned(stage, found, rules))
     assert pairs == Counter(
         (code, name)
@@ -108,13 +108,13 @@ def Volume "cloud"
 """
     stage = Usd.Stage.Open(write_stage(tmp_path, f"{cloud}{field}}}\n"))
     rules = list(catalog.rules.values())
-    pairs = assigned(stage, walk(stage, rules, PrimKinds()), rules)
+    pairs = assigned(stage, walk(stage, asked_by(rules), PrimKinds()), rules)
     assert [rule.code for rule, _ in pairs if rule.when] == []
 
 
 def test_what_no_rule_asked_for_is_counted_and_let_go(tmp_path: Path) -> None:
     stage = Usd.Stage.Open(write_stage(tmp_path, 'def Sphere "ball"\n{\n}\n' + LIVE))
-    result = walk(stage, [], PrimKinds())
+    result = walk(stage, asked_by([]), PrimKinds())
     assert result.prims == 2
     assert [str(prim.GetPath()) for prims in result.kept.values() for prim in prims] == ["/live"]
 

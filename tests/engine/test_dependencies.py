@@ -84,3 +84,9 @@ def test_a_folder_that_changed_as_one(folder: Path) -> None:
     """A submodule, or the link that leads to it."""
     concerns = concerned(frozenset(names_of(str(folder))), Storage())
     assert concerns("alone.usda")
+
+
+def test_a_path_that_is_not_utf_8_may_use_anything(folder: Path) -> None:
+    """USD takes no such path; that it can't be read is told where the stage is checked."""
+    concerns = concerned(frozenset(names_of(str(folder / "alone.usda"))), Storage())
+    assert concerns("bad\udcff.usda")

@@ -8,7 +8,7 @@ import pytest
 from pxr import Usd
 from walks import CLOUD, INSTANCE, LIVE, asks, instancer, write_stage
 
-from usdvol_lint.engine.walk import walk
+from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
 
@@ -20,7 +20,7 @@ def walked(
     Those in a prototype are named by where they are in it.
     """
     stage = Usd.Stage.Open(write_stage(folder, text, **layers), load)
-    result = walk(stage, [asks("ONE001", "Volume")], PrimKinds())
+    result = walk(stage, asked_by([asks("ONE001", "Volume")]), PrimKinds())
     kept = [prim for prims in result.kept.values() for prim in prims]
     return result.prims, sorted(map(_path, kept))
 
@@ -110,7 +110,7 @@ def test_what_an_over_takes_off_the_stage(tmp_path: Path) -> None:
     drawn = 'over "lib"\n{\ndef Volume "a"\n{\n}\n}\n' + instancer("i", "/lib/a")
     spheres = 'over "spheres"\n{\ndef Sphere "a"\n{\n}\n}\n'
     stage = Usd.Stage.Open(write_stage(tmp_path, text + drawn + spheres))
-    result = walk(stage, [asks("ONE001", "Sphere", "Xform")], PrimKinds())
+    result = walk(stage, asked_by([asks("ONE001", "Sphere", "Xform")]), PrimKinds())
     over = stage.GetPrimAtPath("/fx")
     assert result.undefined == {over: [over.GetChild("live"), over.GetPrimAtPath("c/live")]}
     assert [[prim.GetName() for prim in kept] for kept in result.kept.values()] == [["a"]]
@@ -136,7 +136,9 @@ def test_prims_of_other_types_that_have_our_data(
     text: str, untyped: list[str], tmp_path: Path
 ) -> None:
     stage = Usd.Stage.Open(write_stage(tmp_path, LIVE + text))
-    assert [str(prim.GetPath()) for prim in walk(stage, [], PrimKinds()).untyped] == untyped
+    assert [
+        str(prim.GetPath()) for prim in walk(stage, asked_by([]), PrimKinds()).untyped
+    ] == untyped
 
 
 def test_only_so_many_prims_of_other_types_are_looked_into(
@@ -145,7 +147,7 @@ def test_only_so_many_prims_of_other_types_are_looked_into(
     monkeypatch.setattr("usdvol_lint.engine.walk._GROUPS", 300)
     groups = "".join(f'def Xform "a{n}"\n{{\nrel field:x = </x>\n}}\n' for n in range(1000))
     stage = Usd.Stage.Open(write_stage(tmp_path, groups))
-    assert 300 <= len(walk(stage, [], PrimKinds()).untyped) < 600
+    assert 300 <= len(walk(stage, asked_by([]), PrimKinds()).untyped) < 600
 
 
 def test_instances_are_walked_once(tmp_path: Path) -> None:
@@ -226,7 +228,7 @@ def test_what_an_over_takes_off_the_stage_in_instances(tmp_path: Path) -> None:
     text = f'over "one"\n{{\n{instances}}}\nover "two"\n{{\n{INSTANCE.format("c", "sky")}}}\n'
     text += f'class "library"\n{{\n{INSTANCE.format("d", "sky")}}}\n'
     stage = Usd.Stage.Open(write_stage(tmp_path, text, lib=CLOUD + sky))
-    result = walk(stage, [], PrimKinds())
+    result = walk(stage, asked_by([]), PrimKinds())
     found = {
         over.GetName(): [_path(prim) for prim in prims] for over, prims in result.undefined.items()
     }
@@ -282,6 +284,6 @@ def Xform "first"
 }}
 """
     stage = Usd.Stage.Open(write_stage(tmp_path, text))
-    clipped = walk(stage, [asks("ONE001", "Volume")], PrimKinds()).clipped
+    clipped = walk(stage, asked_by([asks("ONE001", "Volume")]), PrimKinds()).clipped
     names = sorted(prim.GetName() for prim in clipped)
     assert names == ["below", "group", "inner", "own"]

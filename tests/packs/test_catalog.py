@@ -39,8 +39,9 @@ def test_a_folder_on_the_command_line(show: Path) -> None:
 def test_a_folder_in_the_configuration_is_relative_to_it(show: Path) -> None:
     shutil.copytree(STUDIO, show.parent / "rules")
     configure(show.parent, 'packs = ["rules"]\n')
-    assert run(*CONCISE, ".", cwd=show) == Ran(1, WRONG, "")
-    assert run("--explain", "volume-name", cwd=show) == Ran(0, PAGE, "")
+    named = ("--config", "../usdvol-lint.toml")
+    assert run(*named, *CONCISE, ".", cwd=show) == Ran(1, WRONG, "")
+    assert run(*named, "--explain", "volume-name", cwd=show) == Ran(0, PAGE, "")
 
 
 def test_folders_add_up(show: Path, tmp_path: Path) -> None:
@@ -52,7 +53,8 @@ def test_folders_add_up(show: Path, tmp_path: Path) -> None:
         "    yield Problem('named', at=volume)\n"
     )
     configure(show, f"packs = ['{STUDIO}']\nselect = ['STU001', 'OTH']\n")
-    ran = run("--pack", other, "--output-format", "concise", "--show", "info", ".", cwd=show)
+    packs = ("--config", "usdvol-lint.toml", "--pack", other)
+    ran = run(*packs, "--output-format", "concise", "--show", "info", ".", cwd=show)
     assert ran == Ran(1, "fog.usda:2:1: OTH001 info </fog> named\n" + WRONG, "")
 
 
@@ -93,7 +95,7 @@ def test_an_installed_pack(show: Path, tmp_path: Path) -> None:
 )
 def test_options_reach_the_rule(options: str, found: str | None, show: Path) -> None:
     configure(show, f"packs = ['{STUDIO}']\nselect = ['STU001']\n[options.volume-name]\n{options}")
-    ran = run("--output-format", "json", ".", cwd=show)
+    ran = run("--config", "usdvol-lint.toml", "--output-format", "json", ".", cwd=show)
     messages = [f["message"] for stage in ran.stages for f in stage["findings"]]
     assert messages == ([found] if found else [])
 

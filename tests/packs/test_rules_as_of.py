@@ -140,11 +140,10 @@ def test_rules_of_a_release_that_a_configuration_names(tmp_path: Path) -> None:
     found = {}
     for as_of in ("0.0", "0.1"):
         (tmp_path / "usdvol-lint.toml").write_text(
-            f"packs = ['{STUDIO.as_posix()}']\nrules-as-of = '{as_of}'\n"
-            "select = ['SCH007', 'STU001']\n",
+            f"rules-as-of = '{as_of}'\nselect = ['SCH007', 'STU001']\n",
             encoding="utf-8",
         )
-        ran = run(".", "--output-format", "json", cwd=tmp_path)
+        ran = run(".", "--pack", STUDIO, "--output-format", "json", cwd=tmp_path)
         assert ran.json["settings"]["rules_as_of"] == as_of
         causes = ran.json["causes"]
         found[as_of] = {

@@ -202,8 +202,8 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
     """
     gathered = Causes(most=most)
     for number, stage in enumerate(stages):
-        gathered.add(number, stage.path, enumerate(stage.findings))
-    causes, numbers = gathered.result()
+        gathered.add(number, stage.path, stage.findings)
+    causes = gathered.result()
     return Report(
         version="0.1.0",
         usd_version="0.26.8",
@@ -218,7 +218,7 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
         },
         root="/studio",
         arguments=("shots",),
-        stages=tuple(gathered.stage(*each, numbers) for each in enumerate(stages)),
+        stages=tuple(gathered.stage(*each) for each in enumerate(stages)),
         causes=causes,
         run=RunInfo(
             "2026-11-29T01:30:00Z",

@@ -69,7 +69,7 @@ def finder(catalog: Catalog, folder: Path) -> Find:
         for number, stage in enumerate(stages):
             report = engine.lint(str(stage))
             assert report.status == "checked"
-            causes.add(number, report.path, enumerate(report.findings))
-        return list(causes.result()[0])
+            causes.add(number, report.path, report.findings)
+        return list(causes.result())
 
     return call

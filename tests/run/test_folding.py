@@ -1,8 +1,7 @@
-"""What stages show is folded into causes, whatever the order in which stages are done."""
+"""What stages show is folded into causes, in the order in which it is told."""
 
 from __future__ import annotations
 
-from itertools import permutations
 from typing import Any
 
 import pytest
@@ -29,9 +28,9 @@ def found(
 
 
 def folded(causes: Causes, stages: int) -> tuple[tuple[Cause, ...], list[StageResult]]:
-    every, numbers = causes.result()
+    every = causes.result()
     reports = [StageReport(f"s{number}.usda", Status.CHECKED) for number in range(stages)]
-    results = [causes.stage(number, each, numbers) for number, each in enumerate(reports)]
+    results = [causes.stage(number, each) for number, each in enumerate(reports)]
     return every, [each.judged(every) for each in results]
 
 
@@ -42,8 +41,8 @@ def places(cause: Cause) -> list[tuple[int, str | None]]:
 def test_one_thing_to_mend_is_one_cause() -> None:
     causes = Causes("/lib")
     other = ASSET._replace(path="/other")
-    causes.add(0, "s0.usda", enumerate([found("/a"), found("/b", severity=WARNING)]))
-    causes.add(1, "s1.usda", enumerate([found("/c", other), found("/d"), found("/d", code="X")]))
+    causes.add(0, "s0.usda", [found("/a"), found("/b", severity=WARNING)])
+    causes.add(1, "s1.usda", [found("/c", other), found("/d"), found("/d", code="X")])
     every, stages = folded(causes, 3)
     named = ASSET._replace(layer="assets/tank.usda")
     assert [(each.code, each.source, each.severity, each.count) for each in every] == [
@@ -63,40 +62,28 @@ def test_one_thing_to_mend_is_one_cause() -> None:
 
 def test_a_cause_is_as_bad_as_its_worst_place_and_a_stage_as_its_own() -> None:
     causes = Causes("/lib")
-    causes.add(0, "s0.usda", enumerate([found("/a", severity=INFO), found("/b", severity=WARNING)]))
-    causes.add(1, "s1.usda", enumerate([found("/a", severity=ERROR), found("/b", severity=INFO)]))
+    causes.add(0, "s0.usda", [found("/a", severity=INFO), found("/b", severity=WARNING)])
+    causes.add(1, "s1.usda", [found("/a", severity=ERROR), found("/b", severity=INFO)])
     [cause], stages = folded(causes, 2)
     assert (cause.severity, [stage.worst for stage in stages]) == (ERROR, [(WARNING,), (ERROR,)])
 
 
-def test_the_first_places_stay_whatever_the_order() -> None:
-    """Also those of one stage, which may come in parts."""
-    adds = [
-        (stage, number, found(f"/{stage}_{number}")) for stage in range(3) for number in range(2)
-    ]
-    for order in permutations(adds):
-        causes = Causes("/lib", most=3)
-        for stage, number, finding in order:
-            causes.add(stage, f"s{stage}.usda", [(number, finding)])
-        [cause], _ = folded(causes, 3)
-        assert (places(cause), cause.count) == ([(0, "/0_0"), (0, "/0_1"), (1, "/1_0")], 6)
-
-
-def test_causes_are_in_the_order_of_their_first_places() -> None:
-    sources = [ASSET._replace(path=f"/{name}") for name in "abc"]
-    adds = [(stage, found(f"/{stage}", source)) for stage, source in enumerate(sources)]
-    for order in permutations(adds):
-        causes = Causes("/lib")
-        for stage, finding in order:
-            causes.add(stage, f"s{stage}.usda", [(0, finding)])
-        every, stages = folded(causes, 3)
-        assert [cause.source.path for cause in every] == ["/a", "/b", "/c"]
-        assert [stage.causes for stage in stages] == [(0,), (1,), (2,)]
+def test_causes_and_places_are_in_the_order_in_which_they_were_added() -> None:
+    """What is told last has the last number, whatever stage it shows in first."""
+    causes = Causes("/lib", most=3)
+    other, absent = (ASSET._replace(path=path) for path in ("/other", "/absent"))
+    causes.add(0, "s0.usda", [found("/a"), found("/b")])
+    causes.add(1, "s1.usda", [found("/c", other), found("/d")])
+    causes.add(0, "s0.usda", [found("/e", absent), found("/f")])
+    every, stages = folded(causes, 2)
+    assert [each.source.path for each in every] == ["/tank", "/other", "/absent"]
+    assert (places(every[0]), every[0].count) == ([(0, "/a"), (0, "/b"), (1, "/d")], 4)
+    assert [stage.causes for stage in stages] == [(0, 2), (0, 1)]
 
 
 def test_twenty_places_are_kept() -> None:
     causes = Causes("/lib")
-    causes.add(0, "s0.usda", enumerate(found(f"/{number}") for number in range(30)))
+    causes.add(0, "s0.usda", [found(f"/{number}") for number in range(30)])
     [cause], _ = folded(causes, 1)
     assert (len(cause.places), MAX_PLACES, cause.count) == (20, 20, 30)
 
@@ -105,7 +92,7 @@ def test_the_cover_is_that_of_all_places() -> None:
     """Also of those that are not kept."""
     causes = Causes("/lib", most=1)
     for stage, frames in enumerate([(1.0,), (3.0, 4.0), (1.0,)]):
-        causes.add(stage, "s.usda", [(0, found("/a", frames=frames))])
+        causes.add(stage, "s.usda", [found("/a", frames=frames)])
     [cause], _ = folded(causes, 3)
     assert cause.cover == Cover(ERROR, (1.0, 3.0, 4.0))
 
@@ -114,7 +101,7 @@ def test_what_the_machine_lacks_has_no_layer() -> None:
     causes = Causes("/lib")
     source = Source(None, subject="usd-core")
     for stage in range(2):
-        causes.add(stage, "s.usda", [(0, found("/a", source, code="LNT004"))])
+        causes.add(stage, "s.usda", [found("/a", source, code="LNT004")])
     [cause], _ = folded(causes, 2)
     assert (cause.source, cause.count) == (source, 2)
 
@@ -126,8 +113,8 @@ def test_a_suppression_takes_away_places() -> None:
     """What is left makes the number, the level, the cover and what stages show."""
     causes = Causes("/lib")
     ignored = found("/a", frames=(9.0,), ignored="late")
-    causes.add(0, "s0.usda", enumerate([ignored, found("/b", severity=WARNING, frames=(1.0,))]))
-    causes.add(1, "s1.usda", enumerate([ignored]))
+    causes.add(0, "s0.usda", [ignored, found("/b", severity=WARNING, frames=(1.0,))])
+    causes.add(1, "s1.usda", [ignored])
     [cause], stages = folded(causes, 2)
     assert (cause.state, cause.reason, cause.severity, cause.count) == (State.NEW, None, WARNING, 1)
     assert (places(cause), cause.cover.frames) == ([(0, "/b")], (1.0,))
@@ -140,13 +127,13 @@ def test_a_suppression_takes_away_places() -> None:
 def test_a_cause_is_suppressed_where_no_place_is_left() -> None:
     reasons = {"s0.usda": "late", "s1.usda": "old"}
     causes = Causes("/lib", reason_for=lambda path, finding, source: reasons.get(path))
-    causes.add(1, "s1.usda", [(0, found("/b"))])
-    causes.add(0, "s0.usda", [(0, found("/a"))])
+    causes.add(0, "s0.usda", [found("/a")])
+    causes.add(1, "s1.usda", [found("/b")])
     [cause], stages = folded(causes, 2)
     assert (cause.state, cause.reason, cause.count) == (State.SUPPRESSED, "late", 2)
     assert [place.finding.ignored for place in cause.places] == ["late", "old"]
     assert [(stage.worst, dict(stage.levels)) for stage in stages] == [((None,), {})] * 2
-    causes.add(2, "s2.usda", [(0, found("/c"))])
+    causes.add(2, "s2.usda", [found("/c")])
     [cause], _ = folded(causes, 3)
     assert (cause.state, cause.reason, places(cause)) == (State.NEW, None, [(2, "/c")])
 
@@ -159,8 +146,8 @@ def test_the_configuration_is_asked_with_the_layer_as_it_is_named() -> None:
         return None
 
     causes = Causes("/lib", versions_in(r"v\d+"), reason_for=reason_for)
-    causes.add(0, "s0.usda", [(0, found("/a", Source("/lib/v1/a.usda")))])
-    causes.add(0, "s0.usda", [(1, found("/b", ignored="in the stage"))])
+    causes.add(0, "s0.usda", [found("/a", Source("/lib/v1/a.usda"))])
+    causes.add(0, "s0.usda", [found("/b", ignored="in the stage")])
     assert asked == [("s0.usda", "/a", "*/a.usda")]
 
 
@@ -180,13 +167,13 @@ def test_the_configuration_is_asked_with_the_layer_as_it_is_named() -> None:
 def test_versions_are_folded_between_separators(layer: str, named: str) -> None:
     for pattern, expected in ((r"v\d+", named), (r"v\d|v\d+", named), (None, None)):
         causes = Causes("/lib", versions_in(pattern))
-        causes.add(0, "s.usda", [(0, found("/a", Source(layer)))])
+        causes.add(0, "s.usda", [found("/a", Source(layer))])
         [cause], _ = folded(causes, 1)
         assert cause.source.layer == (expected or layer.removeprefix("/lib/"))
 
 
 def test_without_a_root_layers_go_by_their_absolute_paths() -> None:
     causes = Causes()
-    causes.add(0, "s.usda", [(0, found("/a"))])
+    causes.add(0, "s.usda", [found("/a")])
     [cause], _ = folded(causes, 1)
     assert cause.source == ASSET

@@ -32,7 +32,7 @@ def test_layers_that_are_completed(
     specs = (Completed((package,), "/A", ("x",)), Completed(layers[1:2], "/B", ("x", "y")))
     stage = StageReport("s.usda", Status.CHECKED, completes=Completion((*layers, package), specs))
     folder = None if root is None else canonical(str(tmp_path / root))
-    named = Causes(folder, versions_in("v[0-9]+")).stage(0, stage, {}).completes
+    named = Causes(folder, versions_in("v[0-9]+")).stage(0, stage).completes
     expected = [name.format(here=here) for name in names]
     layer, inside = sorted(name for name in expected if "lib" not in name)
     assert named == Completion(
@@ -42,4 +42,4 @@ def test_layers_that_are_completed(
 
 
 def test_what_completes_nothing() -> None:
-    assert Causes("/").stage(0, StageReport("s.usda", Status.CHECKED), {}).completes is None
+    assert Causes("/").stage(0, StageReport("s.usda", Status.CHECKED)).completes is None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
@@ -77,6 +78,15 @@ def test_files_that_are_no_stages(tmp_path: Path) -> None:
     assert troubles(ran) == TEXT_TROUBLES
     expected = dict.fromkeys(TEXTS, "unreadable")
     assert statuses(ran) == {**expected, "fog.usda": "checked"}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such names")
+def test_names_with_blanks_are_told_as_they_are(tmp_path: Path) -> None:
+    for name in ("a\nb.usda", "a  b.usda"):
+        (tmp_path / name).write_text("#usda 1.0\ndef", encoding="utf-8", newline="\n")
+    ran = run("--isolated", "--output-format", "concise", ".", cwd=tmp_path)
+    places = [line.partition(": LNT001")[0] for line in ran.out.splitlines()]
+    assert sorted(places) == ["a  b.usda:2:1", r"a\x0ab.usda:2:1"]
 
 
 def test_bytes_that_are_no_text(tmp_path: Path) -> None:

@@ -148,12 +148,12 @@ def test_a_run(tmp_path: Path) -> None:
     for name in ("lookdev", "old", "shots"):
         write(tmp_path / name, fog=volume("fog"))
     (tmp_path / "usdvol-lint.toml").write_text(
-        f"packs = ['{STUDIO}']\nselect = ['STU001']\n"
+        "select = ['STU001']\n"
         "[[per-path]]\nfiles = 'lookdev/**'\nseverity = { volume-name = 'warning' }\n"
         "[[per-path]]\nfiles = 'old/**'\nignore = ['house']\n",
         encoding="utf-8",
     )
-    report = run("--output-format", "json", ".", cwd=tmp_path)
+    report = run("--pack", STUDIO, "--output-format", "json", ".", cwd=tmp_path)
     assert report.code == 1
     assert [
         (cause["source"]["layer"], cause["severity"], cause["state"], cause["cover"]["level"])
@@ -169,8 +169,8 @@ def test_a_run(tmp_path: Path) -> None:
         ["lookdev/**"],
         ["old/**"],
     ]
-    assert run("lookdev", "old", cwd=tmp_path).code == 0
-    assert run("--no-suppressions", "old", cwd=tmp_path).code == 1
+    assert run("--pack", STUDIO, "lookdev", "old", cwd=tmp_path).code == 0
+    assert run("--pack", STUDIO, "--no-suppressions", "old", cwd=tmp_path).code == 1
 
 
 def test_settings_say_it(tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from usdvol_lint.baseline.scope import Scope, arguments_from_json, scope_as_json
 from usdvol_lint.baseline.values import line_of, string, table_of, value_of
 from usdvol_lint.model import UsageError
 from usdvol_lint.paths import canonical
+from usdvol_lint.replacing import replacing
 from usdvol_lint.words import quoted
 
 FORMAT_KEY = "usdvol_lint_baseline"
@@ -144,16 +145,10 @@ def as_text(baseline: Baseline) -> str:
 
 def write_baseline(baseline: Baseline) -> None:
     """Writes a file, or leaves the one that is there; raises OSError."""
-    target = Path(os.path.realpath(baseline.file))
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
-        with temporary.open("wb") as stream:
-            stream.write(as_text(baseline).encode("utf-8"))
-            stream.flush()
-            os.fsync(stream.fileno())  # some disks are full only here
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with replacing(Path(baseline.file)) as stream:
+        stream.write(as_text(baseline).encode("utf-8"))
+        stream.flush()
+        os.fsync(stream.fileno())  # some disks are full only here
 
 
 def check_writable(option: str, file: Path, replaces: bool = True) -> None:

@@ -65,7 +65,7 @@ def list_rules_as_json(catalog: Catalog) -> str:
                 "options": rule.options,
             }
         )
-    return json.dumps(rules, indent=2, ensure_ascii=False) + "\n"
+    return _as_json(rules)
 
 
 def show_settings(config: Config, catalog: Catalog, settings: Mapping[str, Any]) -> str:
@@ -89,4 +89,10 @@ def show_settings_as_json(config: Config, settings: Mapping[str, Any]) -> str:
     others = config._asdict()
     del others["origins"]
     said = {"config_file": file, "config_extends": extended, **others, **settings}
-    return json.dumps(said, indent=2, ensure_ascii=False) + "\n"
+    return _as_json(said)
+
+
+def _as_json(value: object) -> str:
+    from usdvol_lint.report.json_report import escaped
+
+    return escaped(json.dumps(value, indent=2, ensure_ascii=False)) + "\n"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 
 import click
 
@@ -30,14 +30,19 @@ class Arguments(click.Command):
         )
 
 
-def outputs(arguments: list[str]) -> Iterator[tuple[str, str]]:
+def outputs(arguments: Iterable[str]) -> Iterator[tuple[str, str]]:
     """The formats and files of reports in the order in which they are given."""
+    return values_of(arguments, ("--output-format", "--output"))
+
+
+def values_of(arguments: Iterable[str], names: Container[str]) -> Iterator[tuple[str, str]]:
+    """The options with these names, each with its value, in the order in which they are given."""
     following = iter(arguments)
     for each in following:
         if each == "--":
             return
         name, equals, value = each.partition("=")
-        if name in ("--output-format", "--output"):
+        if name in names:
             yield name, value if equals else next(following, "")
 
 

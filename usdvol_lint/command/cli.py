@@ -203,7 +203,7 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
 
 def _report(error: Exception, arguments: list[str] | None) -> None:
     """Writes the reports that are asked for, which were not written where the error came early."""
-    from usdvol_lint.command.linting import report_misuse
+    from usdvol_lint.command.failed import report_misuse
 
     with suppress(OSError, UsageError):
         report_misuse(sys.argv[1:] if arguments is None else arguments, error)

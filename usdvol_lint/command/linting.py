@@ -9,18 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from usdvol_lint import __version__
 from usdvol_lint.command import output
-from usdvol_lint.command.arguments import outputs
 from usdvol_lint.command.choosing import arguments, changes
-from usdvol_lint.command.codes import CLEAN, ended_by, exit_code, signal_of
+from usdvol_lint.command.codes import CLEAN, ended_by, exit_code
+from usdvol_lint.command.failed import mark_reported, run_info, write_failed
 from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.settings import read_settings
 from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
 from usdvol_lint.packs.catalog import load_for
 from usdvol_lint.report import FOR_HOSTS
-from usdvol_lint.results import Report, RunInfo
+from usdvol_lint.results import Report
 from usdvol_lint.run.causes import versions_in
 from usdvol_lint.run.interruption import Interruption
 from usdvol_lint.run.lint import Naming, lint
@@ -38,10 +37,6 @@ if TYPE_CHECKING:
     from usdvol_lint.report import Options
 
 
-_IS_REPORTED = "what is wrong is in the reports"
-_OTHER = frozenset({"--explain", "--list-rules", "--show-settings", "--show-files", "--test"})
-
-
 def lint_stages(
     paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] | None = None
 ) -> int:
@@ -52,7 +47,7 @@ def lint_stages(
     try:
         return _linted(paths, given, child)
     except Exception as error:
-        error.add_note(_IS_REPORTED)
+        mark_reported(error)
         raise
 
 
@@ -66,7 +61,7 @@ def _linted(paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] |
     except (Exception, KeyboardInterrupt) as error:
         job.write_failure(error)
         raise
-    report = report._replace(run=_run_info(report.run, job.config))
+    report = report._replace(run=run_info(report.run, job.config))
     if report.interrupted:
         return job.end_early(report)
     report, failure = job.prepared.apply(report) if job.prepared else (report, "")
@@ -78,24 +73,6 @@ def _linted(paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] |
     if given["write_baseline"] is not None:
         return CLEAN
     return exit_code(report, job.config, given["fail_on_unpruned"])
-
-
-def report_misuse(arguments: Sequence[str], error: Exception) -> None:
-    """Writes the reports that a command line asks for which can't be followed.
-
-    None is written where it would be the report of another command, or was written already.
-    """
-    if _IS_REPORTED in getattr(error, "__notes__", ()) or not _OTHER.isdisjoint(arguments):
-        return
-    said = list(outputs(list(arguments)))
-    written = {value for _, value in said}
-    asked = output.named_by(said, [each for each in arguments if each not in written])
-    destinations = [each for each in asked if not each.is_text_to_read]
-    if not destinations:
-        return
-    options = output.options_for("never", quiet=False, verbose=False)
-    options = options._replace(repository=checkout_of(()))
-    output.write(_failed((), error, Config()), destinations, options)
 
 
 class _Job:
@@ -168,39 +145,14 @@ class _Job:
         return ended_by(report.interrupted)
 
     def write_failure(self, error: BaseException) -> None:
-        """Writes the reports that were asked for: a missing one, or that of before, seems clean."""
+        """Writes the reports that were asked for."""
         asked = self.destinations or output.named_by(self._given["outputs"], self._inputs)
-        destinations = [each for each in asked if not each.is_text_to_read]
-        if not destinations:
-            return
-        self.repository = self.repository or checkout_of(self._paths)
-        report = _failed(self._paths, error, self.config)
-        output.write(report, destinations, self.options())
+        write_failed(asked, self._paths, error, self.config, self.options())
 
 
 def _more_jobs(jobs: int, most: int) -> str:
     own = "one processor" if most == 1 else f"{most} processors"
     return f"{jobs} jobs are no faster than {most} here, where this process may use {own}"
-
-
-def _failed(paths: tuple[str, ...], error: BaseException, config: Config) -> Report:
-    """The report on a run that could not begin."""
-    words = error.format_message() if isinstance(error, click.ClickException) else str(error)
-    is_interrupted = isinstance(error, KeyboardInterrupt)
-    if is_interrupted:
-        words = "interrupted before any stage was checked"
-    return Report(
-        version=__version__,
-        usd_version=None,
-        settings={},
-        root=None,
-        stages=(),
-        causes=(),
-        run=_run_info(RunInfo(), config),
-        arguments=paths,
-        failure=" ".join(words.split()),
-        interrupted=signal_of(error) if is_interrupted else 0,
-    )
 
 
 def _prepared(given: dict[str, Any], config: Config) -> Prepared | None:
@@ -219,15 +171,3 @@ def _tell_expired(config: Config) -> None:
 
     for line in expired(config):
         click.echo(f"usdvol-lint: {line}", err=True)
-
-
-def _run_info(run: RunInfo, config: Config) -> RunInfo:
-    from datetime import UTC, datetime
-
-    file, *extended = config.origins.files or (None,)
-    return run._replace(
-        date=datetime.now(UTC).isoformat(timespec="seconds"),
-        command=("usdvol-lint", *sys.argv[1:]),
-        config_file=file,
-        config_extends=tuple(map(str, extended)),
-    )

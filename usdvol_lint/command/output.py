@@ -6,7 +6,6 @@ import os
 import shutil
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
@@ -16,6 +15,7 @@ from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_f
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.paths import SUFFIXES, canonical
+from usdvol_lint.replacing import replacing
 from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
 from usdvol_lint.words import printable
@@ -149,7 +149,7 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
                 f"--output {destination.file}: a report is not written to a file that is called "
                 "like an input: name another one"
             )
-        if os.path.isdir(file):
+        if os.path.isdir(file) or not os.path.basename(destination.file):
             raise UsageError(f"--output {destination.file}: this is a folder, name a file")
         if canonical(destination.file) in read:
             said = "the run reads this file: name another one"
@@ -245,16 +245,8 @@ def _replace(file: Path, parts: Iterable[str]) -> None:
         with open(file, "wb") as device:
             _write(device, parts)
         return
-    target = Path(os.path.realpath(file))
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
-        with open(temporary, "wb") as beside:
-            _write(beside, parts)
-        with suppress(OSError):  # who may read it stays as it was; there may be no such file
-            shutil.copymode(target, temporary)
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with replacing(file) as stream:
+        _write(stream, parts)
 
 
 def _write(file: BinaryIO, parts: Iterable[str]) -> None:

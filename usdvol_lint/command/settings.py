@@ -15,6 +15,8 @@ from usdvol_lint.config.files import find_config_file, read_config
 from usdvol_lint.config.layers import laid_over
 from usdvol_lint.config.values import CHECKS, globs, level, one_of, shown
 from usdvol_lint.model import UsageError
+from usdvol_lint.paths import display
+from usdvol_lint.words import quoted
 
 _REPLACING = (
     *("jobs", "timeout", "fail-on", "load", "content", "variants", "times", "statistics"),
@@ -33,9 +35,22 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
     check_filled(given)
     file = _config_file(given["config_file"], given["isolated"])
     base = read_config(file) if file else Config()
+    if file and given["config_file"] is None:
+        _check_found(base, file)
     settings = laid_over(base, dict(_values(given)), _option)
     _check_depth(settings)
     return settings, file
+
+
+def _check_found(config: Config, file: Path) -> None:
+    """Raises UsageError where a configuration that nobody named has code of some folder run."""
+    for pack in config.packs:
+        where, folder = config.origins.words("packs", pack), display(pack)
+        raise UsageError(
+            f"{where}: {quoted(folder)} is no installed pack, and a configuration that was found "
+            "loads no folder of rules, which are code: name it yourself with --pack "
+            f"{folder}, or the configuration with --config {display(str(file))}"
+        )
 
 
 def _values(given: dict[str, Any]) -> Iterator[tuple[str, Any]]:

@@ -52,7 +52,8 @@ class Config(NamedTuple):
 
     `select` is None for the rules that are on by default; without any selector it is none at all.
     `jobs` is the number of worker processes, 0 for one for each processor; `timeout` is in seconds
-    for each stage; `packs` are folders; `options` are those of rules, by code or name of the rule.
+    for each stage; `packs` are folders, besides what is installed; `options` are those of rules, by
+    code or name of the rule.
     `fail_on_unchecked` says that what was not checked fails a run at any level.
     `show` is what reports for people have besides errors and warnings.
     `max_places` is how many places of a cause a report has in full; `root` is the folder that

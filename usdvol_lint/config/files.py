@@ -121,7 +121,9 @@ def _anchored(key: str, value: Any, folder: Path) -> Any:
     match key:
         case "root" | "baseline":
             return str(folder / value)
-        case "packs" | "search-path":
+        case "packs":
+            return tuple(str(folder / path) for path in _not_installed(value))
+        case "search-path":
             return tuple(str(folder / path) for path in value)
         case "exclude" | "stages":
             return tuple(Glob(str(folder), pattern) for pattern in value)
@@ -129,6 +131,14 @@ def _anchored(key: str, value: Any, folder: Path) -> Any:
             return {start: join(folder, to) for start, to in value.items()}
         case _:
             return value
+
+
+def _not_installed(packs: tuple[str, ...]) -> tuple[str, ...]:
+    """The packs that are folders; those that are installed are loaded whoever names them."""
+    from usdvol_lint.config.installed import installed_packs  # few configurations name a pack
+
+    installed = installed_packs() if packs else {}
+    return tuple(pack for pack in packs if pack not in installed)
 
 
 def _own_table(project: Path) -> Any | None:

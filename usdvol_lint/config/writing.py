@@ -121,7 +121,9 @@ def _toml(setting: str, value: Any) -> str:
         case int() | float():
             return repr(value)
         case str():
-            return f'"{"".join(_letter(setting, letter) for letter in value)}"'
+            text = "".join(_letter(setting, letter) for letter in value)
+            text = text.replace("##", r"#\u0023")  # which `printable` says why
+            return f'"{text}"'
         case Mapping():
             pairs = (f"{_key(setting, name)} = {_toml(setting, value[name])}" for name in value)
             return f"{{ {', '.join(pairs)} }}" if value else "{}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Tf, Usd
 
@@ -32,24 +32,32 @@ def check_types(rules: Iterable[Rule]) -> None:
                 )
 
 
-def unknown_types(rules: Iterable[Rule], root: Any) -> Iterator[tuple[Rule, NotChecked]]:
-    """The rules some of whose types are unknown here, each with what to say of it on a stage."""
+class IdleRule(NamedTuple):
+    """A rule some of whose types, the `unknown` ones, no schema that is installed here has."""
+
+    rule: Rule
+    unknown: tuple[str, ...]
+
+    def told_at(self, root: Any) -> NotChecked:
+        """What to say of it on a stage with that root."""
+        rule, unknown = self
+        types = " or ".join(map(repr, unknown))
+        looked = "nothing" if len(unknown) == len(rule.on) else "less than it asks for"
+        return NotChecked(
+            f"rule {rule.code} ({rule.name}) looked at {looked}: no schema that is "
+            f"installed here is called {types}",
+            at=root,
+            machine=rule.code,
+            suggestion="install the plugin that has it, or correct the rule"
+            + did_you_mean(unknown[0], _names()),
+        )
+
+
+def idle_rules(rules: Iterable[Rule]) -> Iterator[IdleRule]:
+    """The rules some of whose types are unknown here, which is so for all stages."""
     for rule in rules:
-        unknown = list(filter(_is_unknown, rule.on))
-        if unknown:
-            types = " or ".join(map(repr, unknown))
-            looked = "nothing" if len(unknown) == len(rule.on) else "less than it asks for"
-            yield (
-                rule,
-                NotChecked(
-                    f"rule {rule.code} ({rule.name}) looked at {looked}: no schema that is "
-                    f"installed here is called {types}",
-                    at=root,
-                    machine=rule.code,
-                    suggestion="install the plugin that has it, or correct the rule"
-                    + did_you_mean(unknown[0], _names()),
-                ),
-            )
+        if unknown := tuple(filter(_is_unknown, rule.on)):
+            yield IdleRule(rule, unknown)
 
 
 def _is_unknown(name: str) -> bool:

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 
 from usdvol_lint import schema
 from usdvol_lint.engine.failures import PACK_FAILURES
+from usdvol_lint.engine.walk import asked_by
 from usdvol_lint.facts import Facts, Walked
 from usdvol_lint.facts.prims.tables import Chunk, Table
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
@@ -36,6 +37,8 @@ class Assignment:
         self._rules = list(rules)
         self._options = options
         self._subscriptions: dict[frozenset[str], _Subscription] = {}
+        self.asked_for = asked_by(self._rules)
+        """The schemas of the prims that are to be handed."""
 
     def pairs(self, walked: Walked, facts: Facts, failed: Failed) -> Iterator[tuple[Rule, Any]]:
         """Each rule with each kept prim of its schemas that passes its precondition."""
@@ -87,6 +90,10 @@ class _RulesByKey:
         keys = self._keys(table, facts, failed)
         if keys is None:
             yield from self._one_by_one(table, facts, failed)
+            return
+        if len(keys) == 1:  # as on most small stages, of which there are many
+            for rule in self._rules_for(keys[0], failed):
+                yield rule, table.prims[0]
             return
         # In the order of the prims: if a precondition fails on several keys, it reports the first.
         rules = {key: self._rules_for(key, failed) for key in dict.fromkeys(keys)}

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from usdvol_lint import schema
-from usdvol_lint.engine.asked_types import unknown_types
+from usdvol_lint.engine.asked_types import IdleRule
 from usdvol_lint.engine.assign import Assignment, Options
 from usdvol_lint.engine.failures import PACK_FAILURES, Failures
 from usdvol_lint.engine.identity import Identity
@@ -40,7 +40,7 @@ class StageCheck:
 
     def walk(self) -> Walked:
         """The prims that the rules ask for, under the variant selection composed now."""
-        return walk(self._context.stage, self._rules, self._context.kinds)
+        return walk(self._context.stage, self._assignment.asked_for, self._context.kinds)
 
     def facts(self, walked: Walked) -> Facts:
         """The facts under the variant selection composed now."""
@@ -59,10 +59,10 @@ class StageCheck:
             )
             yield from self._stamp.stamp(USD_TOO_OLD, too_old)
 
-    def unknown_types(self, facts: Facts) -> Iterator[Stamped]:
+    def idle(self, facts: Facts, rules: Iterable[IdleRule]) -> Iterator[Stamped]:
         """Reports the rules that ask for types which nobody knows."""
-        for rule, idle in unknown_types(self._rules, facts.stage.GetPseudoRoot()):
-            yield from self._stamp.stamp(rule, idle)
+        for each in rules:
+            yield from self._stamp.stamp(each.rule, each.told_at(facts.stage.GetPseudoRoot()))
 
     def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:
         """What the rules find under the selection composed now, and where they failed."""

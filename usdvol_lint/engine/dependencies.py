@@ -48,7 +48,7 @@ def _used(stage: str) -> Iterable[str] | None:
     """All that a stage's layers name, directly or not; None where USD can't say."""
     try:
         layers, assets, unresolved = UsdUtils.ComputeAllDependencies(os.path.abspath(stage))
-    except UNREADABLE:
+    except (*UNREADABLE, UnicodeEncodeError):  # the latter where a path is not UTF-8
         return None
     return [*(layer.realPath for layer in layers), *assets, *unresolved] if layers else None
 

@@ -10,6 +10,7 @@ from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
+from usdvol_lint.engine.asked_types import idle_rules
 from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.failures import still_holding, unreadable
@@ -63,6 +64,8 @@ class Engine:
         self._suppressions = suppressions or InStages()
         self._rules = [rules[code] for code in active.severities]
         self._active = active
+        self._telling = active.telling
+        self._idle = tuple(idle_rules(self._rules))
         self._assignment = Assignment(self._rules, active.options)
         self._depth = depth or Depth()
         self._advance = advance
@@ -93,7 +96,7 @@ class Engine:
             self._volume_files,
             self._folders,
             self._advance,
-            self._active.telling,
+            self._telling,
         )
         found: list[Stamped] = []
         try:
@@ -114,7 +117,7 @@ class Engine:
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)
-        found += self._sent(chain(check.usd_version(facts), check.unknown_types(facts)))
+        found += self._sent(chain(check.usd_version(facts), check.idle(facts, self._idle)))
         found += self._sent(check.selection(walked, facts))
         completes = _completion(facts)
         stats = _stats(walked, facts, context.disk)

@@ -48,13 +48,16 @@ def _open(layer: Any, session: Any | None, policy: Any) -> Any:
     """The stage of a root layer, also where USD raises for value clips that do not open.
 
     For clips without a manifest USD makes one, and so opens them with the stage.  Where that
-    raises, the stage is whole, but only to be had from the cache.
+    raises, the stage is whole, but only to be had from a cache.
     """
-    cache = Usd.StageCache()
+    # Without the context, USD would take a session of None for one that searches nowhere.
+    context = Ar.GetResolver().CreateDefaultContextForAsset(layer.identifier)
+    try:
+        return Usd.Stage.Open(layer, session, context, policy)
+    except UNREADABLE:
+        cache = Usd.StageCache()
     try:
         with Usd.StageCacheContext(cache):
-            # Without the context, USD would take a session of None for one that searches nowhere.
-            context = Ar.GetResolver().CreateDefaultContextForAsset(layer.identifier)
             return Usd.Stage.Open(layer, session, context, policy)
     except UNREADABLE as error:
         stage = next(iter(cache.GetAllStages()), None)
@@ -65,18 +68,17 @@ def _open(layer: Any, session: Any | None, policy: Any) -> Any:
 
 def _explain(path: str, errors: list[str], head: bytes) -> Trouble:
     """One of USD's errors in one line: the first that names a line in a text, or the first."""
-    lines = [_in_one_line(path, error) for error in errors]
-    located = next(filter(None, (re.match(_LOCATED, line) for line in lines)), None)
+    located = next(filter(None, (re.match(_LOCATED, error) for error in errors)), None)
     if located:
         layer = located["path"]
         return Trouble(
-            f"parse error: {located['what']}"[:_LONGEST_MESSAGE],
+            f"parse error: {_in_one_line(path, located['what'])}"[:_LONGEST_MESSAGE],
             "correct the text there, or export the layer again",
             layer=None if os.path.abspath(path) == layer else layer,
             line=int(located["line"]),
             column=int(located["column"]) if located["column"] else None,
         )
-    first = lines[0] if lines else "no reason given"
+    first = _in_one_line(path, errors[0]) if errors else "no reason given"
     if head.startswith(CRATE_SIGNATURE):
         if re.search(_OTHER_VERSION, first):
             return _other_version(head, first)

@@ -39,9 +39,13 @@ _OVERS = 20_000
 """How many overs are kept, the first ones: a layer that is meant for another has no others."""
 
 
-def walk(stage: Any, rules: Iterable[Rule], kinds: PrimKinds) -> Walked:
+def asked_by(rules: Iterable[Rule]) -> frozenset[str]:
+    """The schemas of the prims that a walk keeps for these rules."""
+    return schema.OURS.union(*(rule.on for rule in rules))
+
+
+def walk(stage: Any, asked_for: frozenset[str], kinds: PrimKinds) -> Walked:
     """Walks the stage and each prototype once; skips abstract, inactive and unloaded prims."""
-    asked_for = schema.OURS.union(*(rule.on for rule in rules))
     standings = {prototype: standing_of(prototype) for prototype in stage.GetPrototypes()}
     met = _Met(asked_for | {schema.POINT_INSTANCER}, kinds)
     for prims in _batches(stage, standings):

@@ -56,11 +56,11 @@ class Context(NamedTuple):
         """The context of a stage with empty caches, but for `volume_files` and `folders`."""
         from usdvol_lint.facts.files.disk import Disk
         from usdvol_lint.facts.files.storage import Whereabouts
-        from usdvol_lint.facts.usd.kinds import PrimKinds
+        from usdvol_lint.facts.usd.kinds import kinds_on
         from usdvol_lint.facts.volumes.usage import UsedFields
         from usdvol_lint.volumefile.cache import VolumeFiles
 
-        kinds = PrimKinds(stage.GetMetadata("fallbackPrimTypes"))
+        kinds = kinds_on(stage)
         files = volume_files or VolumeFiles()
         disk = Disk(folders, Whereabouts(depth.storage))
         return cls(stage, kinds, depth, disk, files, UsedFields(), advance, telling)

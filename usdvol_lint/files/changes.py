@@ -16,6 +16,8 @@ _FETCH = (
     "GIT_DEPTH: 0 for GitLab, or 'git fetch --unshallow'"
 )
 
+_NO_GIT = "--changed-since needs git, which is not installed"
+
 
 def changes_since(revision: str, arguments: Sequence[str], settings: Iterable[str]) -> Changes:
     """What changed since the merge base of a revision and HEAD, in the repository of the arguments.
@@ -116,7 +118,7 @@ class _Git:
 
     def _call(self, *arguments: str) -> tuple[int, bytes, bytes]:
         """The exit code, and what git wrote to standard output and standard error."""
-        command = ["git", "-C", self.folder, *arguments]
+        command = [_program(), "-C", self.folder, "-c", "core.fsmonitor=false", *arguments]
         environment = {**os.environ, "LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}
         try:
             done = subprocess.run(
@@ -127,8 +129,18 @@ class _Git:
                 env=environment,
             )
         except FileNotFoundError:
-            raise UsageError("--changed-since needs git, which is not installed") from None
+            raise UsageError(_NO_GIT) from None
         return done.returncode, done.stdout, done.stderr
+
+
+def _program() -> str:
+    """Git where PATH has it: Windows would look into the working directory first."""
+    name = "git.exe" if os.name == "nt" else "git"
+    files = (os.path.join(each, name) for each in os.get_exec_path() if os.path.isabs(each))
+    for file in files:
+        if os.path.isfile(file) and os.access(file, os.X_OK):
+            return file
+    raise UsageError(_NO_GIT)
 
 
 def _path(name: bytes) -> str:

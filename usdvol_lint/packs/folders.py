@@ -6,15 +6,17 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import redirect_stdout, suppress
+from contextlib import contextmanager, redirect_stdout
 from importlib import import_module, invalidate_caches
 from types import ModuleType
 
+from usdvol_lint.config.installed import installed_packs
 from usdvol_lint.model import PackError
 from usdvol_lint.rule import Rule
 
-ENTRY_POINT_GROUP = "usdvol_lint.packs"
 _BUILT_IN = "usdvol_lint.rules"
+_NAMED = "usdvol_lint_pack_"
+"""What the names of packages begin with that are made for folders."""
 _CODE = re.compile(r"[A-Z]{3}\d{3}")
 
 
@@ -37,33 +39,17 @@ def _built_in_folder() -> str:
 
 
 def _installed_packs() -> Iterator[tuple[str, str]]:
-    # Importing importlib.metadata takes ten times as long as seeing that there are no packs.
-    if not any(map(_names_packs, sys.path)):
-        return
-    from importlib.metadata import entry_points
-    from importlib.util import find_spec
+    for name, package in installed_packs().items():
+        from importlib.util import find_spec  # costs start-up time, and few have such packs
 
-    for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
         try:
-            spec = find_spec(entry.value)
+            spec = find_spec(package)
         except (ImportError, ValueError):
             spec = None
         folders = list(spec.submodule_search_locations or ()) if spec else []
         if not folders:
-            raise PackError(f"rule pack {entry.name!r}: there is no package {entry.value!r}")
-        yield entry.value, folders[0]
-
-
-def _names_packs(folder: str) -> bool:
-    """Whether some distribution in a folder of `sys.path` declares a rule pack."""
-    with suppress(OSError):
-        for name in os.listdir(folder or "."):
-            if name.endswith("-info"):
-                declared = os.path.join(folder, name, "entry_points.txt")
-                with suppress(OSError), open(declared, "rb") as file:
-                    if ENTRY_POINT_GROUP.encode() in file.read():
-                        return True
-    return False
+            raise PackError(f"rule pack {name!r}: there is no package {package!r}")
+        yield package, folders[0]
 
 
 def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[str, str]]:
@@ -77,7 +63,7 @@ def _named_packs(packs: Sequence[str], known: Sequence[str]) -> Iterator[tuple[s
         if folder in known:
             continue
         # Named after its path: two packs in one process may both have a module `checks`.
-        name = f"usdvol_lint_pack_{crc32(os.fsencode(folder)):08x}"
+        name = f"{_NAMED}{crc32(os.fsencode(folder)):08x}"
         _forget(name)
         yield _mount(name, folder), folder
 
@@ -105,7 +91,9 @@ def import_rules(package: str, folder: str) -> list[Rule]:
     Raises PackError for a module that can't be imported, a malformed code, or no rule at all.
     """
     rules: list[Rule] = []
-    with redirect_stdout(sys.stderr):  # what a module prints stays out of the report
+    leaves_no_trace = package.startswith(_NAMED)
+    # What a module prints stays out of the report.
+    with redirect_stdout(sys.stderr), _writing_bytecode(not leaves_no_trace):
         for name, path in _modules(package, folder):
             module = _import(name, path)
             rules += [value for value in vars(module).values() if isinstance(value, Rule)]
@@ -120,6 +108,17 @@ def import_rules(package: str, folder: str) -> list[Rule]:
                 f"not {rule.code!r} ({rule.name})"
             )
     return rules
+
+
+@contextmanager
+def _writing_bytecode(wanted: bool) -> Iterator[None]:
+    """Whether Python may write what it compiles beside the source, as far as it does so at all."""
+    before = sys.dont_write_bytecode
+    sys.dont_write_bytecode = before or not wanted
+    try:
+        yield
+    finally:
+        sys.dont_write_bytecode = before
 
 
 def _modules(package: str, folder: str) -> Iterator[tuple[str, str]]:

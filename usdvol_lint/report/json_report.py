@@ -84,7 +84,12 @@ def _value(value: object) -> str:
 
 def line(value: object) -> str:
     """A value in one line."""
-    text = without_commands(_ENCODE(value))
+    return escaped(_ENCODE(value))
+
+
+def escaped(json: str) -> str:
+    """JSON without what a terminal or a CI host would take for its own."""
+    text = without_commands(json)
     if text.isascii() and "\x7f" not in text:
         return text
     return _TO_ESCAPE.sub(lambda match: f"\\u{ord(match.group()):04x}", text)

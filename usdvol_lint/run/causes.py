@@ -3,30 +3,21 @@
 from __future__ import annotations
 
 import re
-from bisect import insort
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from functools import cache
-from operator import attrgetter
-from typing import NamedTuple
+from typing import TypeAlias
 
 from usdvol_lint.baseline.cover import join
 from usdvol_lint.baseline.fingerprint import fingerprint
-from usdvol_lint.model import Completion, Cover, Finding, Severity, Source, StageReport
+from usdvol_lint.model import Completion, Finding, Severity, Source, StageReport
 from usdvol_lint.paths import below, canonical
 from usdvol_lint.results import Cause, Place, StageResult, State
 
 MAX_PLACES = 20
 
 
-class _Met(NamedTuple):
-    """A place, and its number among those of its stage."""
-
-    stage: int
-    number: int
-    finding: Finding
-
-
-_ORDER = attrgetter("stage", "number")
+_Key: TypeAlias = tuple[str, str | None, str | None, str | None, str]
+"""What makes a cause: the code, and its source with the layer as fingerprints have it."""
 
 
 class _Places:
@@ -34,45 +25,45 @@ class _Places:
 
     __slots__ = ("count", "cover", "first", "severity")
 
-    def __init__(self) -> None:
-        self.first: list[_Met] = []
-        self.count = 0
-        self.severity = Severity.INFO
-        self.cover: Cover | None = None
+    def __init__(self, first: Place) -> None:
+        self.first = [first]
+        self.count = 1
+        self.severity = first.finding.severity
+        self.cover = first.finding.cover
 
-    def add(self, met: _Met, most: int) -> None:
+    def add(self, place: Place, most: int) -> None:
         self.count += 1
-        self.severity = max(self.severity, met.finding.severity)
-        cover = met.finding.cover
-        if self.cover is None:
-            self.cover = cover
-        elif self.cover != cover:
-            self.cover = join(self.cover, cover)
-        if not self.first:
-            self.first.append(met)
-        elif len(self.first) < most or _ORDER(met) < _ORDER(self.first[-1]):
-            insort(self.first, met, key=_ORDER)
-            del self.first[most:]
+        self.severity = max(self.severity, place.finding.severity)
+        if self.cover != place.finding.cover:
+            self.cover = join(self.cover, place.finding.cover)
+        if len(self.first) < most:
+            self.first.append(place)
 
 
 class _Gathered:
-    """What is known of one cause so far: the places that are left, and those suppressed."""
+    """What is known of one cause so far: its number, the places left, and those suppressed."""
 
-    __slots__ = ("left", "suppressed")
+    __slots__ = ("left", "number", "suppressed")
 
-    def __init__(self) -> None:
+    def __init__(self, number: int) -> None:
+        self.number = number
         self.left: _Places | None = None
         self.suppressed: _Places | None = None
 
-    @property
-    def counting(self) -> _Places:
-        counting = self.left or self.suppressed
-        assert counting
-        return counting
+    def add(self, place: Place, most: int) -> None:
+        if place.finding.ignored is not None:
+            if self.suppressed:
+                self.suppressed.add(place, most)
+            else:
+                self.suppressed = _Places(place)
+        elif self.left:
+            self.left.add(place, most)
+        else:
+            self.left = _Places(place)
 
 
 class Causes:
-    """The causes of a run, whatever stages show them, in whichever order these are added.
+    """The causes of a run, whatever stages show them, numbered in the order in which they are met.
 
     `root` is the folder that layers go by, `versions` a pattern for what is folded in their paths,
     and `reason_for` says why a finding on a stage is suppressed, or None.
@@ -91,8 +82,8 @@ class Causes:
         self._most = most
         self._reason_for = reason_for
         self._verdict_on = verdict_on
-        self._found: dict[tuple[str, Source], _Gathered] = {}
-        self._shown: dict[int, dict[tuple[str, Source], Severity | None]] = {}
+        self._found: dict[_Key, _Gathered] = {}
+        self._shown: dict[int, dict[int, Severity | None]] = {}
 
         @cache
         def name_of(layer: str) -> str:
@@ -106,27 +97,23 @@ class Causes:
         self._name_of = name_of
         self._file_of = file_of
 
-    def add(self, stage: int, path: str, findings: Iterable[tuple[int, Finding]]) -> None:
-        """Adds findings of a stage, each with its number there."""
+    def add(self, stage: int, stage_path: str, findings: Iterable[Finding]) -> None:
+        """Adds findings of a stage, after all that are to be told before them."""
         shown = self._shown.setdefault(stage, {})
-        for number, finding in findings:
-            source = finding.source
-            if source.layer is not None:
-                source = Source(self._name_of(source.layer), *source[1:])
-            key = finding.code, source
-            gathered = self._found.get(key)
+        found, most, name_of = self._found, self._most, self._name_of
+        is_judged = self._verdict_on is not None or self._reason_for is not None
+        for finding in findings:
+            layer, path, name, subject = finding.source
+            key = finding.code, layer and name_of(layer), path, name, subject
+            gathered = found.get(key)
             if gathered is None:
-                gathered = self._found[key] = _Gathered()
-            finding = self._judged(path, finding, source)
-            met = _Met(stage, number, finding)
-            worst = shown.setdefault(key, None)
+                gathered = found[key] = _Gathered(len(found))
+            if is_judged:
+                finding = self._judged(stage_path, finding, Source(*key[1:]))
+            gathered.add(Place(stage, finding), most)
+            worst = shown.setdefault(gathered.number, None)
             if finding.ignored is None:
-                gathered.left = gathered.left or _Places()
-                gathered.left.add(met, self._most)
-                shown[key] = max(worst or finding.severity, finding.severity)
-            else:
-                gathered.suppressed = gathered.suppressed or _Places()
-                gathered.suppressed.add(met, self._most)
+                shown[gathered.number] = max(worst or finding.severity, finding.severity)
 
     def _judged(self, path: str, finding: Finding, source: Source) -> Finding:
         """A finding on a stage as the configuration takes it."""
@@ -140,22 +127,13 @@ class Causes:
             reason = verdict
         return finding if reason is None else finding._replace(ignored=reason)
 
-    def result(self) -> tuple[tuple[Cause, ...], Mapping[tuple[str, Source], int]]:
-        """The causes in the order of their first places, and the number of each."""
-        keys = sorted(self._found, key=lambda key: _ORDER(self._found[key].counting.first[0]))
-        causes = tuple(_cause(key, self._found[key]) for key in keys)
-        return causes, {key: number for number, key in enumerate(keys)}
+    def result(self) -> tuple[Cause, ...]:
+        """The causes in the order in which they were met."""
+        return tuple(_cause(key, gathered) for key, gathered in self._found.items())
 
-    def stage(
-        self,
-        number: int,
-        report: StageReport,
-        numbers: Mapping[tuple[str, Source], int],
-        is_part: bool = False,
-    ) -> StageResult:
-        """What came of a stage, once all findings were added."""
-        shown = self._shown.get(number, {})
-        ordered = sorted((numbers[key], worst) for key, worst in shown.items())
+    def stage(self, number: int, report: StageReport, is_part: bool = False) -> StageResult:
+        """What came of a stage, asked for once all of its findings were added."""
+        shown = sorted(self._shown.pop(number, {}).items())
         return StageResult(
             path=report.path,
             status=report.status,
@@ -163,8 +141,8 @@ class Causes:
             seconds=report.seconds,
             particle_fields=report.particle_fields,
             completes=report.completes and self._named(report.completes),
-            causes=tuple(number for number, _ in ordered),
-            worst=tuple(worst for _, worst in ordered),
+            causes=tuple(number for number, _ in shown),
+            worst=tuple(worst for _, worst in shown),
             part=is_part,
         )
 
@@ -179,17 +157,17 @@ class Causes:
         )
 
 
-def _cause(key: tuple[str, Source], gathered: _Gathered) -> Cause:
-    code, source = key
-    places = gathered.counting
-    assert places.cover
+def _cause(key: _Key, gathered: _Gathered) -> Cause:
+    code, source = key[0], Source(*key[1:])
+    places = gathered.left or gathered.suppressed
+    assert places
     reason = places.first[0].finding.ignored
     return Cause(
         fingerprint=fingerprint(code, source),
         severity=places.severity,
         source=source,
         cover=places.cover,
-        places=tuple(Place(met.stage, met.finding) for met in places.first),
+        places=tuple(places.first),
         count=places.count,
         state=State.NEW if reason is None else State.SUPPRESSED,
         reason=reason,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.results import Cause, StageResult
@@ -13,27 +13,32 @@ from usdvol_lint.run.parts import completed_by
 def folded(
     causes: Causes, judged: Iterable[tuple[StageReport, bool]], are_declared: bool
 ) -> tuple[tuple[StageResult, ...], tuple[Cause, ...]]:
-    """The stages and the causes; of the findings only those are kept that may be completed.
+    """The stages and the causes, each as soon as it is known that it is one.
 
-    Where wholes and parts are declared, nothing completes a whole, and a part lacks nothing.
+    What is absent is told last, for any stage of the run may complete it; where wholes and parts
+    are declared, nothing completes a whole, and a part lacks nothing.
     """
-    kept: list[tuple[StageReport, bool]] = []
-    waiting: list[tuple[int, int, Finding]] = []
+    stages: dict[int, StageResult] = {}
+    lacking: dict[int, StageReport] = {}
+    kept: list[StageReport] = []
     for stage, (report, is_part) in enumerate(judged):
-        numbered = list(enumerate(report.findings))
-        causes.add(stage, report.path, (pair for pair in numbered if not pair[1].absent))
-        absent = [(stage, *pair) for pair in numbered if pair[1].absent and not is_part]
-        waiting += absent
-        lacking = tuple(finding for *_, finding in absent)
-        kept.append((report._replace(findings=lacking), is_part))
-    is_completed = completed_by([report for report, _ in kept]) if not are_declared else None
-    for stage, number, finding in waiting:
-        report, _ = kept[stage]
-        if is_completed is None or not is_completed(report, finding):
-            causes.add(stage, report.path, [(number, finding)])
-    found, numbers = causes.result()
-    stages = (
-        causes.stage(number, report, numbers, is_part)
-        for number, (report, is_part) in enumerate(kept)
-    )
-    return tuple(stages), found
+        waits = is_part or not are_declared
+        absent = tuple(each for each in report.findings if each.absent) if waits else ()
+        causes.add(stage, report.path, _present(report.findings) if absent else report.findings)
+        report = report._replace(findings=() if is_part else absent)
+        if report.findings:
+            lacking[stage] = report
+        else:
+            stages[stage] = causes.stage(stage, report, is_part)
+        if report.findings or report.completes:
+            kept.append(report)
+    is_completed = completed_by(kept if lacking else ())
+    for stage, report in lacking.items():
+        left = (each for each in report.findings if not is_completed(report, each))
+        causes.add(stage, report.path, left)
+        stages[stage] = causes.stage(stage, report)
+    return tuple(stages[number] for number in sorted(stages)), causes.result()
+
+
+def _present(findings: Iterable[Finding]) -> Iterator[Finding]:
+    return (finding for finding in findings if not finding.absent)

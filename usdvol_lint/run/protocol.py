@@ -5,13 +5,16 @@ After `Setup` the parent sends paths, and the worker answers each with `Done`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 from usdvol_lint.config import Depth
-from usdvol_lint.model import Finding, StageReport
+from usdvol_lint.model import Cover, Excerpt, Finding, Site, Source, StageReport
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.suppressions import InStages
+
+_PARTS = Finding._fields.index("site")
+_EXCERPT = Site._fields.index("excerpt")
 
 
 class Setup(NamedTuple):
@@ -44,9 +47,21 @@ class Refusal(NamedTuple):
 
 
 class NewFindings(NamedTuple):
-    """Findings on a stage since the last such message; more messages about the stage follow."""
+    """Findings on a stage since the last such message; more messages about the stage follow.
 
-    findings: list[Finding]
+    They are plain tuples: a named tuple is pickled by a call of Python's, which takes three times
+    as long.
+    """
+
+    plain: list[tuple[Any, ...]]
+
+    @classmethod
+    def of(cls, findings: Iterable[Finding]) -> NewFindings:
+        return cls(list(map(_plain, findings)))
+
+    @property
+    def findings(self) -> Iterator[Finding]:
+        return map(_named, self.plain)
 
 
 class Done(NamedTuple):
@@ -69,3 +84,17 @@ class Advance(NamedTuple):
     """Samples of a long sequence read since the last such message; more messages follow."""
 
     samples: int
+
+
+def _plain(finding: Finding) -> tuple[Any, ...]:
+    site = finding.site
+    excerpt = site.excerpt and tuple(site.excerpt)
+    parts = (*site[:_EXCERPT], excerpt, site.entry), tuple(finding.source), tuple(finding.cover)
+    return (*finding[:_PARTS], *parts, *finding[_PARTS + len(parts) :])
+
+
+def _named(plain: tuple[Any, ...]) -> Finding:
+    code, name, severity, message, place, source, cover, *rest = plain
+    *where, excerpt, entry = place
+    site = Site._make((*where, excerpt and Excerpt(*excerpt), entry))
+    return Finding(code, name, severity, message, site, Source(*source), Cover(*cover), *rest)

@@ -123,7 +123,7 @@ class _Answers:
 
     def send(self, findings: list[Finding]) -> None:
         self._sent += findings
-        _send(self._replies, NewFindings(findings))
+        _send(self._replies, NewFindings.of(findings))
 
     def end(self, report: StageReport) -> None:
         numbers = {id(finding): number for number, finding in enumerate(self._sent)}

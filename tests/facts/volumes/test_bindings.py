@@ -10,7 +10,7 @@ from pxr import Usd
 
 from usdvol_lint.config import Config, Depth
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.engine.walk import walk
+from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts import Context, Facts
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.model import StageReport
@@ -212,7 +212,7 @@ def Volume "cloud" {{
 }}
 """
     stage = Usd.Stage.Open(write(tmp_path / "stage.usda", text))
-    walked = walk(stage, [], PrimKinds())
+    walked = walk(stage, asked_by([]), PrimKinds())
     facts = Facts(Context.of(stage), walked)
     cloud, density = stage.GetPrimAtPath("/cloud"), stage.GetPrimAtPath("/cloud/density")
     assert not facts.volumes.is_shared(cloud, density)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from pxr import Usd
 
-from usdvol_lint.engine.walk import walk
+from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts import Context, Facts
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
@@ -31,7 +31,7 @@ def lookalikes(folder: Path) -> list[str]:
     path = folder / "stage.usda"
     path.write_text(TEXT, encoding="utf-8")
     stage = Usd.Stage.Open(str(path))
-    facts = Facts(Context.of(stage), walk(stage, [], PrimKinds()))
+    facts = Facts(Context.of(stage), walk(stage, asked_by([]), PrimKinds()))
     return [str(each.prim.GetPath()) for each in facts.volumes.lookalikes]
 
 

@@ -141,3 +141,8 @@ def one_kernel_outside(subject: ParticleSubject, rng: Random) -> None:
 def positions_blocked_for_a_frame(subject: ParticleSubject, rng: Random) -> None:
     samples = subject.array("positions").samples
     samples[sorted(samples)[1]] = None
+
+
+@on_particles("ARR027", needs={**_ALL, "animated": True})
+def particle_range_elsewhere(subject: ParticleSubject, rng: Random) -> None:
+    subject.time_range = (1_000_000, 1_000_100)

@@ -92,13 +92,13 @@ class SampleSequence:
 
     def advice_on_shift(self, shift: float) -> str:
         """How to move the samples, wherever they are authored."""
-        from usdvol_lint.facts.files.moving import advice_on_shift
+        from usdvol_lint.facts.usd.moving import advice_on_shift
 
         return advice_on_shift(self.paths.attribute, self.times[0], shift)
 
     def rate_at_fault(self, time_range: tuple[float, float]) -> str | None:
         """The scale of a rate, in words, but for which the samples would cover a time range."""
-        from usdvol_lint.facts.files.moving import rate_at_fault
+        from usdvol_lint.facts.usd.moving import rate_at_fault
 
         ends = (self.times[0], self.times[-1])
         return rate_at_fault(self.paths.attribute, ends, self.step, time_range)

@@ -14,6 +14,7 @@ from usdvol_lint.facts.usd.values import Value, Values
 if TYPE_CHECKING:
     from usdvol_lint.facts.particles.array import ParticleArray
     from usdvol_lint.facts.particles.holes import Hole
+    from usdvol_lint.facts.particles.spans import Span
     from usdvol_lint.facts.particles.spoilt import Spoilt
 
 
@@ -155,6 +156,14 @@ class ParticleArrays:
         from usdvol_lint.facts.particles.holes import find_holes
 
         return find_holes(gappy, self.positions)
+
+    def spans(self) -> list[Span]:
+        """From when to when the arrays with several samples have these."""
+        if not any(array.total > 1 for array in self.used()):
+            return []
+        from usdvol_lint.facts.particles.spans import spans_of
+
+        return spans_of(self.used())
 
     @property
     def late_positions(self) -> LateArray | None:

@@ -76,6 +76,17 @@ class PrimKinds:
         return name in self.names(self.key(prim))
 
 
+def kinds_on(stage: Any) -> PrimKinds:
+    """The kinds of prims on a stage: the same on all those that say no fallbacks of types."""
+    fallbacks = stage.GetMetadata("fallbackPrimTypes")
+    return PrimKinds(fallbacks) if fallbacks else _without_fallbacks()
+
+
+@cache
+def _without_fallbacks() -> PrimKinds:
+    return PrimKinds()
+
+
 @cache
 def is_registered(type_name: str) -> bool:
     """Whether a plugin declares a schema of that name, a prim type or an applied API."""

@@ -154,7 +154,7 @@ class Volumes(Wing):
 
     def is_hidden(self, field: Any, times: Sequence[float], between: bool = False) -> bool:
         """Whether a field, or each Volume that binds it, is invisible at, or `between`, times."""
-        from usdvol_lint.facts.volumes.visibility import is_hidden
+        from usdvol_lint.facts.usd.visibility import is_hidden
 
         users = self._users.of(self.tables.field_slots[field.GetPath()])
         return is_hidden(field, users, times, between)
