@@ -36,6 +36,7 @@ __all__ = [
     "STAGE",
     "TYPE",
     "UNKNOWN_TYPE",
+    "VALUED_NAME",
     "WARNING",
     "AssetSample",
     "AssetState",
@@ -84,7 +85,7 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 OURS = tuple(sorted(schema.OURS))
 """What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
-TYPE, APIS, NAME = schema.TYPE_NAME, "apiSchemas", "name"
+TYPE, APIS, NAME, VALUED_NAME = schema.TYPE_NAME, "apiSchemas", "name", "valued name"
 """Whose opinion counts: see `Problem`."""
 
 Prim: TypeAlias = Any
@@ -122,7 +123,8 @@ class _Result:
     with its value, for a prim the weakest that makes it what it is, since what it lacks each
     stronger one merely did not bring.
     `of` asks for the opinion on something else: on TYPE, on an API, `(APIS, name)`, on metadata by
-    its name, also that of a property, or on NAME, which the weakest spec of a property has.
+    its name, also that of a property, or on NAME, which the weakest spec of a property has, or on
+    VALUED_NAME, which the weakest one has that has a value.
     `spec` names another `Sdf` spec.
     `against` is what contradicts it, as prims, properties, occurrences, or pairs of a prim and such
     an `of`: then the strongest spec of all is to blame, or the arc that brings them together.

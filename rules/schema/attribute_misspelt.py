@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from usdvol_lint.rule import ERROR, NAME, OURS, WARNING, Facts, Prim, Prims, Problem, Problems, When, lacks, rule
+from usdvol_lint.rule import ERROR, OURS, VALUED_NAME, WARNING, Facts, Prim, Prims, Problem, Problems, When, lacks, rule
 
 _LOSSES = {
     "filePath": "so no file is found",
@@ -25,7 +25,7 @@ def attribute_misspelt(prim: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{prim.GetTypeName()} has no attribute {slip.shown}{kept}" + f", {loss}" * bool(loss),
             at=slip.attribute,
-            of=NAME,
+            of=VALUED_NAME,
             severity=None if slip.hiding or (loss and slip.pair in _GRAVE) else WARNING,
             suggestion=f"did you mean {meant!r}?",
             absent=[lacks(prim, slip.pair)] if loss else (),

@@ -2,7 +2,7 @@
 
 from operator import attrgetter
 
-from usdvol_lint.rule import INFO, NAME, OURS, TYPE, Facts, Prim, Prims, Problem, Problems, When, rule
+from usdvol_lint.rule import INFO, OURS, TYPE, VALUED_NAME, Facts, Prim, Prims, Problem, Problems, When, rule
 from usdvol_lint.schema import DECLARED_BY
 
 
@@ -27,7 +27,7 @@ def attribute_of_other_type(prim: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"{name!r} is an attribute of {' and '.join(DECLARED_BY[name])}, and this is a {prim.GetTypeName()}",
             at=attribute,
-            of=NAME,
+            of=VALUED_NAME,
             against=[(prim, TYPE)],
             suggestion="remove it, or use a type that has it",
         )

@@ -21,7 +21,7 @@ def nested_gprim(prim: Prim, facts: Facts) -> Problems:
             at=place,
             of=None if gprim == place else "references",
             against=[prim] if gprim == place else [],
-            subject=gprim.GetName(),
+            subject=place.GetName(),
             suggestion=f"move it beside the {prim.GetTypeName()}, below a common Xform",
         )
 

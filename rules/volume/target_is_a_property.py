@@ -14,5 +14,6 @@ def target_is_a_property(volume: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"'field:{binding.name}' targets the property <{target.shown}>, not a field prim",
             at=binding.property,
+            against=[target.instancing] if target.instancing else [],
             suggestion=suggestion,
         )

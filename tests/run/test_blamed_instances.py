@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from identities import CLEAN, LAYER, META, SPLATS, STAGE, Find, refers
+from identities import CLEAN, HEAD, LAYER, META, SPLATS, STAGE, Find, refers
 from process import ASSETS, write
 from pxr import Usd
 
@@ -131,3 +131,99 @@ def test_a_field_of_an_instance_is_compared_with_its_siblings(find: Find, shots:
     plain, instance = (find(f"shots/{shot}.usda", rules=("AST017",)) for shot in ("one", "two"))
     assert [each.fingerprint for each in plain] == [each.fingerprint for each in instance]
     assert [each.code for each in plain] == ["AST017"]
+
+
+FORWARDING = CLEAN.replace("</tank", "</tank/tank").replace("</tank/tank/density>", "</tank.proxy>")
+FORWARDED = f'def Xform "tank"\n{{\nrel %s = </tank/tank/density>\n{FORWARDING}\n}}\n'
+
+
+@pytest.mark.parametrize("name", ["proxy", "field:density"])
+def test_what_only_an_instance_breaks_is_no_mistake_of_the_asset(
+    name: str, find: Find, shots: Path
+) -> None:
+    """A prototype lacks the properties of its instances: what made them so is to blame, once."""
+    asset = FORWARDED % name
+    write(shots.parent / "assets", tank=LAYER + asset.replace("tank.proxy", f"tank.{name}"))
+    instances = "".join(refers(each, meta=INSTANCE) for each in "AB")
+    write(shots, one=STAGE + refers("A"), two=STAGE + instances)
+    rules = ("VOL", "SCH014")
+    assert find("assets/tank.usda", "shots/one.usda", rules=rules) == []
+    [cause] = find("shots/two.usda", rules=rules)
+    assert cause.code == "VOL005"
+    assert (cause.source.layer, cause.source.path) == ("shots/two.usda", "/A")
+
+
+def test_a_variant_above_an_instance_may_say_what_is_below_it(find: Find, shots: Path) -> None:
+    meta = 'variants = {\nstring look = "thin"\n}\nprepend variantSets = "look"\n'
+    misnamed = 'over "Tank"\n{\nfloat3[] extent = [(0, 0, 0), (1, 1, 1)]\n}\n'
+    thick = 'variantSet "look" = {\n"thick" {\ndef Xform "Tank"\n{\n}\n}\n"thin" {\n}\n}\n'
+    inside = LAYER.replace("tank", "set") + f'def Xform "set"\n{{\n{CLEAN}\n}}\n'
+    chosen = refers("set", "./inner.usda", meta, misnamed + thick)
+    write(shots.parent / "assets", inner=inside, set=LAYER.replace("tank", "set") + chosen)
+    write(shots, one=STAGE + refers("A", "../assets/set.usda", INSTANCE))
+    assert find("assets/set.usda", "shots/one.usda", rules=("STG010",)) == []
+    other = LAYER.replace("tank", "set") + chosen.replace('def Xform "Tank"', 'def Xform "Jar"')
+    write(shots.parent / "assets", set=other)
+    both = find("assets/set.usda", "shots/one.usda", rules=("STG010",))
+    assert [(each.source.layer, each.count) for each in both] == [("assets/set.usda", 2)]
+
+
+CLIPS = (
+    "asset[] assetPaths = [@./clip.usda@]",
+    'string primPath = "/tank"',
+    "double2[] active = [(1, 0)]",
+    "asset manifestAssetPath = @./manifest.usda@",
+)
+UNTOLD = CLEAN.replace("asset filePath = @./cloud.vdb@\n", "")
+
+
+@pytest.mark.parametrize(
+    ("keys", "code"),
+    [
+        (CLIPS, "AST014"),
+        (CLIPS[:2], "AST016"),
+        ((CLIPS[0], CLIPS[1].replace("tank", "tnak"), CLIPS[2]), "AST016"),
+    ],
+)
+@pytest.mark.parametrize("is_below", [False, True])
+def test_clips_that_are_faulty_are_one_cause_on_instances_too(
+    is_below: bool, keys: tuple[str, ...], code: str, find: Find, shots: Path
+) -> None:
+    """Also where they would not reach into these if they were not."""
+    meta = "clips = {{\ndictionary default = {{\n{}\n}}\n}}".format("\n".join(keys))
+    ranged = META + "startTimeCode = 1\nendTimeCode = 2\n"
+    said = 'over "density"\n{\nasset filePath.timeSamples = { 1: @./cloud.vdb@ }\n}\n'
+    inside = UNTOLD
+    if is_below:
+        inside = UNTOLD.replace("</tank", "</tank/smoke").replace('"tank"', '"smoke"')
+        inside = f'def Xform "tank"\n{{\n{inside}}}\n'
+        said = f'over "smoke"\n{{\n{said}}}\n'
+    bearing = inside.replace('"tank"', f'"tank" (\n{meta}\n)', 1)
+    write(
+        shots.parent / "assets",
+        tank=LAYER.replace(META, ranged) + bearing,
+        clip=HEAD + f'over "tank"\n{{\n{said}}}\n',
+        manifest=HEAD + 'over "tank"\n{\n}\n',
+    )
+    instances = "".join(refers(name, meta=INSTANCE) for name in "AB")
+    write(shots, one=STAGE.replace(META, ranged) + instances)
+    rules = ("AST001", "AST014", "AST016")
+    [cause] = find("assets/tank.usda", "shots/one.usda", rules=rules)
+    assert (cause.code, cause.source.layer, cause.count) == (code, "assets/tank.usda", 3)
+
+
+def test_what_two_layers_say_below_an_instance_are_two(find: Find, shots: Path) -> None:
+    """What a layer on top adds moves nothing."""
+    inside = LAYER.replace("tank", "set") + f'def Xform "set"\n{{\n{CLEAN}\n}}\n'
+    write(shots.parent / "assets", set=inside)
+    lost = 'over "tank"\n{\nover "density"\n{\ntoken fieldName = "fuel"\n}\n}\n'
+    write(shots, layout=STAGE + refers("a", "../assets/set.usda", INSTANCE, lost))
+    more = 'over "a"\n{\nover "tank"\n{\nfloat3[] extent = [(0, 0, 0), (9, 9, 9)]\n}\n}\n'
+    write(shots, top=STAGE.replace(META, f"{META}subLayers = [@./layout.usda@]\n") + more)
+    [alone] = find("shots/layout.usda", rules=("STG006",))
+    causes = find("shots/top.usda", rules=("STG006",))
+    assert alone.source == Source("shots/layout.usda", "/a/tank/density", "fieldName")
+    assert {each.source for each in causes} == {
+        alone.source,
+        Source("shots/top.usda", "/a/tank", "extent"),
+    }

@@ -264,3 +264,27 @@ def test_file_format_arguments_are_none_of_it(find: Find, tmp_path: Path) -> Non
     write(tmp_path / "shots", shot=HEAD + refers("a", path) + refers("b"))
     [cause] = find("shots/shot.usda")
     assert (named([cause]), cause.count) == (ONE, 2)
+
+
+def test_a_link_in_another_folder_is_to_blame_for_where_its_paths_lead(
+    find: Find, tmp_path: Path
+) -> None:
+    """What is wrong in the file itself is one cause, whatever leads to it."""
+    shutil.copytree(ASSETS, tmp_path / "assets")
+    wrong = ASSET.replace("gone", "cloud").replace('"float"', '"double3"')
+    for name, text in (
+        ("tank", ASSET),
+        ("whole", ASSET.replace("gone", "cloud")),
+        ("wrong", wrong),
+    ):
+        write(tmp_path / "assets", **{name: text})
+        (tmp_path / "links").mkdir(exist_ok=True)
+        (tmp_path / "links" / f"{name}.usda").symlink_to(f"../assets/{name}.usda")
+    rules = ("AST002", "FLD004", "GRD005")
+    assert named(find("links/tank.usda", "assets/tank.usda")) == ONE
+    [lost] = find("links/whole.usda", "assets/whole.usda", rules=rules)
+    assert (lost.source.layer, lost.count) == ("links/whole.usda", 1)
+    (tmp_path / "links" / "cloud.vdb").symlink_to("../assets/cloud.vdb")
+    assert find("links/whole.usda", rules=rules) == []
+    [same] = find("links/wrong.usda", "assets/wrong.usda", rules=rules)
+    assert (same.source.layer, same.count) == ("assets/wrong.usda", 2)

@@ -76,8 +76,9 @@ def test_reports_say_what_a_stage_completes(tmp_path: Path) -> None:
     assert shot["completes"] == {
         "layers": ["cache.usda", "rig.usda"],
         "specs": [
-            {"layers": ["cache.usda"], "path": "/fx/density", "lacking": ["field:"]},
-            {"layers": ["rig.usda"], "path": "/fx/smoke", "lacking": ["field:density"]},
+            {"layers": [layer], "path": path, "lacking": [lacking]}
+            for layer in ("cache.usda", "rig.usda")
+            for path, lacking in (("/fx/density", "field:"), ("/fx/smoke", "field:density"))
         ],
     }
 

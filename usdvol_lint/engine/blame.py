@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
 
+from usdvol_lint.engine.fallbacks import losing_fallback
+from usdvol_lint.engine.saying import has_value, maker, of_prim, saying, weakest, with_metadata
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
+from usdvol_lint.engine.taking import Edit, Takings
 from usdvol_lint.engine.variables import deciding_layer
 from usdvol_lint.facts.usd.bringing import node_of
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
-from usdvol_lint.rule import APIS, NAME, TYPE, NotChecked, Problem
-
-_VALUES = ("default", "timeSamples", "targetPaths", "spline")
+from usdvol_lint.rule import NAME, TYPE, VALUED_NAME, NotChecked, Problem
 
 
 class Blame(NamedTuple):
@@ -41,7 +42,13 @@ class Blaming:
 
     def __init__(self) -> None:
         self._has_variables: bool | None = None
+        self._takings = Takings()
         self._clip_sets: dict[Any, list[tuple[ClipSet, frozenset[str]]]] = {}
+
+    def recomposed(self) -> None:
+        """Says that the stage was composed in another way."""
+        self._takings.recomposed()
+        self._clip_sets.clear()
 
     def blame(self, problem: Problem | NotChecked) -> Blame:
         """What is to blame for a problem."""
@@ -50,6 +57,8 @@ class Blaming:
         own = self._own(problem)
         against = (*problem.against, *_forwarded(at)) if _is_relationship(at) else problem.against
         others = [each for other in against if (each := self._opinion(other, problem))]
+        if edit := self._edit(problem, own):
+            others.append((edit.prim, Blame(edit.spec)))
         if own.spec is None or not others:
             return own
         opinions = [Opinion(each.GetPrim(), blame.spec) for each, blame in others]
@@ -62,27 +71,35 @@ class Blaming:
         name = name or (None if path else own.property)
         return theirs._replace(property=name, subject=problem.subject or path or theirs.subject)
 
+    def _edit(self, problem: Problem | NotChecked, own: Blame) -> Edit | None:
+        """The edit of another layer that takes away what is missing."""
+        may_miss = problem.absent or _is_relationship(problem.at)
+        is_top = own.spec is None or own.spec.layer == problem.at.GetStage().GetRootLayer()
+        return self._takings.edit(problem) if may_miss and not is_top else None
+
     def _own(self, problem: Problem | NotChecked) -> Blame:
         """The spec whose opinion counts where the problem is."""
         at, prim, subject = problem.at, problem.at.GetPrim(), problem.subject
         if not isinstance(at, Usd.Property):
             if blocked := _blocked(problem):
                 return Blame(blocked, str(blocked.name), subject)
-            return Blame(problem.spec or _of_prim(prim, problem.of), None, subject)
+            if problem.of == TYPE and (losing := losing_fallback(prim)):
+                return Blame(losing, None, subject or str(prim.GetTypeName()))
+            return Blame(problem.spec or of_prim(prim, problem.of), None, subject)
         name = at.GetName()
         if problem.spec:
             return _given(problem, name)
-        if problem.of == NAME:
-            return Blame(_weakest(at) or maker(prim), name, subject)
-        if isinstance(problem.of, str) and (spec := _saying(problem.of, at.GetPropertyStack())):
+        if problem.of in (NAME, VALUED_NAME):
+            return Blame(weakest(at, problem.of == VALUED_NAME) or maker(prim), name, subject)
+        if isinstance(problem.of, str) and (spec := saying(problem.of, at.GetPropertyStack())):
             return Blame(spec, name, subject)
         if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
             time = None if problem.at_default else problem.times[0]
             if found := self._value(at, time, subject):
                 return found
-        spec = next(filter(_has_value, at.GetPropertyStack()), None)
+        spec = next(filter(has_value, at.GetPropertyStack()), None)
         if spec is None and isinstance(at, Usd.Relationship):
-            spec = _weakest(at)
+            spec = weakest(at)
         return Blame(spec or _declared(maker(prim), name), name, subject)
 
     def _value(self, attribute: Any, time: float | None, subject: str) -> Blame | None:
@@ -130,7 +147,7 @@ class Blaming:
         """
         if isinstance(other, tuple):
             at, of = other
-            blame = Blame(_with_metadata(at, of))
+            blame = Blame(with_metadata(at, of))
         elif isinstance(other, Usd.Prim):
             at, blame = other, Blame(maker(other))
         elif isinstance(other, Usd.Property):
@@ -174,7 +191,7 @@ def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
 def _sublayer_with(at: Any, layer: Any) -> str | None:
     """The path by which a layer names the sublayer with the strongest value of a property."""
     stack = at.GetPropertyStack() if isinstance(at, Usd.Property) else ()
-    holders = [spec.layer for spec in stack if _has_value(spec)][:1]
+    holders = [spec.layer for spec in stack if has_value(spec)][:1]
     for path in layer.subLayerPaths:
         if Sdf.Layer.FindRelativeToLayer(layer, path) in holders:
             return str(path)
@@ -185,7 +202,7 @@ def _blocked(problem: Problem | NotChecked) -> Any | None:
     """The spec that takes away what is absent, where a weaker one has it."""
     for prim, name in (lack for part in problem.absent for lack in part):
         prop = prim.GetProperty(name) if Sdf.Path.IsValidNamespacedIdentifier(name) else None
-        values = [spec for spec in (prop.GetPropertyStack() if prop else ()) if _has_value(spec)]
+        values = [spec for spec in (prop.GetPropertyStack() if prop else ()) if has_value(spec)]
         if len(values) > 1 and _is_block(values[0]):
             return values[0]
     return None
@@ -203,77 +220,6 @@ def _declared(spec: Any | None, name: str) -> Any | None:
 
 def _property_of(spec: Any) -> str | None:
     return str(spec.name) if spec.path.IsPropertyPath() else None
-
-
-def _of_prim(prim: Any, of: Any) -> Any | None:
-    if prim.IsPseudoRoot():
-        return prim.GetStage().GetRootLayer().pseudoRoot
-    return _with_metadata(prim, of) or maker(prim)
-
-
-def _with_metadata(prim: Any, of: Any) -> Any | None:
-    """The strongest spec that says something: TYPE, APIS, `(APIS, name)`, or other metadata."""
-    if of == TYPE:
-        return _typed(prim)
-    if isinstance(of, tuple):
-        return next(filter(_lists(of[1]), _stack(prim)), None)
-    return _saying(of, _stack(prim)) if of else None
-
-
-def _saying(key: str, stack: Iterable[Any]) -> Any | None:
-    """The strongest spec with some metadata."""
-    return next((spec for spec in stack if spec.HasInfo(key)), None)
-
-
-def maker(prim: Any) -> Any | None:
-    """The weakest spec that makes a prim what it is: with its type, or else one that defines it."""
-    stack = _stack(prim)
-    if len(stack) == 1:
-        return stack[0]
-    wanted = prim.GetTypeName()
-    if wanted:
-        typed = [spec for spec in stack if spec.typeName == wanted]
-    else:
-        typed = [spec for spec in stack if spec.specifier.name == "SpecifierDef"]
-    return (typed or stack or [None])[-1]
-
-
-def _typed(prim: Any) -> Any | None:
-    """The spec whose type counts: the last of those that say the same, one after the other."""
-    typed = [spec for spec in _stack(prim) if spec.typeName]
-    found = None
-    for spec in typed:
-        if found and spec.typeName != found.typeName:
-            break
-        found = spec
-    return found
-
-
-def _lists(api: str) -> Callable[[Any], bool]:
-    """Whether a spec says of an API that it is applied, or not."""
-
-    def lists(spec: Any) -> bool:
-        listed = spec.GetInfo(APIS) if spec.HasInfo(APIS) else None
-        if listed is None:
-            return False
-        return listed.isExplicit or api in (*listed.GetAppliedItems(), *listed.deletedItems)
-
-    return lists
-
-
-def _stack(prim: Any) -> list[Any]:
-    stack: list[Any] = prim.GetPrimStack()
-    session = prim.GetStage().GetSessionLayer() if len(stack) > 1 else None
-    return [spec for spec in stack if spec.layer != session] if session else stack
-
-
-def _weakest(prop: Any) -> Any | None:
-    stack = prop.GetPropertyStack()
-    return stack[-1] if stack else None
-
-
-def _has_value(spec: Any) -> bool:
-    return any(map(spec.HasInfo, _VALUES))
 
 
 def _path_of(at: Any, prim: Any, spec: Any) -> str:

@@ -10,6 +10,7 @@ from usdvol_lint.engine.asked_types import IdleRule
 from usdvol_lint.engine.assign import Assignment, Options
 from usdvol_lint.engine.failures import PACK_FAILURES, Failures
 from usdvol_lint.engine.identity import Identity
+from usdvol_lint.engine.lacking import absent_under
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.usd_version import usd_version
 from usdvol_lint.engine.variants import OtherSelections
@@ -17,6 +18,7 @@ from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
 from usdvol_lint.facts.usd.instances import cut_short
+from usdvol_lint.model import Finding
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
 from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
 
@@ -97,10 +99,17 @@ class StageCheck:
             for stamped in self._other(error):
                 if stamped.identity not in known:
                     known.add(stamped.identity)
-                    site = stamped.finding.site._replace(variant=selection)
-                    yield stamped._replace(finding=stamped.finding._replace(site=site))
+                    yield stamped._replace(finding=self._under(selection, stamped.finding))
         for left_out in selections.not_checked():
             yield from self._stamp.stamp(NOT_CHECKED, left_out)
+
+    def _under(self, selection: str | None, finding: Finding) -> Finding:
+        """A finding as it is told that only another selection shows."""
+        finding = finding._replace(site=finding.site._replace(variant=selection))
+        if not selection or not finding.absent:
+            return finding
+        root = self._context.stage.GetRootLayer().realPath
+        return finding._replace(absent=absent_under(selection, finding.absent, root))
 
     def _other(self, fault: Unreadable | None) -> Iterator[Stamped]:
         """What the selection composed now shows, or `fault`, which kept USD from composing it."""

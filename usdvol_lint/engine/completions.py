@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 from pxr import Sdf
 
 from usdvol_lint import schema
+from usdvol_lint.engine.lacking import levels_to, places_of, prim_above
 from usdvol_lint.engine.spec_parts import (
     COEFFICIENTS,
     DEGREE,
@@ -85,11 +86,11 @@ class _Completions:
             with suppress(*UNREADABLE):
                 find_any()
 
-    def _add(self, spec: Any, *what: str) -> None:
-        """Adds what a spec lacks that makes a prim, if it is in a layer below the root."""
-        layers = self._paths.get(spec.layer)
-        if layers:
-            self._found[layers, str(spec.path)].update(what)
+    def _add(self, prim: Any, spec: Any, *what: str) -> None:
+        """Adds what a spec of a prim lacks, and where that shows, in layers below the root."""
+        for layer, path in ((spec.layer, str(spec.path)), *places_of(prim)):
+            if layers := self._paths.get(layer):
+                self._found[layers, path].update(what)
 
     def _find_values(self, table: Table) -> None:
         """The attributes of which another spec has the value."""
@@ -104,7 +105,7 @@ class _Completions:
                 for name in names:
                     has = partial(holds_value, name)
                     if not self._has_itself(spec, stack, has) and self._has(prim, name):
-                        self._add(spec, name)
+                        self._add(prim, spec, name)
 
     def _rows(self, table: Table) -> Iterator[tuple[Any, Sequence[Any], Sequence[Any]]]:
         """The prims with their specs, and those specs that make a prim in a layer below."""
@@ -142,19 +143,19 @@ class _Completions:
         """The types of which another spec has a better one."""
         if not table.authored.is_layered:
             return
-        for _, stack, makers in self._rows(table):
+        for prim, stack, makers in self._rows(table):
             for spec in makers:
                 if not self._has_itself(spec, stack, has_type):
-                    self._add(spec, TYPE_NAME)
+                    self._add(prim, spec, TYPE_NAME)
 
     def _find_apis(self, table: Table) -> None:
         """The APIs of particle fields that another spec applies."""
         apis = sorted(schema.API_INCLUDES.keys() & table.authored.schemas)
-        for _, stack, makers in self._rows(table) if apis and table.authored.is_layered else ():
+        for prim, stack, makers in self._rows(table) if apis and table.authored.is_layered else ():
             for spec in makers:
                 for api in apis:
                     if not self._has_itself(spec, stack, partial(applies, api)):
-                        self._add(spec, schema.applied(api))
+                        self._add(prim, spec, schema.applied(api))
 
     def _find_clipped(self, table: Table) -> None:
         """What the prims have that value clips and their manifests need not have."""
@@ -197,7 +198,7 @@ class _Completions:
             for binding, target in self._facts.volumes.bindings(volume).with_target(
                 TargetState.FIELD
             ):
-                self._find_binding(stack, binding.property, get_prim_stack(target.prim))
+                self._find_binding(stack, binding.property, target.prim)
 
     def _are_whole(
         self, volume: Sequence[Any], relationships: Sequence[Any], fields: Sequence[Sequence[Any]]
@@ -211,7 +212,8 @@ class _Completions:
                 return False
         return all(has_targets(spec, path) for spec in makers for path in relationships)
 
-    def _find_binding(self, volume: Sequence[Any], binding: Any, field: Sequence[Any]) -> None:
+    def _find_binding(self, volume: Sequence[Any], binding: Any, target: Any) -> None:
+        prim, field = binding.GetPrim(), get_prim_stack(target)
         opinions = [spec for spec in binding.GetPropertyStack() if spec.HasInfo("targetPaths")]
 
         def binds(spec: Any) -> bool:
@@ -222,12 +224,12 @@ class _Completions:
 
         for spec in filter(self._makes, volume):
             if not self._has_itself(spec, volume, binds):
-                self._add(spec, binding.GetName())
+                self._add(prim, spec, binding.GetName())
             if not self._has_itself(spec, volume, has_fields):
-                self._add(spec, FIELD_NAMESPACE)
+                self._add(prim, spec, FIELD_NAMESPACE)
         for spec in filter(self._makes, field):
             if not self._has_itself(spec, field, is_bound):
-                self._add(spec, FIELD_NAMESPACE)
+                self._add(target, spec, FIELD_NAMESPACE)
 
     def _find_definitions(self) -> None:
         """The overs with a prim of ours below them in the same layer that another layer defines."""
@@ -237,10 +239,11 @@ class _Completions:
                 if spec.specifier == Sdf.SpecifierOver and spec.layer in self._paths:
                     overs[spec.layer].add(spec.path)
         for table in self._facts.tables.of(*schema.OURS) if overs else ():
-            for spec in (spec for stack in table.batch.stacks for spec in stack):
-                if spec.layer in overs and is_def(spec):
+            for prim, stack in zip(table.prims, table.batch.stacks, strict=True):
+                for spec in (each for each in stack if each.layer in overs and is_def(each)):
                     for path in overs[spec.layer].intersection(spec.path.GetPrefixes()):
-                        self._found[self._paths[spec.layer], str(path)].add(SPECIFIER)
+                        over = spec.layer.GetPrimAtPath(path)
+                        self._add(prim_above(prim, levels_to(spec, over)), over, SPECIFIER)
 
     def _find_clips(self) -> None:
         """The clip sets of which other specs have a part."""
@@ -248,7 +251,7 @@ class _Completions:
             specs = [spec for spec in get_prim_stack(prim) if spec.HasInfo("clips")]
             if len(specs) > 1:
                 for spec in specs:
-                    self._add(spec, CLIPS)
+                    self._add(prim, spec, CLIPS)
 
     def _find_prims(self) -> None:
         """The sublayers without prims."""
@@ -260,4 +263,4 @@ class _Completions:
         if self._facts.stage.GetPseudoRoot().GetAllChildren():
             for layer in below.intersection(self._paths):
                 if not layer.rootPrims:
-                    self._add(layer.pseudoRoot, PRIMS)
+                    self._found[self._paths[layer], "/"].add(PRIMS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from usdvol_lint.paths import canonical, display_beside, split_package
@@ -29,3 +30,23 @@ def real_name(layer: Any) -> str:
         if inner and first_in(package) == inner[1:-1]:
             return canonical(package)
     return canonical(path)
+
+
+def link_to(layer: Any) -> str | None:
+    """The name of a layer as a link in another folder than its file's, if it is opened as one."""
+    path = layer.realPath
+    if not path or layer.anonymous or path.endswith((".usdz", "]")):
+        return None
+    folder, name = os.path.split(path)
+    link = f"{canonical(folder)}/{name}"
+    return None if os.path.dirname(link) == os.path.dirname(canonical(path)) else link
+
+
+def leads_elsewhere(link: str, asset: str | None) -> bool:
+    """Whether a path leads from the folder of a link to something else than from the file's."""
+    if not asset:
+        return False
+    from_link, from_file = (
+        canonical(os.path.join(os.path.dirname(path), asset)) for path in (link, canonical(link))
+    )
+    return from_link != from_file and any(map(os.path.exists, (from_link, from_file)))

@@ -8,7 +8,7 @@ from pxr import Usd
 
 from usdvol_lint.engine.blame import Blame, Blaming
 from usdvol_lint.engine.entries import Entries
-from usdvol_lint.engine.layer_names import real_name, shown_name
+from usdvol_lint.engine.layer_names import leads_elsewhere, link_to, real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.layertext.source import LayerTexts, SharedTexts
@@ -38,6 +38,7 @@ class _Layer(NamedTuple):
 
     shown: str
     real: str
+    link: str | None
     text: TextLayer | None
 
 
@@ -62,6 +63,10 @@ class Sites:
         self._blaming = Blaming()
         self.faults: list[tuple[Any, Exception]] = []
         """What was raised where a place was looked for, each with the prim of the problem."""
+
+    def recomposed(self) -> None:
+        """Says that the stage was composed in another way."""
+        self._blaming.recomposed()
 
     def locate(self, problem: Problem | NotChecked) -> Located:
         """The site of a problem, what is to blame for it, and how many instances show it.
@@ -117,14 +122,17 @@ class Sites:
             source = Source(None, subject=problem.machine)
         else:
             prim_path = _path_of_prim(spec, path) if spec else None
-            source = Source(layer.real, prim_path, blame.property, blame.subject)
+            is_link = layer.link and leads_elsewhere(layer.link, asset)
+            name = layer.link if is_link else layer.real
+            source = Source(name, prim_path, blame.property, blame.subject)
         return Located(site, source, blame, blamed, on_stage.instances)
 
     def _layer(self, layer: Any) -> _Layer:
         key = layer.identifier
         if key not in self._layers:
             text = self._texts.of(layer)
-            self._layers[key] = _Layer(shown_name(layer, self._stage), real_name(layer), text)
+            names = shown_name(layer, self._stage), real_name(layer), link_to(layer)
+            self._layers[key] = _Layer(*names, text)
         return self._layers[key]
 
 

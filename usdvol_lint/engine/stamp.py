@@ -7,10 +7,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
+from usdvol_lint.engine.lacking import absent_of
 from usdvol_lint.engine.parts import parts_of
 from usdvol_lint.engine.site import Located, Sites, cover_of
 from usdvol_lint.layertext.source import SharedTexts
-from usdvol_lint.model import Finding, Lack, Severity
+from usdvol_lint.model import Finding, Severity
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
@@ -84,6 +85,7 @@ class Stamp:
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
+        self.sites.recomposed()
         if "_suppressions" in self.__dict__:
             self._suppressions.recomposed()
 
@@ -125,7 +127,7 @@ class Stamp:
             suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST),
             help=help_for(reported_as),
             fold=problem.fold,
-            absent=() if self._is_alone else _absent(problem),
+            absent=() if self._is_alone else absent_of(problem),
             since=problem.since,
         )
         same = identity(rule, problem, blame.spec) if self._several_selections else ()
@@ -165,16 +167,3 @@ def _shown_by(finding: Finding, instances: int) -> Finding:
     if instances <= 1:
         return finding
     return finding._replace(message=f"{finding.message} (shown by {counted(instances)} instances)")
-
-
-def _absent(problem: Problem | NotChecked) -> tuple[frozenset[Lack], ...]:
-    """What is absent, in terms of the specs in files of the prims that lack it."""
-    return tuple(
-        frozenset(
-            (spec.layer.realPath, str(spec.path), name)
-            for prim, name in part
-            for spec in prim.GetPrimStack()
-            if spec.layer.realPath
-        )
-        for part in problem.absent
-    )

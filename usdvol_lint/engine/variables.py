@@ -7,11 +7,13 @@ from typing import Any
 
 from pxr import Sdf
 
-from usdvol_lint.facts.usd.bringing import from_root, node_of, root_layer
+from usdvol_lint.facts.usd.bringing import from_root, naming_sublayer, node_of, root_layer
 
 
 def deciding_layer(prim: Any, spec: Any, time: float | None) -> Any | None:
     """The layer with the variables of a spec's asset path, if they are not of its own layer stack.
+
+    Where these are those of a sublayer, which USD does not read, it is the layer that names it.
 
     `time` is a time of the layer, None for the default.
     """
@@ -23,9 +25,15 @@ def deciding_layer(prim: Any, spec: Any, time: float | None) -> Any | None:
         return None
     used = Sdf.VariableExpression(text).Evaluate({}).usedVariables
     node = node_of(prim, spec)
-    said = (top for top in _tops(prim, node) if used & top.expressionVariables.keys())
+    said = (top for top in _tops(prim, node) if used & _said_by(top))
     decides = next(said, None)
+    if decides is None and node is not None:
+        return naming_sublayer(node, spec.layer, lambda each: bool(used & _said_by(each)))
     return None if node is None or decides == root_layer(node) else decides
+
+
+def _said_by(layer: Any) -> set[str]:
+    return set(layer.expressionVariables)
 
 
 def _tops(prim: Any, node: Any | None) -> Iterator[Any]:

@@ -74,14 +74,15 @@ class Grids(Wing):
     def changes(self, field: Any) -> GridChanges | None:
         """The frames of a field's sequence that hold other grids than most of its frames.
 
-        None for all but the first of the fields that share a sequence.
+        None for all but the first, by path, of the fields that share a sequence.
         """
         timeline = self.timelines(field)
         if len(timeline.classes) < 2:
             return None
         from usdvol_lint.facts.grids.changes import find_grid_changes
+        from usdvol_lint.facts.usd.instances import as_shown
 
-        sharing = self._sharing[tuple(timeline.files)]
+        sharing = as_shown(self._sharing[tuple(timeline.files)])
         return find_grid_changes(list(map(self.contents, sharing))) if sharing[0] == field else None
 
     @cached_property

@@ -11,8 +11,10 @@ from usdvol_lint.facts.layers.composition import Composition
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.arcs import Arcs
 from usdvol_lint.facts.usd.clips import Clips
+from usdvol_lint.facts.usd.instances import in_prototype
 
 if TYPE_CHECKING:
+    from usdvol_lint.facts.layers.clip_bearers import ClippedPlace
     from usdvol_lint.facts.layers.left_behind import LeftBehind
     from usdvol_lint.facts.layers.lost_clips import LostClips
     from usdvol_lint.facts.layers.stopped_clips import StoppedClips
@@ -36,11 +38,11 @@ class ClipLosses:
     @cached_property
     def lost(self) -> tuple[LostClips, ...]:
         """The clips that USD does not use, though they hold values for prims of ours."""
-        if not self._clips.are_authored:
+        if not self._bearers:
             return ()
         from usdvol_lint.facts.layers.lost_clips import find_lost_clips
 
-        return self._certain(find_lost_clips(self._tables, self._clips))
+        return self._certain(find_lost_clips(self._tables, self._clips, self._bearers))
 
     @cached_property
     def left_behind(self) -> tuple[LeftBehind, ...]:
@@ -54,20 +56,39 @@ class ClipLosses:
     @cached_property
     def stopped(self) -> tuple[StoppedClips, ...]:
         """The clips on instances and above them, which do not reach into them."""
-        if not self._stage.GetPrototypes():
+        if not self._places:
             return ()
         from usdvol_lint.facts.layers.stopped_clips import find_stopped
 
-        return self._certain(find_stopped(self._stage, self._tables))
+        return self._certain(find_stopped(self._stage, self._tables, self._places))
 
     @cached_property
     def unlisted(self) -> tuple[UnlistedClips, ...]:
         """The clips that hold what their manifest does not declare."""
-        if not self._clips.are_authored:
+        if not self._bearers:
             return ()
         from usdvol_lint.facts.layers.unlisted_clips import find_unlisted
 
-        return self._certain(find_unlisted(self._tables, self._clips))
+        return self._certain(find_unlisted(self._tables, self._clips, self._bearers))
+
+    @cached_property
+    def _bearers(self) -> list[tuple[Any, list[Any]]]:
+        """The prims with clip sets, each with those of ours that these are for."""
+        if not self._clips.are_authored and not self._places:
+            return []
+        from usdvol_lint.facts.layers.clip_bearers import bearers_above, decided_bearers
+
+        instanced = bearers_above(self._stage, self._places)
+        return list(decided_bearers(self._tables, self._clips, instanced))
+
+    @cached_property
+    def _places(self) -> tuple[ClippedPlace, ...]:
+        """Where clips stop at instances."""
+        if not self._stage.GetPrototypes():
+            return ()
+        from usdvol_lint.facts.layers.clip_bearers import clipped_places
+
+        return clipped_places(self._tables)
 
     def are_told(self, prim: Any, name: str) -> bool:
         """Whether AST016 tells of clips that the prim lacks, or AST014 of this attribute of it.
@@ -83,7 +104,7 @@ class ClipLosses:
     def _unlisted_names(self) -> frozenset[tuple[Any, str]]:
         attributes = chain.from_iterable(each.attributes for each in self.unlisted)
         return frozenset(
-            (each.GetPrim(), name)
+            (in_prototype(each.GetPrim()), name)
             for each in attributes
             for name in (each.GetName(), each.GetName().removesuffix("h"))
         )
@@ -92,7 +113,8 @@ class ClipLosses:
     def _prims(self) -> frozenset[Any]:
         """The prims that lack what the clips hold."""
         losses: tuple[Any, ...] = (*self.lost, *self.left_behind, *self.stopped)
-        return frozenset(attribute.GetPrim() for each in losses for attribute in each.attributes)
+        attributes = chain.from_iterable(each.attributes for each in losses)
+        return frozenset(in_prototype(each.GetPrim()) for each in attributes)
 
     def _certain(self, losses: Iterable[_Loss]) -> tuple[_Loss, ...]:
         return tuple(each for each in losses if not self._composition.may_lack_values(each.prim))

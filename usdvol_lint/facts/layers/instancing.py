@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
@@ -27,7 +28,7 @@ class LostOverride(NamedTuple):
 
 
 class LostOverrides(NamedTuple):
-    """All lost overrides below one instance, in its stronger layers first."""
+    """All lost overrides below one instance in one layer."""
 
     instance: Any
     overrides: tuple[LostOverride, ...]
@@ -36,7 +37,7 @@ class LostOverrides(NamedTuple):
 def lost_overrides(
     stage: Any, layered: Iterable[Layered], kinds: PrimKinds, ours: Iterable[Any]
 ) -> Iterator[LostOverrides]:
-    """The overrides below instances of prims of ours, by the instances' paths.
+    """The overrides below instances of prims of ours, by the paths of instances and by layers.
 
     These are properties that differ, prims made inactive, and prims that the prototype lacks.
     Only specs count that are at least as strong as the one that makes the prim an instance: who
@@ -47,9 +48,10 @@ def lost_overrides(
     for instance, specs, parents in layered:
         if len(parents) > 1 and instance.IsInstance():
             shows_ours = instance.GetPrototype().GetPath() in holders
-            overrides = tuple(_below(instance, _strong_specs(specs), kinds, shows_ours))
-            if overrides:
-                found.append(LostOverrides(instance, overrides))
+            by_layer: dict[Any, list[LostOverride]] = defaultdict(list)
+            for each in _below(instance, _strong_specs(specs), kinds, shows_ours):
+                by_layer[each.spec.layer].append(each)
+            found += [LostOverrides(instance, tuple(each)) for each in by_layer.values()]
     yield from sorted(found, key=lambda each: each.instance.GetPath())
 
 

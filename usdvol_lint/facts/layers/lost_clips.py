@@ -65,9 +65,11 @@ class _Clips(NamedTuple):
     manifest: Any | None
 
 
-def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
+def find_lost_clips(
+    tables: Tables, clips: Clips, bearers: Iterable[tuple[Any, list[Any]]]
+) -> Iterator[LostClips]:
     """The clip sets above or on prims of ours that USD does not use."""
-    for bearer, ours in decided_bearers(tables, clips):
+    for bearer, ours in bearers:
         sound = tuple(_sound(bearer, clips.on(bearer)))
         for unused in chain(_refused(bearer, clips.on(bearer)), _misdirected(sound)):
             attributes = chain.from_iterable(without_samples(tables, prim) for prim in ours)
@@ -75,19 +77,6 @@ def find_lost_clips(tables: Tables, clips: Clips) -> Iterator[LostClips]:
                 yield _loss(unused, lost, _advice(unused, lost[0]))
         for each in sound:
             yield from _held_otherwise(each, _without_any(tables, ours))
-
-
-def decided_bearers(tables: Tables, clips: Clips) -> Iterator[tuple[Any, list[Any]]]:
-    """The prims with clip sets, each with those of ours that it reaches.
-
-    Left out are those on which an unselected variant may still say something.
-    """
-    prims = [prim for table in tables.of(*schema.OURS) for prim in table.prims]
-    below: dict[Any, list[Any]] = {}
-    for prim in prims:
-        for bearer in clips.bearers(prim):
-            below.setdefault(bearer, []).append(prim)
-    return ((bearer, ours) for bearer, ours in below.items() if not _is_undecided(bearer))
 
 
 def _loss(unused: _Clips, attributes: Sequence[Any], advice: str | None) -> LostClips:
@@ -164,16 +153,6 @@ def _misdirected(sound: Iterable[_Clips]) -> Iterator[_Clips]:
         elif not bring_anything(clips.prim, path, clips.layers):
             what += ", below which its clips hold nothing for this prim"
             yield clips._replace(fault=ClipFault("primPath", what, None))
-
-
-def _is_undecided(prim: Any) -> bool:
-    """Whether a variant set of the prim, or of one above it, has no selection."""
-    while not prim.IsPseudoRoot():
-        sets = prim.GetVariantSets()
-        if any(not sets.GetVariantSelection(name) for name in sets.GetNames()):
-            return True
-        prim = prim.GetParent()
-    return False
 
 
 def _read(prim: Any, name: str, keys: Keys, fault: ClipFault, clips: Sequence[Any]) -> _Clips:

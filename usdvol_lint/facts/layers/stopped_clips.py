@@ -3,28 +3,17 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Generator, Iterable, Iterator
-from typing import Any, NamedTuple, TypeAlias
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
 
-from usdvol_lint import schema
+from usdvol_lint.facts.layers.clip_bearers import ClippedPlace
 from usdvol_lint.facts.layers.lost_clips import without_samples
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on, is_from_clips
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
-from usdvol_lint.facts.usd.instances import (
-    in_prototype,
-    instances_of,
-    path_in_prototype,
-    prototype_of,
-)
-from usdvol_lint.facts.usd.settled import settle
-
-_Places: TypeAlias = dict[tuple[Any, ...], str]
-
-_MOST_PLACES = 100
-"""So many groups of prims with clips are told apart: a stage is opened for each."""
+from usdvol_lint.facts.usd.instances import in_prototype
 
 
 class StoppedClips(NamedTuple):
@@ -45,64 +34,30 @@ class StoppedClips(NamedTuple):
         return tuple(attribute for attribute in self.attributes if attribute.Get() is None)
 
 
-def find_stopped(stage: Any, tables: Tables) -> Iterator[StoppedClips]:
+def find_stopped(
+    stage: Any, tables: Tables, places: Iterable[ClippedPlace]
+) -> Iterator[StoppedClips]:
     """What stops at instances, by prototypes and the prims with clips above each of them."""
-    inside: dict[Any, list[Any]] = defaultdict(list)
-    for table in tables.of(*schema.OURS):
-        for prim in filter(Usd.Prim.IsInPrototype, table.prims):
-            inside[prototype_of(prim)].append(prim)
-    for prototype, prims in inside.items():
-        for path in _first_paths(prototype):
-            still = {prim: list(without_samples(tables, prim)) for prim in prims}
-            yield from _stopped(stage, Sdf.Path(path), still)
+    for place in places:
+        still = {prim: list(without_samples(tables, prim)) for prim in place.prims}
+        yield from _stopped(stage, place, still)
 
 
-def _bearers(prim: Any) -> tuple[Any, ...]:
-    """A prim and its ancestors, those of them on which clip sets are authored."""
-    found = []
-    while not prim.IsPseudoRoot():
-        if prim.HasAuthoredMetadata("clips"):
-            found.append(prim)
-        prim = prim.GetParent()
-    return tuple(found)
-
-
-def _first_paths(prototype: Any) -> Iterable[str]:
-    """The first path at which the prototype appears below each group of prims with clips."""
-    known: dict[Any, _Places] = {}
-
-    def find(prototype: Any) -> Generator[Any, None, _Places]:
-        first: _Places = {}
-        for instance in instances_of(prototype):
-            own, around = _bearers(instance), {(): ""}
-            if instance.IsInPrototype():
-                outer = prototype_of(instance)
-                if outer not in known:
-                    yield outer
-                around = known[outer]
-            below = path_in_prototype(instance)
-            for above, path in around.items():
-                if len(first) < _MOST_PLACES or own + above in first:
-                    group, place = own + above, path + below
-                    first[group] = min(place, first.get(group, place))
-        return first
-
-    return sorted(path for above, path in settle(prototype, find, known).items() if above)
-
-
-def _stopped(stage: Any, path: Any, still: dict[Any, list[Any]]) -> Iterator[StoppedClips]:
+def _stopped(
+    stage: Any, place: ClippedPlace, still: dict[Any, list[Any]]
+) -> Iterator[StoppedClips]:
     """What the clips at and above a path bring where it is, like those above, no instance."""
     found: dict[Any, list[Any]] = defaultdict(list)
-    freed = _freed(stage, path)
+    freed = _freed(stage, place.path)
     if freed is None:
         return
     for prim, attributes in still.items():
-        other = freed.GetPrimAtPath(Sdf.Path(f"{path}{path_in_prototype(prim)}"))
+        other = freed.GetPrimAtPath(place.on_stage(prim))
         for attribute in attributes if other else ():
             moving = other.GetAttribute(attribute.GetName())
             if moving and is_from_clips(moving):
                 found[_carrier(moving)].append(attribute)
-    instance = in_prototype(stage.GetPrimAtPath(path))
+    instance = in_prototype(stage.GetPrimAtPath(place.path))
     for carrier, lost in found.items():
         yield StoppedClips(instance, _first_with(instance, "instanceable"), carrier, tuple(lost))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
-from usdvol_lint.facts.layers.lost_clips import decided_bearers, without_samples
+from usdvol_lint.facts.layers.lost_clips import without_samples
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clip_faults import find_fault, used_sets
 from usdvol_lint.facts.usd.clips import Clips, ClipSet, authored_path, open_layer
@@ -68,9 +68,11 @@ class UnlistedClips(NamedTuple):
         return self.clip_set.spec_with("manifestAssetPath")
 
 
-def find_unlisted(tables: Tables, clips: Clips) -> Iterator[UnlistedClips]:
+def find_unlisted(
+    tables: Tables, clips: Clips, bearers: Iterable[tuple[Any, list[Any]]]
+) -> Iterator[UnlistedClips]:
     """The clip sets whose manifests lack attributes that have no samples from elsewhere."""
-    for bearer, ours in decided_bearers(tables, clips):
+    for bearer, ours in bearers:
         keys = used_sets(bearer)
         for clip_set in clips.on(bearer):
             if clip_set.manifest and not find_fault(keys[clip_set.name]):

@@ -156,16 +156,20 @@ def _may_be_own(attribute: Any, intended: str, wanted: str) -> bool:
 
 def _fails_to_override(misspelt: Any, right: Any, wanted: str) -> bool:
     """Whether a misspelt attribute was probably meant to override the right one of that type."""
-    said, held = misspelt.GetPropertyStack(), right.GetPropertyStack()
+    said, held = (list(filter(_has_value, each.GetPropertyStack())) for each in (misspelt, right))
     if str(misspelt.GetTypeName()) != wanted or not said or not held:
         return False  # in value clips there are no specs
-    if any(spec.layer == said[0].layer for spec in held):
+    if any(spec.layer == said[0].layer for spec in right.GetPropertyStack()):
         return False  # who wrote it knows the right name too
     from usdvol_lint.facts.usd.sameness import says_the_same
 
     stack = get_prim_stack(right.GetPrim())
     is_stronger = stack.index(said[0].owner) < stack.index(held[0].owner)
     return is_stronger and not says_the_same(said[0], right)
+
+
+def _has_value(spec: Any) -> bool:
+    return any(map(spec.HasInfo, ("default", "timeSamples", "spline")))
 
 
 def unlisted_tokens(prim: Any, authored: Authored) -> Iterator[Unlisted]:

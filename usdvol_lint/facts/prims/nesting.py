@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_parent, get_type
+from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.settled import settle
 
@@ -62,7 +63,7 @@ class Nesting:
         ]
 
     def below(self, prim: Any) -> Iterator[Nested]:
-        """The topmost Gprims below a prim, one in each instance.
+        """The topmost Gprims below a prim, of those in each instance the first by path.
 
         Volumes and particle fields are left out: they are reported as nested themselves.
         """
@@ -98,17 +99,17 @@ class Nesting:
 
     def _find_first(self, prototype: Any) -> Generator[Any, None, Any]:
         """The path of the first Gprim in a prototype that is not reported itself."""
+        paths: list[Any] = []
         for child in self._topmost(prototype):
             if self._is_gprim(child):
-                if not self._is_reported_itself(child):
-                    return child.GetPath()
+                paths += () if self._is_reported_itself(child) else (child.GetPath(),)
                 continue
             inner = child.GetPrototype()
             if inner not in self._first_in:
                 yield inner
             if path := self._first_in[inner]:
-                return path.ReplacePrefix(inner.GetPath(), child.GetPath())
-        return None
+                paths.append(path.ReplacePrefix(inner.GetPath(), child.GetPath()))
+        return min(paths, default=None)
 
     def _any_has_gprims(self, prims: Sequence[Any]) -> bool:
         """Whether one of these prims is a Gprim or has one below it."""
@@ -138,7 +139,7 @@ class Nesting:
         """The prim, if it is a Gprim; above a prototype, the first that its instances have."""
         if self._is_gprim(prim):
             return prim
-        for instance in prim.GetInstances() if prim.IsPrototype() else ():
+        for instance in as_shown(prim.GetInstances()) if prim.IsPrototype() else ():
             top = self._upwards(instance)[-1]
             if top not in self._cache:
                 yield top

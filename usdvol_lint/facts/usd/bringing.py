@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 from typing import Any, NamedTuple
 
-from pxr import Pcp
+from pxr import Pcp, Sdf
 
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
@@ -90,6 +91,47 @@ def crossings(node: Any) -> Iterator[Crossing]:
 def root_layer(node: Any) -> Any:
     """The root layer of the layer stack that a node is in."""
     return node.layerStack.identifier.rootLayer
+
+
+def naming_sublayer(node: Any, layer: Any, says: Callable[[Any], bool]) -> Any | None:
+    """The layer of a node that names a sublayer which says something of stages, and does not.
+
+    Only what a stage's root layer says of it counts, so that it loses what the sublayer says; this
+    is `layer`, or has it as sublayer.
+    """
+    way = _way_to(root_layer(node), layer)
+    if not way or says(way[0]):
+        return None
+    return next((above for above, below in pairwise(way) if says(below)), None)
+
+
+def _way_to(top: Any, layer: Any) -> tuple[Any, ...]:
+    """The layers from one to another that is it, or a sublayer of it; none if it is neither."""
+    waiting: list[tuple[Any, ...]] = [(top,)]
+    while waiting:
+        way = waiting.pop()
+        if way[-1] == layer:
+            return way
+        for path in reversed(way[-1].subLayerPaths):
+            below = Sdf.Layer.FindRelativeToLayer(way[-1], path)
+            if below and below not in way:  # sublayers may go round in a circle
+                waiting.append((*way, below))
+    return ()
+
+
+def losing_spec(prim: Any, spec: Any, says: Callable[[Any], bool]) -> Any | None:
+    """The spec by which what a layer says of stages is lost: the next layer does not say it."""
+    node = node_of(prim, spec)
+    if node is None:
+        return None
+    if namer := naming_sublayer(node, spec.layer, says):
+        return namer.pseudoRoot
+    lost = (
+        each.spec
+        for each in reversed(list(crossings(node)))
+        if says(root_layer(each.node)) and not says(root_layer(each.source))
+    )
+    return next(lost, None)
 
 
 def arcs_from(prim: Any, layer: Any) -> list[Crossing]:

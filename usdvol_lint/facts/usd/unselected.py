@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from usdvol_lint.facts.usd.calls import ARCS, get_parent, get_prim_stack
+from usdvol_lint.facts.usd.instances import on_stage
 
 _BRINGS = (*ARCS, "variantSetNames")
 
@@ -15,6 +16,7 @@ def may_be_said(prim: Any, says: Callable[[Any], bool]) -> bool:
 
     `says` tells it of a spec for the prim; what an arc in a variant brings is not known.
     """
+    prim = on_stage(prim)
     path = prim.GetPath()
     return any(
         _may_say(variant, path.MakeRelativePath(above.GetPath()).GetPrefixes(), says)

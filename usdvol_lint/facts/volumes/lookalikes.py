@@ -10,7 +10,7 @@ from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import (
-    DRAWN_BELOW,
+    WITH_INSTANCES,
     get_parent,
     get_prim_stack,
     get_property_names,
@@ -88,7 +88,7 @@ def _binding(prim: Any, names: Iterable[str], unbound: Collection[Any]) -> Any |
 
 
 def _is_above_volume(prim: Any) -> bool:
-    return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim, DRAWN_BELOW))
+    return any(get_type(below) == schema.VOLUME for below in Usd.PrimRange(prim, WITH_INSTANCES))
 
 
 def _may_be_typed(prim: Any) -> bool:

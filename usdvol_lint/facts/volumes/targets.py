@@ -16,7 +16,7 @@ from usdvol_lint.facts.usd.calls import (
     prim_at,
     prim_path,
 )
-from usdvol_lint.facts.usd.instances import shown, shown_path
+from usdvol_lint.facts.usd.instances import on_stage, shown, shown_path
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.states import TargetState
 
@@ -55,6 +55,18 @@ class Target(NamedTuple):
     def reason(self) -> Any:
         """What explains the state: that prim, or the pair of it and the metadata that says so."""
         return (self.blamed, "active") if self.state is TargetState.INACTIVE else self.blamed
+
+    @property
+    def instancing(self) -> tuple[Any, str] | None:
+        """What keeps a relationship from forwarding to one that its instance itself has.
+
+        A prototype has the prims below its instances, and none of their own properties.
+        """
+        if not (self.prim and self.path.IsPropertyPath() and self.prim.IsPrototype()):
+            return None
+        instance = on_stage(self.prim)
+        is_there = instance.HasRelationship(self.path.name)
+        return (instance, "instanceable") if is_there else None
 
     @property
     def place(self) -> str:

@@ -1,0 +1,21 @@
+"""Fallbacks for types that USD does not know, which only the root layer of a stage can say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from usdvol_lint.facts.usd.bringing import losing_spec
+
+_KEY = "fallbackPrimTypes"
+
+
+def losing_fallback(prim: Any) -> Any | None:
+    """The spec that brings a prim without the fallback for its type that the layer below has."""
+    name = prim.GetTypeName()
+    typed = next((spec for spec in prim.GetPrimStack() if spec.typeName == name), None)
+
+    def says(layer: Any) -> bool:
+        top = layer.pseudoRoot
+        return bool(top.HasInfo(_KEY) and name in top.GetInfo(_KEY))
+
+    return typed and losing_spec(prim, typed, says)
