@@ -31,10 +31,10 @@ def _is_hinted(prim: Any) -> bool:
     waiting = [prim]
     while waiting:
         prim = waiting.pop()
+        if prim.IsPseudoRoot():
+            return False
         if prim in seen or (prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue()):
             continue
         seen.add(prim)
-        if prim.IsPseudoRoot():
-            return False
         waiting += instances_of(prim) if prim.IsPrototype() else (prim.GetParent(),)
     return True
