@@ -16,10 +16,14 @@ from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
 from usdvol_lint.suppressions import InStages
-from usdvol_lint.words import quoted
+from usdvol_lint.words import counted, quoted, shortened
 
 if TYPE_CHECKING:
     from usdvol_lint.engine.suppressions import Suppressions
+
+
+_LONGEST = 2_000
+"""So many characters a message or a suggestion has, about; paths alone may have megabytes."""
 
 
 class Stamped(NamedTuple):
@@ -116,11 +120,11 @@ class Stamp:
             code=reported_as.code,
             name=reported_as.name,
             severity=self._lowered(severity, problem, reported_as.code),
-            message=problem.message + clip,
+            message=shortened(problem.message + clip, _LONGEST),
             site=located.site,
             source=source,
             cover=cover_of(problem, blame, own),
-            suggestion=problem.suggestion,
+            suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST),
             help=help_for(reported_as),
             fold=problem.fold,
             absent=() if self._is_alone else absent_of(problem),
@@ -162,4 +166,4 @@ class Stamp:
 def _shown_by(finding: Finding, instances: int) -> Finding:
     if instances <= 1:
         return finding
-    return finding._replace(message=f"{finding.message} (shown by {instances:,} instances)")
+    return finding._replace(message=f"{finding.message} (shown by {counted(instances)} instances)")
