@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
 
 _LONGEST = 2_000
-"""So many characters a message or a suggestion has, about; paths alone may have megabytes."""
+"""So many characters a message has, about; paths alone may have megabytes."""
+_LONGEST_SUGGESTION = 100_000
+"""What there is to paste stays whole, such as a line for each of a thousand frames."""
 
 
 class Stamped(NamedTuple):
@@ -124,7 +126,7 @@ class Stamp:
             site=located.site,
             source=source,
             cover=cover_of(problem, blame, own),
-            suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST),
+            suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST_SUGGESTION),
             help=help_for(reported_as),
             fold=problem.fold,
             absent=() if self._is_alone else absent_of(problem),
