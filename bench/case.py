@@ -20,6 +20,7 @@ class Case:
     Both commands get the path of what `make` wrote, the floor that of `make_floor` if there is one.
     Without a floor, `wanted` is a figure that our command prints, in `unit`.
     `needs` names a program that must be installed.
+    One that `is_big` is run only where it is named.
     """
 
     name: str
@@ -30,3 +31,4 @@ class Case:
     make_floor: Make | None = None
     unit: str = "s"
     needs: str | None = None
+    is_big: bool = False

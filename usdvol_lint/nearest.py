@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
+from itertools import islice
 from posixpath import commonprefix
 
 CLOSE = 0.84
 """The least similarity, from 0 to 1, at which a word is offered for another."""
 _LONG_ENOUGH = 4
+_LONGEST = 1_000
+"""A longer word is compared with none: it takes as long as the squares of both lengths."""
+_MANY = 5_000
+"""Of more words than that, those are compared that begin or end as the unknown one does."""
+_COMPARED = 500
+"""So many are compared in full, those first that share most letters with the unknown one."""
 _NUMBER = re.compile(r"[0-9]+")
 
 
@@ -23,22 +30,68 @@ def closest_match(
     `cutoff` is the least similarity, from 0 to 1, as difflib computes it.
     """
     ours = fold(word)
-    folded = {
-        theirs: other for other in known if _may_be_close(ours, theirs := fold(other), cutoff)
-    }
-    if not folded:
+    if len(ours) > _LONGEST:
         return None
-    from difflib import get_close_matches  # costs start-up time, and few words are misspelt
+    folded = {
+        theirs: other
+        for other in known
+        if _allows(ours, theirs := fold(other), min(len(ours), len(theirs)), cutoff)
+    }
+    alike = _with_shared_end(ours, folded) if len(folded) > _MANY else folded
+    bounds = ((_shared_letters(ours, theirs), theirs) for theirs in alike)
+    close = [each for each in bounds if _allows(ours, each[1], each[0], cutoff)]
+    best = _most_similar(ours, close, cutoff) if close else None
+    return None if best is None else folded[best]
 
-    matches = get_close_matches(ours, folded, n=1, cutoff=cutoff)
-    return folded[matches[0]] if matches else None
 
-
-def _may_be_close(word: str, other: str, cutoff: float) -> bool:
-    """Whether the letters that two words share, in whatever order, allow this similarity."""
-    shared = sum(min(word.count(letter), other.count(letter)) for letter in {*word})
+def _allows(word: str, other: str, shared: int, cutoff: float) -> bool:
+    """Whether two words that share so many letters, in whatever order, may be this similar."""
     total = len(word) + len(other)
     return not total or 2 * shared / total >= cutoff
+
+
+def _shared_letters(word: str, other: str) -> int:
+    return sum(min(word.count(letter), other.count(letter)) for letter in {*word})
+
+
+def _with_shared_end(word: str, others: Iterable[str]) -> list[str]:
+    """Words that share half of the word: one slip is in the other half."""
+    half = (len(word) - 1) // 2
+    start, end = word[:half], word[len(word) - half :]
+    alike = (other for other in others if other.startswith(start) or other.endswith(end))
+    return list(islice(alike, _MANY))
+
+
+def _most_similar(word: str, close: Iterable[tuple[int, str]], cutoff: float) -> str | None:
+    """The most similar word, the last of several; `close` are words, each with a bound."""
+    from difflib import SequenceMatcher  # costs start-up time, and few words are misspelt
+
+    matcher = SequenceMatcher(None, "", word)
+    best = cutoff, ""
+    found = False
+    ordered = sorted(close, key=lambda each: _bound(word, *each), reverse=True)
+    for shared, other in ordered[:_COMPARED]:
+        if _bound(word, shared, other) < best:
+            break
+        matcher.set_seq1(other)
+        similar = matcher.ratio(), other
+        if similar >= best:
+            best, found = similar, True
+    return best[1] if found else None
+
+
+def _bound(word: str, shared: int, other: str) -> tuple[float, str]:
+    """The most that two words that share so many letters may be similar, and the other word."""
+    total = len(word) + len(other)
+    return (2 * shared / total if total else 1.0), other
+
+
+def are_swapped(word: str, other: str) -> bool:
+    """Whether two letters that stand side by side are swapped, and nothing else differs."""
+    if len(word) != len(other) or word == other:
+        return False
+    at = len(commonprefix((word, other)))
+    return other == f"{word[:at]}{word[at + 1 : at + 2]}{word[at]}{word[at + 2 :]}"
 
 
 def by_nearness(word: str, others: Iterable[str]) -> list[str]:

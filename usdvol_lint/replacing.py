@@ -27,6 +27,7 @@ def replacing(file: Path) -> Iterator[BinaryIO]:
             stream.close()
             temporary.replace(target)
         except BaseException:
-            stream.close()
+            with suppress(OSError):  # a full disk takes what is left in the buffer no more
+                stream.close()
             temporary.unlink(missing_ok=True)
             raise

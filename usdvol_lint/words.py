@@ -5,12 +5,30 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 _UNITS = ((1 << 40, "T"), (1 << 30, "G"), (1 << 20, "M"), (1 << 10, "K"))
+_LONGEST_QUOTE = 500
+_MOST_COUNTED = 10**12
 
 
 def quoted(text: str) -> str:
-    """Text in quotes, unchanged, backslashes too, but for what `printable` escapes."""
+    """Text in quotes, unchanged, backslashes too, but for what `printable` escapes.
+
+    Of a very long one the middle is left out, and its length said.
+    """
     mark = '"' if "'" in text and '"' not in text else "'"
-    return f"{mark}{printable(text)}{mark}"
+    return f"{mark}{printable(shortened(text, _LONGEST_QUOTE))}{mark}"
+
+
+def shortened(text: str, longest: int) -> str:
+    """A text that is not much longer than `longest`: what is left out in its middle is counted."""
+    if len(text) <= longest:
+        return text
+    half = longest // 2
+    return f"{text[:half]}… {len(text) - 2 * half:,} characters …{text[len(text) - half :]}"
+
+
+def counted(number: int) -> str:
+    """A number with commas; very large ones are more than one can imagine, and just that."""
+    return f"{number:,}" if number <= _MOST_COUNTED else f"more than {_MOST_COUNTED:,}"
 
 
 def printable(text: str) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from bench.case import Case
 from bench.cases.volumes import add_volume
-from bench.measure import ROOT, linter, python
+from bench.measure import ROOT, gauged, linter, python
 
 _TRAVERSE = """
 import sys
@@ -37,6 +37,25 @@ def many_prims(folder: Path, scale: float) -> Path:
                 if number % 10 == 0:
                     apis = Sdf.TokenListOp.Create(prependedItems=["MaterialBindingAPI"])
                     child.SetInfo("apiSchemas", apis)
+    layer.Save()
+    return stage
+
+
+def million_prims(folder: Path, scale: float) -> Path:
+    """1,000,000 prims, 10,000 of them Volumes with a field each."""
+    from pxr import Sdf
+
+    shutil.copy(ROOT / "rules" / "assets" / "cloud.vdb", folder)
+    stage = folder / "million.usdc"
+    layer = Sdf.Layer.CreateNew(str(stage))
+    with Sdf.ChangeBlock():
+        for group in range(max(1, round(1000 * scale))):
+            parent = Sdf.PrimSpec(layer, f"group_{group}", Sdf.SpecifierDef, "Xform")
+            for number in range(10):
+                add_volume(parent, f"cloud_{number}", "./cloud.vdb")
+            for number in range(979):
+                kind = "Mesh" if number % 2 else "Xform"
+                Sdf.PrimSpec(parent, f"prim_{number}", Sdf.SpecifierDef, kind)
     layer.Save()
     return stage
 
@@ -80,9 +99,12 @@ def _write_asset(path: Path) -> None:
 
 _ONE_RULE = linter("--select", "AST002")
 _ALL_RULES = linter("--select", "ALL")
+_MEMORY = gauged("memory", linter())
 
 CASES = (
     Case("prims", linter(), python(_TRAVERSE), 1.3, many_prims),
     Case("prims-all-rules", _ALL_RULES, _ONE_RULE, 1.1, many_prims),
     Case("assembled", linter(), python(_TRAVERSE), 1.3, assembled),
+    Case("million", linter(), python(_TRAVERSE), 1.3, million_prims, is_big=True),
+    Case("million-memory", _MEMORY, None, 2000, million_prims, unit="MB", is_big=True),
 )

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from bench.case import Case
-from bench.measure import ROOT, Command, linter, python
+from bench.measure import ROOT, Command, gauged, linter, python
 
 _ASSETS = ROOT / "rules" / "assets"
 
@@ -69,6 +69,11 @@ def long_sequence(folder: Path, scale: float) -> Path:
     count = max(1, round(10_000 * scale))
     _write_frames(folder / "files", count, (_ASSETS / "smoke" / "smoke.0001.vdb").read_bytes())
     return _animated(folder / "sequence.usdc", count)
+
+
+def longer_sequence(folder: Path, scale: float) -> Path:
+    """100,000 of these frames."""
+    return long_sequence(folder, 10 * scale)
 
 
 def many_files(folder: Path, scale: float) -> Path:
@@ -172,10 +177,13 @@ def _animated(stage: Path, count: int) -> Path:
 
 
 _HEADERS = python(_READ_HEADERS)
+_MEMORY = gauged("memory", linter())
 
 CASES = (
     Case("samples", linter("--select", "AST"), python(_READ_SAMPLES), 2.0, many_samples),
     Case("sequence", linter(), python(_READ_FILES), 2.0, long_sequence),
+    Case("frames", linter(), python(_READ_FILES), 2.0, longer_sequence, is_big=True),
+    Case("frames-memory", _MEMORY, None, 500, longer_sequence, unit="MB", is_big=True),
     Case("volumes", linter(), python(_READ_VOLUMES), 2.0, many_volumes),
     Case("volumes-peer", linter(), _PEER, 0.05, many_volumes, needs=_PEER.words[0]),
     Case("headers", _HEADERS, _VDB_PRINT, 0.2, many_files, needs="vdb_print"),

@@ -17,9 +17,10 @@ from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
+from usdvol_lint.facts.usd.instances import cut_short
 from usdvol_lint.model import Finding
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
-from usdvol_lint.rule import STAGE, Problem, Rule
+from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
 
 
 class StageCheck:
@@ -78,8 +79,19 @@ class StageCheck:
                 failures.add(rule, prim, error)
         for prim, fault in facts.tables.unreadable:
             failures.add(NOT_CHECKED, prim, fault)
-        yield from failures.findings(self._stamp.sites)
+        for prim, looked_at in cut_short(facts.stage):
+            yield from self._stamp.stamp(NOT_CHECKED, _partly_placed(prim, looked_at))
+        yield from self._failed(failures)
         yield from self._stamp.suppressions(facts.stage, failures.prims)
+        yield from self._failed(Failures())
+
+    def _failed(self, failures: Failures) -> Iterator[Stamped]:
+        """What failed, also in looking for places of what was found."""
+        sites = self._stamp.sites
+        for prim, error in sites.faults:
+            failures.add_place(prim, error)
+        yield from failures.findings(sites)
+        sites.faults.clear()
 
     def others(self, selections: OtherSelections, known: set[Identity]) -> Iterator[Stamped]:
         """What only other variant selections show, each with the first selection that shows it."""
@@ -111,7 +123,7 @@ class StageCheck:
         if fault:
             failures = Failures()
             failures.add(NOT_CHECKED, self._context.stage.GetPseudoRoot(), fault)
-            yield from failures.findings(self._stamp.sites)
+            yield from self._failed(failures)
 
     def _assigned(
         self, walked: Walked, facts: Facts, failures: Failures
@@ -126,3 +138,13 @@ class StageCheck:
         for rule in self._rules:
             if STAGE in rule.on:
                 yield rule, root
+
+
+def _partly_placed(prim: Any, looked_at: int) -> NotChecked:
+    """That a prim is shown more often than could be looked at."""
+    return NotChecked(
+        f"where it is and when it is visible was looked at for the first {looked_at:,} of the "
+        "instances that show it",
+        at=prim,
+        suggestion="check the asset that is instanced by itself",
+    )

@@ -18,7 +18,7 @@ from usdvol_lint.facts.usd.diagnostics import (
     without_parser_rule,
 )
 from usdvol_lint.model import Cover, Finding, Severity
-from usdvol_lint.packs.catalog import RULE_FAILED, STAGE_UNREADABLE, help_for
+from usdvol_lint.packs.catalog import NOT_CHECKED, RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.rule import NotChecked, Rule
 
 PACK_FAILURES = (Exception, KeyboardInterrupt)
@@ -26,6 +26,7 @@ PACK_FAILURES = (Exception, KeyboardInterrupt)
 _LONGEST_MESSAGE = 300
 _OF_THE_STAGE = "the layer is probably corrupt: copy or export it again"
 _OF_THE_RULE = "a bug of the rule, not of the stage; --verbose shows the traceback"
+_OF_THE_PLACE = "a bug of usdvol-lint, and the findings stand; --verbose shows the traceback"
 
 
 class _Failure:
@@ -38,18 +39,26 @@ class _Failure:
         error: BaseException,
         traceback: str,
         of_precondition: bool = False,
+        of_place: bool = False,
     ) -> None:
         self.rule = rule
         self.prim = prim
         self.error = error
         self.traceback = traceback
         self.of_precondition = of_precondition
+        self.of_place = of_place
         self.is_by_usd = is_by_usd(error) and not of_precondition
         self.count = 0
 
     @property
     def subject(self) -> str:
-        return "" if self.is_by_usd else self.rule.code
+        return "" if self.is_by_usd or self.of_place else self.rule.code
+
+    @property
+    def suggestion(self) -> str:
+        if self.is_by_usd:
+            return _OF_THE_STAGE
+        return _OF_THE_PLACE if self.of_place else _OF_THE_RULE
 
     @property
     def message(self) -> str:
@@ -61,6 +70,8 @@ class _Failure:
             what = f"the precondition of rule {rule.code} ({rule.name})"
             return f"{what} failed, so the rule looked at every prim that it asks for: {said}"
         others = f", and on {self.count - 1} more prims" if self.count > 1 else ""
+        if self.of_place:
+            return f"the layer and line of findings could not be found here{others}: {said}"
         return f"rule {rule.code} ({rule.name}) failed here{others}: {said}"
 
 
@@ -83,6 +94,17 @@ class Failures:
             self._failures[key] = _Failure(rule, prim, error, _traceback(error))
         self._failures[key].count += 1
         error.__traceback__ = None  # its frames hold the stage, and one of them holds this
+
+    def add_place(self, prim: Any, error: Exception) -> None:
+        """Records what was raised where the place of a finding on a prim was looked for."""
+        key: Identity = ("place", type(error).__name__, str(_line(error)))
+        if is_by_usd(error):
+            key = _cause(prim, error)
+        if key not in self._failures:
+            text = _traceback(error)
+            self._failures[key] = _Failure(NOT_CHECKED, prim, error, text, of_place=True)
+        self._failures[key].count += 1
+        error.__traceback__ = None
 
     def add_precondition(self, rules: Iterable[Rule], root: Any, error: BaseException) -> None:
         """Records what the precondition of these rules raised: once for each rule."""
@@ -112,7 +134,7 @@ class Failures:
                 site=located.site,
                 source=located.source._replace(subject=failure.subject),
                 cover=Cover(Severity.ERROR),
-                suggestion=_OF_THE_STAGE if failure.is_by_usd else _OF_THE_RULE,
+                suggestion=failure.suggestion,
                 help=help_for(code),
                 detail=failure.traceback,
             )

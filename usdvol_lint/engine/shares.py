@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from itertools import islice
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.usd.instances import instances_of, path_in_prototype, prototype_of, shown
+from usdvol_lint.facts.usd.settled import settle
 from usdvol_lint.suppressions import matching
 
 _MOST_PATHS = 10_000
@@ -53,13 +54,21 @@ class Shares:
         reason = self._reason_at(prim, code)
         if reason is not None or not prim.IsInPrototype():
             return [Share(reason, *shown(prim))]
-        key = prototype_of(prim), code
-        if key not in self._through:
-            self._through[key] = _joined(
-                share for instance in instances_of(key[0]) for share in self._found(instance, code)
-            )
+        through = settle((prototype_of(prim), code), self._find_through, self._through)
         below = path_in_prototype(prim)
-        return [share._replace(path=share.path + below) for share in self._through[key]]
+        return [share._replace(path=share.path + below) for share in through]
+
+    def _find_through(self, key: tuple[Any, str]) -> Generator[tuple[Any, str], None, list[Share]]:
+        """The shares of a prototype, by what its instances and the prims above these say."""
+        prototype, code = key
+        found: list[Share] = []
+        for instance in instances_of(prototype):
+            if instance.IsInPrototype() and self._reason_at(instance, code) is None:
+                around = prototype_of(instance), code
+                if around not in self._through:
+                    yield around
+            found += self._found(instance, code)
+        return _joined(found)
 
     def _told_apart(self, prim: Any, code: str) -> list[Share]:
         """Each path, with the globs that match; where these are very many, only by reasons."""
@@ -73,15 +82,17 @@ class Shares:
 
     def _each(self, prim: Any, code: str) -> Iterator[Share]:
         """Each path at which a prim appears, and what is said there."""
-        reason = self._reason_at(prim, code)
-        if not prim.IsInPrototype():
-            yield Share(reason, str(prim.GetPath()), 1)
-            return
-        below = path_in_prototype(prim)
-        for instance in instances_of(prototype_of(prim)):
-            for share in self._each(instance, code):
-                said = share.reason if reason is None else reason
-                yield Share(said, share.path + below, 1)
+        waiting: list[tuple[Any, str, str | None]] = [(prim, "", None)]
+        while waiting:
+            each, below, reason = waiting.pop()
+            if reason is None:
+                reason = self._reason_at(each, code)
+            if not each.IsInPrototype():
+                yield Share(reason, f"{each.GetPath()}{below}", 1)
+                continue
+            below = path_in_prototype(each) + below
+            instances = reversed(instances_of(prototype_of(each)))
+            waiting += ((instance, below, reason) for instance in instances)
 
 
 def _joined(shares: Iterable[Share]) -> list[Share]:

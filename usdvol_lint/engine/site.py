@@ -61,13 +61,41 @@ class Sites:
         self._entries = Entries(repository, self._texts) if repository else None
         self._layers: dict[str, _Layer] = {}
         self._blaming = Blaming()
+        self.faults: list[tuple[Any, Exception]] = []
+        """What was raised where a place was looked for, each with the prim of the problem."""
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
         self._blaming.recomposed()
 
     def locate(self, problem: Problem | NotChecked) -> Located:
-        """The site of a problem, what is to blame for it, and how many instances show it."""
+        """The site of a problem, what is to blame for it, and how many instances show it.
+
+        Where looking for it fails, that is its prim: what was found stands all the same.
+        """
+        try:
+            return self._find(problem)
+        except Exception as error:  # whatever it is: the engine reports it
+            self.faults.append((problem.at.GetPrim(), error))
+            return self._at_prim(problem)
+
+    def _at_prim(self, problem: Problem | NotChecked) -> Located:
+        """The prim of a problem, in the stage's own layer."""
+        at = problem.at
+        path = str(at.GetPrim().GetPath())
+        name = at.GetName() if isinstance(at, Usd.Property) else None
+        root = at.GetStage().GetRootLayer()
+        site = Site(
+            layer=shown_name(root, self._stage),
+            prim=None if path == "/" else path,
+            property=name,
+            times=problem.times,
+            at_default=problem.at_default,
+        )
+        source = Source(real_name(root), path, name, problem.subject)
+        return Located(site, source, Blame(None), root, 1)
+
+    def _find(self, problem: Problem | NotChecked) -> Located:
         at = problem.at
         prim = at.GetPrim()
         on_stage = shown(prim)

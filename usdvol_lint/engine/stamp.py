@@ -16,10 +16,16 @@ from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
 from usdvol_lint.suppressions import InStages
-from usdvol_lint.words import quoted
+from usdvol_lint.words import counted, quoted, shortened
 
 if TYPE_CHECKING:
     from usdvol_lint.engine.suppressions import Suppressions
+
+
+_LONGEST = 2_000
+"""So many characters a message has, about; paths alone may have megabytes."""
+_LONGEST_SUGGESTION = 100_000
+"""What there is to paste stays whole, such as a line for each of a thousand frames."""
 
 
 class Stamped(NamedTuple):
@@ -116,11 +122,11 @@ class Stamp:
             code=reported_as.code,
             name=reported_as.name,
             severity=self._lowered(severity, problem, reported_as.code),
-            message=problem.message + clip,
+            message=shortened(problem.message + clip, _LONGEST),
             site=located.site,
             source=source,
             cover=cover_of(problem, blame, own),
-            suggestion=problem.suggestion,
+            suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST_SUGGESTION),
             help=help_for(reported_as),
             fold=problem.fold,
             absent=() if self._is_alone else absent_of(problem),
@@ -162,4 +168,4 @@ class Stamp:
 def _shown_by(finding: Finding, instances: int) -> Finding:
     if instances <= 1:
         return finding
-    return finding._replace(message=f"{finding.message} (shown by {instances:,} instances)")
+    return finding._replace(message=f"{finding.message} (shown by {counted(instances)} instances)")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain, compress, filterfalse, islice, repeat
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from itertools import compress, filterfalse, islice, repeat
 from typing import Any
 
 from pxr import Usd
@@ -21,6 +21,7 @@ from usdvol_lint.facts.usd.calls import (
 from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.instances import Standing, standing_of
 from usdvol_lint.facts.usd.kinds import KindKey, PrimKinds
+from usdvol_lint.facts.usd.settled import settle
 from usdvol_lint.facts.usd.untyped import GROUP_TYPES, overs_with_our_data, with_our_data
 from usdvol_lint.rule import Rule
 
@@ -55,6 +56,7 @@ def walk(stage: Any, asked_for: frozenset[str], kinds: PrimKinds) -> Walked:
     shows_all = all(map(drawn.appears, unsure))
     kept: dict[KindKey, list[Any]] = {}
     undefined: dict[Any, list[Any]] = defaultdict(list)
+    above = _Above(drawn)
     for key, prims in met.of_kinds(asked_for):
         if shows_all and all(map(is_defined, prims)):
             kept[key] = prims
@@ -62,7 +64,7 @@ def walk(stage: Any, asked_for: frozenset[str], kinds: PrimKinds) -> Walked:
         met.overs += overs_with_our_data(prims)
         if not schema.OURS.isdisjoint(kinds.names(key)):
             for prim in filter(has_specifier, filterfalse(drawn.__contains__, prims)):
-                for over in _overs_above(prim, drawn):
+                for over in above.overs(prim):
                     undefined[over].append(prim)
         if shown := list(filter(drawn.__contains__, prims)):
             kept[key] = shown
@@ -143,16 +145,41 @@ class _Met:
                 yield key, prims
 
 
-def _overs_above(prim: Any, drawn: Drawn) -> Iterator[Any]:
-    """The prims right below the first that is drawn, above each instance that has the prim."""
-    while not prim.IsPrototype():
-        above = get_parent(prim)
-        if above in drawn:
-            yield prim
-            return
-        prim = above
-    composed = (each for each in prim.GetInstances() if COMPOSED(each))
-    yield from dict.fromkeys(chain.from_iterable(_overs_above(each, drawn) for each in composed))
+class _Above:
+    """What is above prims that are not drawn; what is found for a prim is kept."""
+
+    def __init__(self, drawn: Drawn) -> None:
+        self._drawn = drawn
+        self._tops: dict[Any, Any] = {}
+        self._overs: dict[Any, list[Any]] = {}
+
+    def overs(self, prim: Any) -> list[Any]:
+        """The prims right below the first that is drawn, above each instance that has the prim."""
+        return settle(self._top(prim), self._find_overs, self._overs)
+
+    def _top(self, prim: Any) -> Any:
+        """The prim right below the first that is drawn, or the prototype that the prim is in."""
+        passed = []
+        while prim not in self._tops:
+            passed.append(prim)
+            above = None if prim.IsPrototype() else get_parent(prim)
+            if above is None or above in self._drawn:
+                self._tops[prim] = prim
+            else:
+                prim = above
+        self._tops.update(dict.fromkeys(passed, self._tops[prim]))
+        return self._tops[prim]
+
+    def _find_overs(self, top: Any) -> Generator[Any, None, list[Any]]:
+        if not top.IsPrototype():
+            return [top]
+        found: dict[Any, None] = {}
+        for instance in filter(COMPOSED, top.GetInstances()):
+            above = self._top(instance)
+            if above not in self._overs:
+                yield above
+            found.update(dict.fromkeys(self._overs[above]))
+        return list(found)
 
 
 def _batches(stage: Any, prototypes: Mapping[Any, Standing]) -> Iterator[list[Any]]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import errno
 import pickle
 import time
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import IO, TYPE_CHECKING, Any
 
@@ -53,6 +54,7 @@ class Worker:
         self._process: subprocess.Popen[bytes] | None = None
         self._successor: subprocess.Popen[bytes] | None = None
         self._successor_is_ready_at = 0.0
+        self._unanswered: deque[str] = deque()
         self._is_gone = False
         self._is_over = False
         self._memory = Memory()
@@ -77,6 +79,7 @@ class Worker:
             raise NoProcessError(reason, is_passing=True) from error
         self._process = child
         self._replies = replies_of(child)
+        self._unanswered.clear()
         self._is_gone = False
         self._memory.begin()
 
@@ -105,7 +108,7 @@ class Worker:
         """Hands the rules to a child; raises UsageError if it refuses or does not get ready."""
         if self._process is None:
             self._begin()
-        reply, expired = self._ask(self._setup, self._ready_limit, lambda message: None)
+        reply, expired = self._ask([self._setup], self._ready_limit, lambda message: None)
         if isinstance(reply, Refusal):
             raise UsageError(" ".join(reply.reason.split()))
         if self._memory.is_chosen and isinstance(reply, Ready) and self._is_too_large():
@@ -126,10 +129,17 @@ class Worker:
         reason = f"the process that loads USD does not start ({how}): {words[-1]}{advice}"
         return NoProcessError(reason, is_passing=code < 0 and not expired)
 
-    def lint(self, path: str, limit: float, advance: Callable[[int], None]) -> StageReport:
+    def lint(
+        self,
+        path: str,
+        limit: float,
+        advance: Callable[[int], None],
+        following: Sequence[str] = (),
+    ) -> StageReport:
         """The report on a stage, also where the child crashes or takes more than `limit` seconds.
 
         `advance` is called with numbers of samples, as those of a long sequence are read.
+        The paths `following` are asked for next: the child has them before it is done.
         Raises UsageError if no child can be started any more to check it.
         """
         self._renew()
@@ -142,7 +152,10 @@ class Worker:
             else:
                 advance(message.samples)
 
-        reply, timed_out = self._ask(path, limit, hear)
+        new = (path, *following)[len(self._unanswered) :]
+        self._unanswered += new
+        reply, timed_out = self._ask(new, limit, hear)
+        self._unanswered.popleft()
         self._is_gone = timed_out or self._deadline.is_over or not isinstance(reply, Done)
         if isinstance(reply, Done):
             return reply.with_findings(found)
@@ -207,17 +220,21 @@ class Worker:
         return 1 if code is None else code
 
     def _ask(
-        self, message: Setup | str, limit: float, hear: Callable[[Advance | NewFindings], None]
+        self,
+        messages: Sequence[Setup | str],
+        limit: float,
+        hear: Callable[[Advance | NewFindings], None],
     ) -> tuple[Any, bool]:
-        """The child's reply, or None if it died or was ended; and whether the limit ended it.
+        """The child's next reply, or None if it died or was ended; and whether the limit ended it.
 
         `hear` is called with each message that comes before the reply.
         """
         # What a process takes to get ready is looked at then; most runs don't take long enough.
-        self._deadline.set(limit, looks=not isinstance(message, Setup))
+        self._deadline.set(limit, looks=not any(isinstance(each, Setup) for each in messages))
         try:
             with suppress(OSError):  # a child that has gone may have said why
-                pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
+                for message in messages:
+                    pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
                 self._stdin.flush()
             while isinstance(reply := pickle.load(self._replies), Advance | NewFindings):
                 hear(reply)

@@ -13,7 +13,7 @@ from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.paths import count_shared, is_packaged
 from usdvol_lint.facts.files.patterns import matching_frames
 from usdvol_lint.facts.files.places import place_of
-from usdvol_lint.nearest import by_nearness, closest_match
+from usdvol_lint.nearest import are_swapped, by_nearness, closest_match
 from usdvol_lint.words import quoted
 
 _NAMED = 3
@@ -179,10 +179,8 @@ def _closest_name(
     """The closest other name in a folder; a name with other numbers is no misspelling."""
     excluded = {name, *(path.removeprefix(f"{folder}/") for path in not_meant)}
     others = [other for other in disk.listing(folder).numbered_like(name) if other not in excluded]
-    swapped = {
-        f"{name[:at]}{name[at + 1]}{name[at]}{name[at + 2 :]}" for at in range(len(name) - 1)
-    }
-    return next(filter(swapped.__contains__, others), None) or closest_match(name, others)
+    swapped = (other for other in others if are_swapped(name, other))
+    return next(swapped, None) or closest_match(name, others)
 
 
 def _moved(

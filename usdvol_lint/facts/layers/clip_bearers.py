@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from typing import Any, NamedTuple, TypeAlias
 
 from pxr import Sdf, Usd
@@ -12,8 +12,12 @@ from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.instances import instances_of, path_in_prototype, prototype_of
+from usdvol_lint.facts.usd.settled import settle
 
 _Places: TypeAlias = dict[tuple[Any, ...], str]
+
+_MOST_PLACES = 100
+"""So many groups of prims with clips are told apart: a stage is opened for each."""
 
 
 def decided_bearers(
@@ -81,24 +85,25 @@ def _bearers(prim: Any) -> tuple[Any, ...]:
 
 def _first_paths(prototype: Any) -> Iterable[str]:
     """The first path at which the prototype appears below each group of prims with clips."""
-    return sorted(path for above, path in _places(prototype, {}).items() if above)
+    known: dict[Any, _Places] = {}
 
+    def find(prototype: Any) -> Generator[Any, None, _Places]:
+        first: _Places = {}
+        for instance in instances_of(prototype):
+            own, around = _bearers(instance), {(): ""}
+            if instance.IsInPrototype():
+                outer = prototype_of(instance)
+                if outer not in known:
+                    yield outer
+                around = known[outer]
+            below = path_in_prototype(instance)
+            for above, path in around.items():
+                if len(first) < _MOST_PLACES or own + above in first:
+                    group, place = own + above, path + below
+                    first[group] = min(place, first.get(group, place))
+        return first
 
-def _places(prototype: Any, known: dict[Any, _Places]) -> _Places:
-    """Where a prototype appears first, by the prims with clips there and above."""
-    if prototype in known:
-        return known[prototype]
-    first: _Places = {}
-    for instance in instances_of(prototype):
-        own, around = _bearers(instance), {(): ""}
-        if instance.IsInPrototype():
-            around = _places(prototype_of(instance), known)
-        below = path_in_prototype(instance)
-        for above, path in around.items():
-            group, place = own + above, path + below
-            first[group] = min(place, first.get(group, place))
-    known[prototype] = first
-    return first
+    return sorted(path for above, path in settle(prototype, find, known).items() if above)
 
 
 def _is_undecided(prim: Any) -> bool:

@@ -6,11 +6,12 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
-from pxr import Sdf, Usd
+from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.arcs import Layered
-from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
+from usdvol_lint.facts.usd.below import each_below
+from usdvol_lint.facts.usd.calls import get_prim_stack
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.sameness import says_the_same
 
@@ -143,8 +144,7 @@ def _changed(prim_spec: Any, prim: Any, kinds: PrimKinds) -> Iterator[LostOverri
 
 def _shows_ours(prim: Any, kinds: PrimKinds) -> bool:
     """Whether a prim, or one below it, is of ours and drawn."""
-    below = Usd.PrimRange(prim, WITH_INSTANCES)
-    return any(_are_ours(kinds.names(kinds.key(each))) for each in below)
+    return any(_are_ours(kinds.names(kinds.key(each))) for each in each_below(prim))
 
 
 def _names(paths: Iterable[Any]) -> list[str]:

@@ -68,20 +68,25 @@ class _Carriers:
 
     def above(self, layer: Any, path: Any) -> _Carrier | None:
         """The nearest prim above with clips, in the layer or one that it is a sublayer of."""
-        parent = path.GetParentPath()
-        key = (layer, parent)
-        if key not in self._known:
-            self._known[key] = self._find(layer, parent)
-        return self._known[key]
+        passed = []
+        found = None
+        while not found and not path.isEmpty and path != Sdf.Path.absoluteRootPath:
+            path = path.GetParentPath()
+            key = (layer, path)
+            if key in self._known:
+                found = self._known[key]
+                break
+            passed.append(key)
+            found = self._carrier_at(layer, path)
+        self._known.update(dict.fromkeys(passed, found))
+        return found
 
-    def _find(self, layer: Any, path: Any) -> _Carrier | None:
-        if path.isEmpty or path == Sdf.Path.absoluteRootPath:
-            return None
+    def _carrier_at(self, layer: Any, path: Any) -> _Carrier | None:
         for user in (layer, *self._users.get(layer, ())):
             spec = user.GetPrimAtPath(path)
             if spec and spec.HasInfo("clips"):
                 return _Carrier(user, path)
-        return self.above(layer, path)
+        return None
 
     def lost(self, carrier: _Carrier, prim: Any, spec: Any) -> list[Any]:
         """The attributes of a prim that the clips hold, without samples or a stronger value."""

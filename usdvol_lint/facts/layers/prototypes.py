@@ -10,7 +10,8 @@ from pxr import Usd, UsdGeom
 
 from usdvol_lint import schema
 from usdvol_lint.facts.layers.words import speak_of_ours
-from usdvol_lint.facts.usd.calls import COMPOSED, WITH_INSTANCES, get_children, get_path
+from usdvol_lint.facts.usd.below import each_below
+from usdvol_lint.facts.usd.calls import COMPOSED, get_children, get_path
 from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.instances import shown_path
 from usdvol_lint.facts.usd.kinds import PrimKinds
@@ -82,5 +83,5 @@ def _similar(above: Any, path: Any, kinds: PrimKinds) -> Any | None:
 
 def _shows_ours(above: Any, path: Any, kinds: PrimKinds) -> bool:
     prim = above.GetStage().GetPrimAtPath(path)
-    below = Usd.PrimRange(prim, WITH_INSTANCES) if prim else ()
+    below = each_below(prim) if prim else ()
     return any(not schema.OURS.isdisjoint(kinds.names(kinds.key(each))) for each in below)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from functools import cached_property
 from itertools import chain
 from typing import Any
 
 from pxr import Gf, Usd, UsdGeom
+
+from usdvol_lint.facts.usd.settled import settle
 
 _CLOSE = 1e-6
 _MATRIX = UsdGeom.XformOp.TypeTransform
@@ -35,14 +37,20 @@ class Corrections:
 
         For what is in a prototype that of one instance is enough, also of a PointInstancer's.
         """
+        return settle((prim, is_rotation), self._find, self._known)
+
+    def _find(self, key: tuple[Any, bool]) -> Generator[tuple[Any, bool], None, bool]:
+        prim, is_rotation = key
         if prim.IsPseudoRoot():
             return False
-        key = prim, is_rotation
-        if key not in self._known:
-            self._known[key] = False  # should instancers lead round in a circle
-            from_above = any(self.reach(above, is_rotation) for above in self._above(prim))
-            self._known[key] = from_above or _corrects(prim, is_rotation)
-        return self._known[key]
+        self._known[key] = False  # should instancers lead round in a circle
+        for above in self._above(prim):
+            around = above, is_rotation
+            if around not in self._known:
+                yield around
+            if self._known[around]:
+                return True
+        return _corrects(prim, is_rotation)
 
     def _above(self, prim: Any) -> Iterator[Any]:
         if prim.IsPrototype():

@@ -27,10 +27,14 @@ def has_bounds(prim: Any) -> bool:
 
 def _is_hinted(prim: Any) -> bool:
     """Whether a model with an `extentsHint` has the prim, through each instance of a prototype."""
-    while not prim.IsPseudoRoot():
-        if prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue():
-            return True
-        if prim.IsPrototype():
-            return all(_is_hinted(instance) for instance in instances_of(prim))
-        prim = prim.GetParent()
-    return False
+    seen = set()
+    waiting = [prim]
+    while waiting:
+        prim = waiting.pop()
+        if prim.IsPseudoRoot():
+            return False
+        if prim in seen or (prim.IsModel() and prim.GetAttribute("extentsHint").HasAuthoredValue()):
+            continue
+        seen.add(prim)
+        waiting += instances_of(prim) if prim.IsPrototype() else (prim.GetParent(),)
+    return True

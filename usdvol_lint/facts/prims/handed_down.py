@@ -9,6 +9,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.prims.transforms import resets
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children
 from usdvol_lint.facts.usd.drawn import prototypes_of
+from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.facts.usd.kinds import PrimKinds
 
 _DRAWN = frozenset({schema.VOLUME, schema.PARTICLE_FIELD})
@@ -36,7 +37,7 @@ def is_handed_down(above: Any, name: str, kinds: PrimKinds) -> bool:
 
 
 def _below(prim: Any, kinds: PrimKinds) -> Iterator[Any]:
-    yield from get_children(prim, WITH_INSTANCES)
+    yield from map(in_prototype, get_children(prim, WITH_INSTANCES))
     if kinds.is_a(prim, schema.POINT_INSTANCER):
         yield from prototypes_of(prim)
 

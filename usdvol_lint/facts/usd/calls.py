@@ -37,6 +37,7 @@ is_defined: Any = Usd.Prim.IsDefined
 is_in_prototype: Any = Usd.Prim.IsInPrototype
 
 get_targets: Any = Usd.Relationship.GetForwardedTargets
+own_targets: Any = Usd.Relationship.GetTargets
 
 prim_at: Any = Usd.Stage.GetPrimAtPath
 

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
 _CLIPS_OPENED = 4
 """How many clips of a set are searched for samples, since opening all may take long."""
-_ALL = Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)
 
 
 class ClipSet(NamedTuple):
@@ -187,7 +186,10 @@ def concerns_only_clips(error: Unreadable, stage: Any) -> bool:
     """
     known: set[str] = set()
     with_clips = (
-        prim for prim in Usd.PrimRange.Stage(stage, _ALL) if prim.HasAuthoredMetadata("clips")
+        prim
+        for root in (stage.GetPseudoRoot(), *stage.GetPrototypes())
+        for prim in Usd.PrimRange.AllPrims(root)
+        if prim.HasAuthoredMetadata("clips")
     )
     for clip_set in chain.from_iterable(map(clip_sets_on, with_clips)):
         for clip in filter(None, (asset.resolvedPath for asset in clip_set.clips)):

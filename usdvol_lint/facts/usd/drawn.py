@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, filterfalse
 from typing import Any
 
 from pxr import Usd
 
+from usdvol_lint.facts.usd.below import each_below
 from usdvol_lint.facts.usd.calls import (
     DRAWN_BELOW,
     get_parent,
@@ -18,6 +19,7 @@ from usdvol_lint.facts.usd.calls import (
     is_in_prototype,
 )
 from usdvol_lint.facts.usd.instances import in_prototype, prototype_of
+from usdvol_lint.facts.usd.settled import settle
 
 _COMPOSED = Usd.TraverseInstanceProxies(
     Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier
@@ -71,9 +73,16 @@ class Drawn:
 
     def appears(self, prototype: Any) -> bool:
         """Whether an instance of a prototype is drawn."""
-        if prototype not in self._appearing:
-            self._appearing[prototype] = any(each in self for each in prototype.GetInstances())
-        return self._appearing[prototype]
+        return settle(prototype, self._find_appearing, self._appearing)
+
+    def _find_appearing(self, prototype: Any) -> Generator[Any, None, bool]:
+        for instance in prototype.GetInstances():
+            around = prototype_of(instance) if is_in_prototype(instance) else None
+            if around and around not in self._appearing:
+                yield around
+            if instance in self:
+                return True
+        return False
 
     def _is_reached(self, prim: Any) -> bool:
         if not is_defined(prim):
@@ -81,15 +90,15 @@ class Drawn:
         return not is_in_prototype(prim) or self.appears(prototype_of(prim))
 
     def _is_below_root(self, prim: Any) -> bool:
-        while prim and has_specifier(prim):
+        while self.roots and prim and has_specifier(prim):
             if prim in self.roots:
                 return True
             prim = get_parent(prim)
         return False
 
 
-def _composed(root: Any) -> Any:
-    return Usd.PrimRange(root, _COMPOSED)
+def _composed(root: Any) -> Iterator[Any]:
+    return each_below(root, _COMPOSED)
 
 
 def prototypes_of(instancer: Any) -> Iterator[Any]:

@@ -7,7 +7,7 @@ from weakref import WeakKeyDictionary
 
 from pxr import Ar, Pcp, Usd
 
-from usdvol_lint.facts.usd.instances import in_prototype, prototype_of, shown
+from usdvol_lint.facts.usd.instances import forget_prototypes, in_prototype, prototype_of, shown
 
 
 class _Composed:
@@ -56,3 +56,4 @@ def index_of(prim: Any) -> Any:
 def recomposed(stage: Any) -> None:
     """Says that a stage was composed in another way."""
     _COMPOSED.pop(stage, None)
+    forget_prototypes(stage)

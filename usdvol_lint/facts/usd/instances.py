@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
 from enum import IntEnum
-from functools import cache
-from itertools import islice
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 from pxr import Sdf
 
+from usdvol_lint.facts.usd.settled import settle
+
 _MOST_PATHS = 10_000
+_MOST_STEPS = 250_000
+"""So many steps up from each prim above the paths of one prim, together: as many as USD takes.
+
+It makes each prim above an instance anew, from the root of the stage.
+"""
 
 
 class Standing(IntEnum):
@@ -32,24 +38,51 @@ class Shown(NamedTuple):
     instances: int
 
 
+class _Prototypes:
+    """What is known of the prototypes of a stage, as it is composed now."""
+
+    def __init__(self) -> None:
+        self.standings: dict[Any, Standing] = {}
+        self.instances: dict[Any, list[Any]] = {}
+        self.shown: dict[Any, Shown] = {}
+        self.cut: dict[Any, int] = {}
+
+
+_PROTOTYPES: WeakKeyDictionary[Any, _Prototypes] = WeakKeyDictionary()
+
+
+def forget_prototypes(stage: Any) -> None:
+    """Says that a stage was composed in another way."""
+    _PROTOTYPES.pop(stage, None)
+
+
+def _known(prim: Any) -> _Prototypes:
+    stage = prim.GetStage()
+    if stage not in _PROTOTYPES:
+        _PROTOTYPES[stage] = _Prototypes()
+    return _PROTOTYPES[stage]
+
+
 def shown(prim: Any) -> Shown:
     """Where a prim appears; outside prototypes, once, at its own path."""
-    return _shown(prim, {})
-
-
-def _shown(prim: Any, prototypes: dict[Any, Shown]) -> Shown:
-    """As `shown`; `prototypes` keeps what is known, since many instances lead to the same one."""
     if not prim.IsInPrototype():
         return Shown(str(prim.GetPath()), 1)
-    prototype = prototype_of(prim)
-    if prototype not in prototypes:
-        through = [_shown(instance, prototypes) for instance in instances_of(prototype)]
-        prototypes[prototype] = Shown(
-            min(instance.path for instance in through),
-            sum(instance.instances for instance in through),
-        )
-    path, instances = prototypes[prototype]
+    path, instances = settle(prototype_of(prim), _find_shown, _known(prim).shown)
     return Shown(path + path_in_prototype(prim), instances)
+
+
+def _find_shown(prototype: Any) -> Generator[Any, None, Shown]:
+    """Instances are multiplied and not walked: each may be in a prototype with instances itself."""
+    known = _known(prototype).shown
+    first, count = "", 0
+    for instance in instances_of(prototype):
+        around = prototype_of(instance) if instance.IsInPrototype() else None
+        if around and around not in known:
+            yield around
+        path, instances = shown(instance)
+        first = min(first, path) if count else path
+        count += instances
+    return Shown(first, count)
 
 
 def as_shown(prims: Iterable[Any]) -> list[Any]:
@@ -57,12 +90,9 @@ def as_shown(prims: Iterable[Any]) -> list[Any]:
 
     The paths of prototypes are no order: USD numbers these differently from run to run.
     """
-    prototypes = cache(lambda prototype: shown(prototype).path)
 
     def path(prim: Any) -> Any:
-        if not prim.IsInPrototype():
-            return prim.GetPath()
-        return Sdf.Path(prototypes(prototype_of(prim)) + path_in_prototype(prim))
+        return Sdf.Path(shown(prim).path) if prim.IsInPrototype() else prim.GetPath()
 
     return sorted(dict.fromkeys(prims), key=path)
 
@@ -71,30 +101,50 @@ def shown_paths(prim: Any) -> list[str]:
     """The stage paths at which a prim appears, in ascending order; not all where it has very many.
 
     A few prototypes in one another can show a prim more often than a computer can count.
+    `cut_short` tells of which prims there are more.
     """
-    return sorted(islice(_paths(prim), _MOST_PATHS))
+    found: list[str] = []
+    waiting, left = [(prim, "")], _MOST_STEPS
+    while waiting and len(found) < _MOST_PATHS and (left > 0 or not found):
+        each, below = waiting.pop()
+        if each.IsInPrototype():
+            below = path_in_prototype(each) + below
+            waiting += ((outer, below) for outer in reversed(instances_of(prototype_of(each))))
+        else:
+            found.append(f"{each.GetPath()}{below}")
+            left -= found[-1].count("/") ** 2
+    if waiting:
+        _known(prim).cut[prim] = len(found)
+    return sorted(found)
 
 
-def _paths(prim: Any) -> Iterator[str]:
-    if not prim.IsInPrototype():
-        yield str(prim.GetPath())
-        return
-    below = path_in_prototype(prim)
-    for instance in instances_of(prototype_of(prim)):
-        yield from (path + below for path in _paths(instance))
+def cut_short(stage: Any) -> list[tuple[Any, int]]:
+    """The prims that are shown more often than their `shown_paths` were, and how many these are."""
+    return list(_PROTOTYPES[stage].cut.items()) if stage in _PROTOTYPES else []
 
 
 def instances_of(prototype: Any) -> list[Any]:
     """The instances through which a prototype appears: those of the best standing."""
-    standings = [(_standing_of(instance), instance) for instance in prototype.GetInstances()]
-    best = min(standing for standing, _ in standings)
-    return [instance for standing, instance in standings if standing is best]
+    known = _known(prototype).instances
+    if prototype not in known:
+        best = standing_of(prototype)
+        every = prototype.GetInstances()
+        known[prototype] = [each for each in every if _standing_of(each) is best]
+    return known[prototype]
 
 
 def standing_of(prototype: Any) -> Standing:
     """The best standing of its instances."""
+    return settle(prototype, _find_standing, _known(prototype).standings)
+
+
+def _find_standing(prototype: Any) -> Generator[Any, None, Standing]:
+    known = _known(prototype).standings
     best = Standing.ABSTRACT
     for instance in prototype.GetInstances():
+        around = prototype_of(instance) if instance.IsInPrototype() else None
+        if around and around not in known:
+            yield around
         best = min(best, _standing_of(instance))
         if best is Standing.DEFINED:
             break

@@ -15,9 +15,10 @@ from usdvol_lint.facts.usd.calls import (
     get_name,
     get_properties,
     get_stage,
-    get_targets,
+    own_targets,
     parent_path,
 )
+from usdvol_lint.facts.usd.forwarding import Forwarding
 from usdvol_lint.facts.usd.instances import shown_path
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
@@ -40,6 +41,7 @@ class BindingReader:
 
     def __init__(self, kinds: PrimKinds) -> None:
         self._kinds = kinds
+        self._forwarding = Forwarding()
 
     def read_many(
         self, batch: PrimBatch, authored: Authored, live: Mapping[Any, Slot], may_lack: MayLack
@@ -91,7 +93,7 @@ class BindingReader:
         if not isinstance(prop, Usd.Relationship):
             return Binding(prop, name, False)
         stage = get_stage(prop)
-        paths = get_targets(prop)
+        paths = self._forwarding.targets(prop)
         if paths:
             volume = prop.GetPrim()
             targets = tuple([read_target(volume, path, self._kinds, may_lack) for path in paths])
@@ -110,7 +112,7 @@ def _children(
     """
     slots: list[Slot | None] = []
     for relationship, volume in zip(relationships, volumes, strict=True):
-        paths: Sequence[Any] = get_targets(relationship) if relationship else ()
+        paths: Sequence[Any] = own_targets(relationship) if relationship else ()
         is_child = len(paths) == 1 and parent_path(paths[0]) == volume
         slots.append(live.get(paths[0]) if is_child else None)
     return slots

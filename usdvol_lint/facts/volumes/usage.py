@@ -11,7 +11,7 @@ from pxr import Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Slot
-from usdvol_lint.facts.usd.calls import WITH_INSTANCES
+from usdvol_lint.facts.usd.below import each_below
 from usdvol_lint.facts.usd.instances import in_prototype, shown
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.bindings import BoundFields, FieldBindings
@@ -159,6 +159,5 @@ def is_shared(volume: Any, field: Any, slots: Mapping[Any, Slot], users: Users) 
 
 
 def _fields_below(prim: Any, kinds: PrimKinds) -> list[Any]:
-    """The field prims below a prim, also inside instances."""
-    below = Usd.PrimRange(prim, WITH_INSTANCES)
-    return [each for each in below if kinds.is_a(each, schema.FIELD)]
+    """The field prims below a prim, also inside instances: those of a prototype once."""
+    return [each for each in each_below(prim) if kinds.is_a(each, schema.FIELD)]
