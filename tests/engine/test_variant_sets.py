@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from varianttexts import LOOKS, Lint, field, found, prim, variant_set, volume
+
+from usdvol_lint.engine import variant_sets
 
 
 def instance(name: str, of: str = "model") -> str:
@@ -124,3 +128,31 @@ def test_variants_of_what_an_instancer_draws_below_an_over(
     report = lint(stage=instancer.format("all", target) + library)
     of_variant = ("AST002", "/library/model/v/d", "/library/model{look=thin}")
     assert [each for each in found(report) if each[0] != "STG005"] == [of_variant] * is_drawn
+
+
+def test_a_variant_is_looked_at_once_however_many_are_composed(
+    lint: Lint, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To look at all of 1,000 again for each that is composed would take minutes."""
+    met: list[str] = []
+    read: list[tuple[str, str]] = []
+    variant, variants = variant_sets.VariantSet.variant, variant_sets._variants
+
+    def count(of: variant_sets.VariantSet, name: str) -> variant_sets.Variant:
+        met.append(name)
+        return variant(of, name)
+
+    def count_specs(spec: Any) -> Any:
+        read.append((spec.layer.identifier, str(spec.path)))
+        return variants(spec)
+
+    monkeypatch.setattr(variant_sets.VariantSet, "variant", count)
+    monkeypatch.setattr(variant_sets, "_variants", count_specs)
+    names = [f"l{number}" for number in range(30)]
+    sets = [variant_set(each, **dict.fromkeys(names, volume("1", each))) for each in ("a", "b")]
+    composed = 10
+    report = lint(composed, stage=prim("model", *sets, a="l0", b="l0"))
+    assert [each.code for each in report.findings if each.code != "VOL001"] == ["LNT005"]
+    selected = 2 * (1 + composed)
+    assert len(met) == selected + 2 * (len(names) - 1)
+    assert sorted(set(read)) == sorted(read)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any, NamedTuple, TypeAlias
 
@@ -25,7 +26,9 @@ _BRINGS = (*ARCS, "apiSchemas", "active", "variantSelection")
 """Metadata of a spec without a type that puts prims on the stage, or changes what they are."""
 
 VariantSpec: TypeAlias = tuple[str, str]
-"""A variant in a layer: the layer's identifier, and the path in it."""
+"""A variant or a prim's spec in a layer: the layer's identifier, and the path in it."""
+VariantsDeclared: TypeAlias = tuple[str, tuple[VariantSpec, ...]]
+"""The name of a variant set, and the specs of a prim that have variants of it."""
 
 
 class Survey(NamedTuple):
@@ -40,12 +43,78 @@ class Survey(NamedTuple):
 
 
 class Variant(NamedTuple):
-    """A variant of a prim; `specs` are the prim specs of its opinions, strongest first."""
+    """A variant of a prim; `specs` are its opinions, strongest first, each with its layer."""
 
-    set_name: str
     name: str
-    is_selected: bool
     specs: dict[VariantSpec, Any]
+
+
+class _Holder(NamedTuple):
+    """A spec with variants of a set: their paths in its layer, by name."""
+
+    layer: Any
+    spec: VariantSpec
+    variants: Mapping[str, str]
+
+
+class VariantSet(NamedTuple):
+    """A variant set of a prim; `holders` are the specs with variants of it, strongest first."""
+
+    name: str
+    selected: str
+    holders: Sequence[_Holder]
+
+    @property
+    def declared(self) -> VariantsDeclared:
+        """What is the same for variant sets with the same variants."""
+        return self.name, tuple(each.spec for each in self.holders)
+
+    def variant(self, name: str) -> Variant:
+        """A variant of the set; without specs if there is none of that name."""
+        return Variant(
+            name,
+            {
+                (spec[0], variants[name]): layer
+                for layer, spec, variants in self.holders
+                if name in variants
+            },
+        )
+
+    def others(self) -> Iterator[Variant]:
+        """The variants that are not selected."""
+        names = set().union(*(each.variants for each in self.holders)) - {self.selected}
+        return map(self.variant, sorted(names))
+
+
+class VariantSets:
+    """Reads variant sets; those of a spec once, however many selections are composed.
+
+    Names and paths are kept, but no specs: a layer that no selection shows is closed.
+    """
+
+    def __init__(self) -> None:
+        self._of_specs: dict[VariantSpec, Mapping[str, Mapping[str, str]]] = {}
+
+    def of(self, prim: Any) -> Iterator[VariantSet]:
+        """The variant sets of a prim as it is composed now."""
+        held: dict[str, list[_Holder]] = defaultdict(list)
+        for spec in prim.GetPrimStack():
+            key = spec.layer.identifier, str(spec.path)
+            if key not in self._of_specs:
+                self._of_specs[key] = _variants(spec)
+            for name, variants in self._of_specs[key].items():
+                held[name].append(_Holder(spec.layer, key, variants))
+        sets = prim.GetVariantSets()
+        for name in sets.GetNames():
+            yield VariantSet(name, sets.GetVariantSelection(name), held[name])
+
+
+def _variants(spec: Any) -> Mapping[str, Mapping[str, str]]:
+    """The paths of the variants of a spec, by set and name."""
+    return {
+        name: {each.name: str(each.path) for each in variant_set.variants.values()}
+        for name, variant_set in spec.variantSets.items()
+    }
 
 
 def survey(stage: Any, start: Any, kinds: PrimKinds) -> Survey:
@@ -79,22 +148,6 @@ def _holders(prims: Iterable[Any]) -> set[Any]:
                 waiting += prim.GetInstances()
             prim = prim.GetParent()
     return holders
-
-
-def variants(prim: Any) -> Iterator[Variant]:
-    """The variants of all variant sets of a prim."""
-    stack = prim.GetPrimStack()
-    sets = prim.GetVariantSets()
-    for set_name in sets.GetNames():
-        selected = sets.GetVariantSelection(set_name)
-        for name in sets.GetVariantSet(set_name).GetVariantNames():
-            specs = {}
-            for spec in stack:
-                variant_set = spec.variantSets.get(set_name)
-                found = variant_set.variants.get(name) if variant_set else None
-                if found:
-                    specs[spec.layer.identifier, str(found.path)] = found.primSpec
-            yield Variant(set_name, name, name == selected, specs)
 
 
 def may_bring(spec: Any, kinds: PrimKinds) -> bool:

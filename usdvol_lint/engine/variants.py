@@ -9,7 +9,15 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
 
-from usdvol_lint.engine.variant_sets import Variant, VariantSpec, may_bring, survey, variants
+from usdvol_lint.engine.variant_sets import (
+    Variant,
+    VariantsDeclared,
+    VariantSet,
+    VariantSets,
+    VariantSpec,
+    may_bring,
+    survey,
+)
 from usdvol_lint.facts.usd.clips import concerns_only_clips
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable
 from usdvol_lint.facts.usd.indices import recomposed
@@ -53,6 +61,8 @@ class OtherSelections:
         self._waiting: list[_Choice] = []
         self._numbers = count()
         self._seen: set[tuple[Any, VariantSpec]] = set()
+        self._variant_sets = VariantSets()
+        self._looked_into: set[tuple[Any, bool, VariantsDeclared]] = set()
         self._composed_specs: set[VariantSpec] = set()
         self._out_of_reach: dict[frozenset[VariantSpec], str] = {}
 
@@ -138,35 +148,53 @@ class OtherSelections:
         for prim in found.switches:
             path = prim.GetPath()
             unknown = path not in found.holders
-            for variant in variants(prim):
-                if variant.is_selected:
-                    self._notice(prim, variant.specs)
-                    self._composed_specs.update(variant.specs)
-                elif (
-                    (path, variant.set_name) not in chosen
-                    and (not unknown or self._may_bring(variant))
-                    and self._notice(prim, variant.specs)
-                ):
-                    base = path.ReplacePrefix(above, selection)
-                    switch = base.AppendVariantSelection(variant.set_name, variant.name)
-                    self._queue(prim, unknown, switch, frozenset(variant.specs))
+            for variant_set in self._variant_sets.of(prim):
+                self._take_selected(prim, variant_set)
+                is_chosen = (path, variant_set.name) in chosen
+                if not is_chosen and self._is_new(prim, unknown, variant_set):
+                    self._queue(prim, unknown, path.ReplacePrefix(above, selection), variant_set)
         return found.holders
 
+    def _take_selected(self, prim: Any, variant_set: VariantSet) -> None:
+        specs = variant_set.variant(variant_set.selected).specs
+        self._notice(prim, specs)
+        self._composed_specs.update(specs)
+
+    def _is_new(self, prim: Any, unknown: bool, variant_set: VariantSet) -> bool:
+        """Whether the variants of a set of a prim were not looked into before."""
+        key = (_noticed_as(prim), unknown, variant_set.declared)
+        before = len(self._looked_into)
+        self._looked_into.add(key)
+        return len(self._looked_into) > before
+
+    def _queue(self, prim: Any, unknown: bool, base: Any, variant_set: VariantSet) -> None:
+        """Queues the variants of a set that are not selected, below a selection."""
+        for variant in variant_set.others():
+            if (unknown and not self._may_bring(variant)) or not self._notice(prim, variant.specs):
+                continue
+            specs = frozenset(variant.specs)
+            if prim.IsInPrototype():
+                self._out_of_reach[specs] = shown(prim).path
+            else:
+                switch = base.AppendVariantSelection(variant_set.name, variant.name)
+                choice = _Choice(unknown, False, next(self._numbers), switch, specs)
+                heappush(self._waiting, choice)
+
     def _may_bring(self, variant: Variant) -> bool:
-        return any(may_bring(spec, self._kinds) for spec in variant.specs.values())
+        specs = (layer.GetPrimAtPath(path) for (_, path), layer in variant.specs.items())
+        return any(may_bring(spec, self._kinds) for spec in specs)
 
     def _notice(self, prim: Any, specs: Iterable[VariantSpec]) -> bool:
         """Remembers a variant of a prim; says whether it is new there."""
-        path = None if prim.IsInPrototype() else prim.GetPath()
+        path = _noticed_as(prim)
         before = len(self._seen)
         self._seen.update((path, spec) for spec in specs)
         return len(self._seen) > before
 
-    def _queue(self, prim: Any, unknown: bool, switch: Any, specs: frozenset[VariantSpec]) -> None:
-        if prim.IsInPrototype():
-            self._out_of_reach[specs] = shown(prim).path
-        else:
-            heappush(self._waiting, _Choice(unknown, False, next(self._numbers), switch, specs))
+
+def _noticed_as(prim: Any) -> Any | None:
+    """What tells prims apart: their paths; of prims in prototypes nothing does."""
+    return None if prim.IsInPrototype() else prim.GetPath()
 
 
 def _steps(selection: Any) -> Iterator[tuple[Any, str, str]]:

@@ -68,20 +68,17 @@ def _wrong(prim: Any, kinds: PrimKinds) -> Iterator[WrongSelection]:
     for set_name, variant in selected.items():
         known: list[str] = []
         if set_name in names:
-            known = sets.GetVariantSet(set_name).GetVariantNames()
+            variant_set = sets.GetVariantSet(set_name)
+            if variant_set.HasAuthoredVariant(variant):
+                continue  # nearly always, and there may be thousands
+            known = variant_set.GetVariantNames()
             similar, concerned = _near(variant, known), set_name
         else:
             unselected = (each for each in names if not selected.get(each))
             similar = _near(set_name, unselected)
             concerned = similar or ""
         spec = _authoring(prim, set_name, variant)
-        if (
-            variant
-            and variant not in known
-            and spec
-            and concerned
-            and _has_ours(prim, concerned, kinds)
-        ):
+        if variant and spec and concerned and _has_ours(prim, concerned, kinds):
             yield WrongSelection(prim, spec, set_name, variant, tuple(known), similar, 1)
 
 
