@@ -54,12 +54,38 @@ from usdvol_lint.results import BaselineUse, Report, State
             "2 stages could not be checked",
         ),
         (
+            (TIMED_OUT,),
+            "no findings in 1 stage; nothing counted in 1.2 s, since the stage was not read to "
+            "its end; 1 stage could not be checked",
+        ),
+        (
+            (TIMED_OUT, UNREADABLE),
+            "no findings in 2 stages; nothing counted in 1.2 s, since no stage was read to its "
+            "end; 2 stages could not be checked",
+        ),
+        (
+            (UNREADABLE, CLEAN._replace(stats={}), TIMED_OUT),
+            "no findings in 3 stages; no volumes or particle fields found in 1 of 3 stages in "
+            "1.2 s; 2 stages could not be checked",
+        ),
+        (
             (UNUSED, CLEAN, UNUSED_TOO),
             "no errors or warnings in 3 stages; 2 infos, shown with --show info; "
             "23 volumes, 2 particle fields, 62,409 files checked in 1.2 s",
         ),
     ],
-    ids=["none", "clean", "one", "no-volumes", "other-variants", "unchecked", "infos"],
+    ids=[
+        "none",
+        "clean",
+        "one",
+        "no-volumes",
+        "other-variants",
+        "unchecked",
+        "unread",
+        "all-unread",
+        "some-unread",
+        "infos",
+    ],
 )
 def test_verdict(stages: tuple[StageReport, ...], expected: str) -> None:
     assert verdict(report(*stages), Options()) == expected

@@ -49,8 +49,8 @@ def _parts(report: Report, summary: Summary, options: Options) -> Iterator[str]:
         yield f"{count(assumed, 'file')} assumed present"
     if report.left_out:
         yield report.left_out
-    yield f"{_checked_counts(summary.stats)} in {duration(report.run.seconds)}"
     unread = summary.stages - summary.by_status.get(Status.CHECKED, 0)
+    yield _checked(summary, unread, duration(report.run.seconds))
     if unread:
         yield f"{count(unread, 'stage')} could not be checked"
 
@@ -117,6 +117,17 @@ def _are_gone(entries: Sequence[str]) -> str:
     return "is gone" if len(entries) == 1 else "are gone"
 
 
+def _checked(summary: Summary, unread: int, seconds: str) -> str:
+    """What was checked, and how long that took; where stages were not read, nothing is denied."""
+    if found := _checked_counts(summary.stats):
+        return f"{found} in {seconds}"
+    if unread == summary.stages:
+        which = "the stage was not" if unread == 1 else "no stage was"
+        return f"nothing counted in {seconds}, since {which} read to its end"
+    where = f" in {summary.stages - unread:,} of {_stage_counts(summary)}" if unread else ""
+    return f"no volumes or particle fields found{where} in {seconds}"
+
+
 def _checked_counts(stats: Mapping[str, int]) -> str:
     found = counts(
         (stats.get("volumes", 0), "volume"),
@@ -131,7 +142,7 @@ def _checked_counts(stats: Mapping[str, int]) -> str:
             "no volumes or particle fields as variants are selected, "
             f"{count(others, 'other selection')} checked"
         )
-    return "no volumes or particle fields found"
+    return ""
 
 
 # --- what to type next ----------------------------------------------------------------------------
