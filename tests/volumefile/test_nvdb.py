@@ -173,6 +173,34 @@ def test_versions(read: Reader) -> None:
     assert error.message.startswith(f"{file.newer}: ")
 
 
+@pytest.mark.parametrize(
+    ("version", "dotted"),
+    [
+        (0, "0.0.0"),
+        (32, "0.0.32"),
+        ((1 << 21) - 1, "0.2047.1023"),
+        (100 << 21, "100.0.0"),
+        (2**32 - 1, "2047.2047.1023"),
+    ],
+)
+def test_versions_that_never_were_are_garbage(read: Reader, version: int, dotted: str) -> None:
+    for content, at in ((segment(entry(), version=version), 8), (_bare_of(version), 16)):
+        error = refusal(read, content)
+        assert (error.code, error.offset) == ("not-a-volume-file", at)
+        assert error.message == f"no NanoVDB writes version {dotted}"
+
+
+@pytest.mark.parametrize("version", [31, 1 << 21, 31 << 21])
+def test_old_versions_are_refused_as_such(read: Reader, version: int) -> None:
+    assert refusal(read, segment(entry(), version=version)).code == "version-unsupported"
+    assert refusal(read, _bare_of(version)).code == "version-unsupported"
+
+
+def _bare_of(version: int) -> bytes:
+    """A buffer with nothing but a version."""
+    return struct.pack("<8sQI", b"NanoVDB1", 0, version) + bytes(700)
+
+
 def test_a_few_odd_bytes_at_the_end_are_ignored(read: Reader) -> None:
     assert read(segment(entry()) + b"\n").grid_count == 1
     assert read(segment()).grids == ()

@@ -119,14 +119,21 @@ def test_versions_that_are_read(read: Reader, version: int) -> None:
     assert file.newer is None
 
 
-@pytest.mark.parametrize("version", [0, 1, 211, 221])
+@pytest.mark.parametrize("version", [1, 2, 211, 221])
 def test_older_versions_are_refused(read: Reader, version: int) -> None:
     error = refusal(read, w.vdb(w.Grid(), version=version))
     assert (error.code, error.offset) == ("version-unsupported", 8)
     assert error.partial is None or error.partial.version_number == version
 
 
-@pytest.mark.parametrize("version", [226, 2**31, 2**32 - 1])
+@pytest.mark.parametrize("version", [0, 3, 210, 1000, 2**31, 2**32 - 1])
+def test_versions_that_never_were_are_garbage(read: Reader, version: int) -> None:
+    error = refusal(read, w.vdb(w.Grid(), version=version))
+    assert (error.code, error.offset) == ("not-a-volume-file", 8)
+    assert error.message == f"no OpenVDB writes file version {version}"
+
+
+@pytest.mark.parametrize("version", [226, 999])
 def test_newer_versions_are_tried(read: Reader, version: int) -> None:
     file = read(w.vdb(w.Grid(), version=version))
     assert file.newer == f"file version {version} is newer than 225"

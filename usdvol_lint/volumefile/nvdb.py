@@ -21,6 +21,8 @@ from usdvol_lint.volumefile.transform import Bounds, Point, Transform, finite, s
 from usdvol_lint.volumefile.window import Window
 
 MAJOR_VERSION: Final = 32
+_LAST_MAJOR = 99
+"""Major versions are counted up, so that one with more digits will not come."""
 
 _BARE = b"NanoVDB1"
 _MOST = 100_000
@@ -122,6 +124,8 @@ class _Reader:
 
     def take_version(self, version: int, at: int) -> None:
         major = version >> 21
+        if not _may_be(version):
+            raise invalid(f"no NanoVDB writes version {_dotted(version)}", at + len(_BARE))
         if major < MAJOR_VERSION:
             self.version = self.version or version
             raise VolumeFileError(
@@ -245,6 +249,11 @@ def _metadata(voxels: int, voxel_size: Point, world: tuple[float, ...]) -> Mappi
         "world_bbox_min": Metadatum("vec3d", world[:3], 24),
         "world_bbox_max": Metadatum("vec3d", world[3:], 24),
     }
+
+
+def _may_be(version: int) -> bool:
+    """Whether there may be a version; the first ones may have stood there unpacked, as `28`."""
+    return 0 < version < MAJOR_VERSION or 1 <= version >> 21 <= _LAST_MAJOR
 
 
 def _dotted(version: int | None) -> str:

@@ -31,6 +31,11 @@ from usdvol_lint.volumefile.window import Window
 
 OLDEST_VERSION: Final = 222
 NEWEST_VERSION: Final = 225
+_EVER = frozenset((1, 2, *range(211, 1000)))
+"""What a file version may be: of those before 211 the first of three numbers is read.
+
+They are counted up, so that one with more than three digits will not come.
+"""
 
 _SMALLEST_DESCRIPTOR = 36
 
@@ -126,7 +131,10 @@ class _Reader:
     def read_header(self) -> None:
         window = self.window
         window.skip(len(OPENVDB))
-        (self.version,) = window.unpack(_VERSION)
+        (version,) = window.unpack(_VERSION)
+        if version not in _EVER:
+            raise invalid(f"no OpenVDB writes file version {version}", len(OPENVDB))
+        self.version = version
         if self.version < OLDEST_VERSION:
             raise VolumeFileError(
                 "version-unsupported",
