@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from usdvol_lint.model import Cover, Finding, Severity, Site, Source, in_order
-from usdvol_lint.words import format_time, frame_ranges
+from usdvol_lint.words import format_time, frame_ranges, from_to
 
 
 @pytest.mark.parametrize(
@@ -24,7 +25,8 @@ from usdvol_lint.words import format_time, frame_ranges
         ((0, 2, 4, 6, 8, 10), "0-10x2"),
         ((0, 2, 4, 5, 6), "0-4x2, 5-6"),
         ((1, 3, 4, 5, 9), "1, 3-5, 9"),
-        ((-2, -1, 0, 1), "-2-1"),
+        ((-2, -1, 0, 1), "-2 to 1"),
+        ((-4, -2, 0, 5), "-4 to 0x2, 5"),
         ((0, 0.5, 1, 1.5), "0-1.5x0.5"),
         ((1.25, 1.5), "1.25, 1.5"),
         ((4.999999995559108, 6, 7), "5-7"),
@@ -42,6 +44,7 @@ def test_frame_ranges(times: tuple[float, ...], text: str) -> None:
         (101.0, "101"),
         (101.5, "101.5"),
         (-0.0, "0"),
+        (2.0**53, "9007199254740992"),
         (2.0**60, "1.152921504606847e+18"),
         (1e-9, "0"),
         (float("inf"), "inf"),
@@ -57,10 +60,26 @@ def test_frame_ranges_name_exactly_the_frames(frames: set[int]) -> None:
     named: list[int] = []
     for part in filter(None, frame_ranges(sorted(map(float, frames))).split(", ")):
         ends, _, step = part.partition("x")
-        split = ends.find("-", 1)
-        first, last = (ends[:split], ends[split + 1 :]) if split > 0 else (ends, ends)
+        first, *others = ends.split(" to " if " to " in ends or ends.startswith("-") else "-")
+        last = others[0] if others else first
         named += range(int(first), int(last) + 1, int(step or 1))
     assert named == sorted(frames)
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "text"),
+    [
+        (1, 10, "1-10"),
+        (0.5, 2, "0.5-2"),
+        (-3, 1, "-3 to 1"),
+        (-99, -95, "-99 to -95"),
+        (-math.inf, math.inf, "-inf to inf"),
+        (-1e300, 1e300, "-1e+300 to 1e+300"),
+        (0, 2.0**53, "0-9007199254740992"),
+    ],
+)
+def test_from_to(first: float, last: float, text: str) -> None:
+    assert from_to(first, last) == text
 
 
 def test_frames_of_a_site() -> None:

@@ -62,7 +62,14 @@ def _visible(char: str) -> str:
 def format_time(time: float) -> str:
     """A time code without superfluous decimals: `101`, `101.5`, never `101.0`."""
     rounded = round(time, 6)
-    return str(int(rounded)) if rounded.is_integer() and abs(rounded) < 2**53 else repr(rounded)
+    return repr(rounded or 0.0).removesuffix(".0")
+
+
+def from_to(first: float, last: float) -> str:
+    """`1-10`; `-3 to 1` where a hyphen would be taken for a sign, or joins more than digits."""
+    ends = format_time(first), format_time(last)
+    are_plain = all(end.replace(".", "").isdigit() for end in ends)
+    return ("-" if are_plain else " to ").join(ends)
 
 
 def frame_ranges(times: Sequence[float]) -> str:
@@ -74,7 +81,7 @@ def frame_ranges(times: Sequence[float]) -> str:
         step = times[start + 1] - times[start] if stop - start > 1 else 0.0
         if stop - start > 2 or _same(step, 1.0):
             suffix = "" if _same(step, 1.0) else f"x{format_time(step)}"
-            parts.append(f"{format_time(times[start])}-{format_time(times[stop - 1])}{suffix}")
+            parts.append(from_to(times[start], times[stop - 1]) + suffix)
             start = stop
         else:
             parts.append(format_time(times[start]))

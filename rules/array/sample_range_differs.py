@@ -1,6 +1,6 @@
 """ARR027: the samples of animated particles should cover the time range of the stage."""
 
-from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, format_time, rule
+from usdvol_lint.rule import INFO, WARNING, Facts, Prim, Problem, Problems, rule
 
 
 @rule("ARR027", on="ParticleField", severity=WARNING, since="0.1")
@@ -9,7 +9,6 @@ def sample_range_differs(particles: Prim, facts: Facts) -> Problems:
     if wanted is None or facts.layers.may_lack_values(particles):
         return
     for span in arrays.spans():
-        start, end, first, last = map(format_time, (*wanted, span.first, span.last))
         are_positions = span.arrays[0] is arrays.positions
         if are_outside := span.is_outside(wanted):
             severity = None if are_positions else INFO
@@ -21,8 +20,7 @@ def sample_range_differs(particles: Prim, facts: Facts) -> Problems:
         is_told = facts.tells("STG008") and facts.layers.rate_is_unsaid(span.attribute)
         if seen and (are_positions or are_outside) and not is_told and span.is_animated:
             yield Problem(
-                f"the samples of {span.names} are at {first}-{last}, {wanted.whose} range is {start}-{end}: "
-                f"{' and '.join(seen)}",
+                f"the samples of {span.names} {wanted.beside(span.first, span.last)}: {' and '.join(seen)}",
                 at=span.attribute,
                 spec=wanted.meeting_samples(span.attribute, span.first, span.last),
                 suggestion=span.rate_at_fault(wanted) or advice,

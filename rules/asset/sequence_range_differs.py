@@ -16,10 +16,6 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
         samples = f"all samples but {len(sequence.times) - len(far_off.times)}"
         sequence = far_off
     first, last = sequence.times[0], sequence.times[-1]
-    ranges = (
-        f"{samples} are at {format_time(first)}-{format_time(last)}, "
-        f"{wanted.whose} range is {format_time(start)}-{format_time(end)}"
-    )
     if last < start or first > end:
         is_held = sequence.holds_last if last < start else sequence.holds_first
         effects = {"one file is held throughout" if is_held else "no file is shown": (start, end)}
@@ -39,7 +35,7 @@ def sequence_range_differs(field: Prim, facts: Facts) -> Problems:
     attribute, alike, found = field.GetAttribute("filePath"), facts.files.alike(field), seen(field)
     if found and not (facts.tells("STG008") and facts.layers.rate_is_unsaid(attribute)):
         yield Problem(
-            f"{ranges}: {' and '.join(found)}",
+            f"{samples} {wanted.beside(first, last)}: {' and '.join(found)}",
             at=attribute,
             spec=wanted.meeting_samples(attribute, first, last),
             fold=alike and f"{alike} {found}",

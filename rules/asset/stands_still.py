@@ -1,18 +1,6 @@
 """AST017: where a sequence lies on disk, a field should not show one frame of it at all times."""
 
-from usdvol_lint.rule import (
-    INFO,
-    WARNING,
-    Facts,
-    PathMark,
-    Prim,
-    Problem,
-    Problems,
-    file_paths,
-    format_time,
-    frame_ranges,
-    rule,
-)
+from usdvol_lint.rule import INFO, WARNING, Facts, PathMark, Prim, Problem, Problems, file_paths, frame_ranges, rule
 
 _ONE_FRAME = file_paths(PathMark.NUMBERED, PathMark.SEVERAL)
 
@@ -35,9 +23,8 @@ def stands_still(field: Prim, facts: Facts) -> Problems:
     elif still.is_sampled:
         message = f"all samples name {still.affected.shown}, though {there}"
     else:
-        start, end = map(format_time, time_range or ())
-        whose = time_range.whose if time_range else ""
-        message = f"{still.affected.shown} is held at all times, though {there} and {whose} range is {start}-{end}"
+        message = f"{still.affected.shown} is held at all times, though {there}"
+        message += f" and {time_range.words}" if time_range else ""
     yield Problem(
         message,
         at=still.affected,

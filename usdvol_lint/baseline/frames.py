@@ -14,7 +14,7 @@ TOLERANCE = 1e-6
 """Time codes that are no farther apart are one: offsets and scales are undone in floating point."""
 _MOST = 1_000_000
 _NUMBER = r"(-?(?:inf|\d+(?:\.\d+)?(?:e[+-]?\d+)?))"
-_RANGE = re.compile(rf"{_NUMBER}(?:-{_NUMBER}(?:x{_NUMBER})?)?")
+_RANGE = re.compile(rf"{_NUMBER}(?:(?:-| to ){_NUMBER}(?:x{_NUMBER})?)?")
 _SHOWN = 8
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.words import from_to
 
 _KEYS = ("startTimeCode", "endTimeCode")
 
@@ -31,9 +32,14 @@ class TimeRange(NamedTuple):
         return False
 
     @property
-    def whose(self) -> str:
-        """What it is, before the word `range`."""
-        return "the production's" if self.is_asked else "the stage's"
+    def words(self) -> str:
+        """What it is, and from where to where: `the stage's range is 1-48`."""
+        whose = "the production's" if self.is_asked else "the stage's"
+        return f"{whose} range is {from_to(*self)}"
+
+    def beside(self, first: float, last: float) -> str:
+        """What a message about samples that lie elsewhere says of both."""
+        return f"are at {from_to(first, last)}, {self.words}"
 
     def meeting(
         self,
