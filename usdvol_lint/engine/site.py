@@ -16,7 +16,7 @@ from usdvol_lint.model import Cover, Severity, Site, Source
 from usdvol_lint.rule import NotChecked, Problem
 
 if TYPE_CHECKING:
-    from usdvol_lint.layertext.lines import TextLayer
+    from usdvol_lint.layertext.lines import Position, TextLayer
 
 
 _DIGITS = 6
@@ -34,12 +34,29 @@ class Located(NamedTuple):
 
 
 class _Layer(NamedTuple):
-    """What is found once of a layer with a problem: its names, and its text if it has one."""
+    """What is found once of a layer with a problem: its names, and its text if it has one.
+
+    `positions` are those in the text by path, time and asset.
+    """
 
     shown: str
     real: str
     link: str | None
     text: TextLayer | None
+    positions: dict[tuple[str, float | None, str | None], Position | None]
+
+    def position(
+        self, path: str, time: float | None, asset: str | None, prim: str
+    ) -> Position | None:
+        """The position of a spec in the text; found once where others than its own prim show it."""
+        if self.text is None:
+            return None
+        if path.startswith(prim):
+            return self.text.find(path, time=time, asset=asset)
+        key = (path, time, asset)
+        if key not in self.positions:
+            self.positions[key] = self.text.find(path, time=time, asset=asset)
+        return self.positions[key]
 
 
 class Sites:
@@ -105,7 +122,7 @@ class Sites:
         layer = self._layer(blamed)
         path = str(spec.path) if spec else "/"
         asset = blame.clip or blame.asset or problem.asset
-        position = layer.text.find(path, time=blame.time, asset=asset) if layer.text else None
+        position = layer.position(path, blame.time, asset, on_stage.path)
         site = Site(
             layer=layer.shown,
             variant=_variants(spec.path) if spec and "{" in path else None,
@@ -132,7 +149,7 @@ class Sites:
         if key not in self._layers:
             text = self._texts.of(layer)
             names = shown_name(layer, self._stage), real_name(layer), link_to(layer)
-            self._layers[key] = _Layer(*names, text)
+            self._layers[key] = _Layer(*names, text, {})
         return self._layers[key]
 
 

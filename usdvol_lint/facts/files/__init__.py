@@ -11,6 +11,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 if TYPE_CHECKING:
+    from usdvol_lint.facts.files.absences import Absences
     from usdvol_lint.facts.files.alike import Namesakes
     from usdvol_lint.facts.files.animation import EmptyClip
     from usdvol_lint.facts.files.assets import Affected, AssetSamples
@@ -97,11 +98,7 @@ class Files(Wing):
 
         `by` is the layer that names it as a layer, which is neither itself nor the stage's.
         """
-        from usdvol_lint.facts.files.corrections import find_absence
-
-        root = self._stage.GetRootLayer().realPath
-        not_meant, reader = ((by.realPath, root), "") if by else ((), root)
-        return find_absence(self._disk, path, authored, not_meant, reader)
+        return self._absences.of(path, authored, by.realPath if by else None)
 
     def is_assumed(self, *names: str) -> bool:
         """Whether the configuration takes a file that goes by these names to be there."""
@@ -125,10 +122,8 @@ class Files(Wing):
     @fact
     def missing_folder(self, field: Any) -> str | None:
         """The missing folder that all missing files of a field lie below, or None."""
-        from usdvol_lint.facts.files.absences import common_missing_folder
-
         missing = self.missing(field)
-        return common_missing_folder(missing, self._disk) if missing else None
+        return self._absences.common_folder(missing) if missing else None
 
     def alike(self, field: Any) -> str | None:
         """A key that the fields of a prim share which name the same files; None for one alone."""
@@ -199,6 +194,12 @@ class Files(Wing):
         from usdvol_lint.facts.files.stillness import Packs
 
         return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
+
+    @cached_property
+    def _absences(self) -> Absences:
+        from usdvol_lint.facts.files.absences import Absences
+
+        return Absences(self._disk, self._stage.GetRootLayer().realPath)
 
     @cached_property
     def _namesakes(self) -> Namesakes:

@@ -7,7 +7,7 @@ from itertools import chain
 from math import isnan
 
 from usdvol_lint.facts.files.assets import Affected, AssetSamples
-from usdvol_lint.facts.files.corrections import missing_folder
+from usdvol_lint.facts.files.corrections import Absence, find_absence, missing_folder
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.letter_case import Recased
 from usdvol_lint.facts.files.malformed import hides_file
@@ -43,10 +43,34 @@ def unexplained(
     return paths.affected(sample for sample in missing.samples if sample not in explained)
 
 
-def common_missing_folder(missing: Affected, disk: Disk) -> str | None:
-    """The topmost missing folder above all missing files, if their paths have one folder."""
-    folders = {split_path(sample.path)[0] for sample in missing.samples}
-    return missing_folder(disk, missing.anchored()) if len(folders) == 1 else None
+class Absences:
+    """Why nothing is at paths of one stage: found once, however many fields name a path.
+
+    `root` is the layer of the stage.
+    """
+
+    def __init__(self, disk: Disk, root: str) -> None:
+        self._disk = disk
+        self._root = root
+        self._found: dict[tuple[str, str, str | None], Absence] = {}
+        self._folders: dict[str, str | None] = {}
+
+    def of(self, path: str, authored: str, by: str | None) -> Absence:
+        """Why nothing is at a path, which the layer `by` names as a layer, if one does."""
+        key = (path, authored, by)
+        if key not in self._found:
+            not_meant, reader = ((by, self._root), "") if by is not None else ((), self._root)
+            self._found[key] = find_absence(self._disk, path, authored, not_meant, reader)
+        return self._found[key]
+
+    def common_folder(self, missing: Affected) -> str | None:
+        """The topmost missing folder above all missing files, if their paths have one folder."""
+        if len({split_path(sample.path)[0] for sample in missing.samples}) > 1:
+            return None
+        path = missing.anchored()
+        if path not in self._folders:
+            self._folders[path] = missing_folder(self._disk, path)
+        return self._folders[path]
 
 
 def what_to_write(sequence: SampleSequence | None) -> str:
