@@ -62,7 +62,7 @@ class Engine:
     ) -> None:
         self._known = rules
         self._suppressions = suppressions or InStages()
-        self._rules = [rules[code] for code in active.severities]
+        self._rules = [rules[code] for code in sorted({*active.severities, *active.watching})]
         self._active = active
         self._telling = active.telling
         self._idle = tuple(idle_rules(self._rules))
