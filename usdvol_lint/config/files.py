@@ -105,7 +105,8 @@ def _value(path: Path, key: str, value: Any) -> Any:
     if key not in CHECKS:
         raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
     where = _in(path)(key)
-    anchored = _anchored(key, CHECKS[key](where, plain(where, value)), path.parent)
+    plain(where, value, has_nul=key == "options")
+    anchored = _anchored(key, CHECKS[key](where, value), path.parent)
     for folder in anchored if key == "search-path" else ():
         if not isdir(folder):
             raise UsageError(f"{path}: {key}: there is no folder {quoted(folder)}")

@@ -34,21 +34,23 @@ _NO_LEVELS = ("ignore", "ignored", "off", "none", "never", False)
 """What somebody writes for the severity of a rule that is to report nothing."""
 
 
-def plain(where: str, value: Any) -> Any:
-    """The value, unless something in it can be no path, no name and no number of a setting."""
+def plain(where: str, value: Any, has_nul: bool = False) -> None:
+    """Raises UsageError if something in a value can be no path, no name and no number of a setting.
+
+    `has_nul` is for the options of rules, which may have any text.
+    """
     match value:
         case dict():
             for name, inner in value.items():
-                plain(where, name)
-                plain(where, inner)
+                plain(where, name, has_nul)
+                plain(where, inner, has_nul)
         case list():
             for item in value:
-                plain(where, item)
-        case str() if "\0" in value:
+                plain(where, item, has_nul)
+        case str() if "\0" in value and not has_nul:
             raise UsageError(f"{where} has a NUL character, which nothing is called: leave it out")
         case int() if abs(value) > _LARGEST:
             raise UsageError(f"{where} has a number of more than 64 bits, which no setting is")
-    return value
 
 
 def strings(where: str, value: Any) -> list[str]:
