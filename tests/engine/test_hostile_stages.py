@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hostiles import FIELD, HEADER, TWO, VOLUME, chain, forwarding, nested, tree, world
+from hostiles import FIELD, HEADER, TWO, VOLUME, chain, forwarding, instance, nested, tree, world
 
 from usdvol_lint.engine import stamp
+from usdvol_lint.engine.blame import Blaming
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.site import Sites
 from usdvol_lint.engine.suppressions import Suppressions
@@ -83,6 +84,37 @@ def test_places_that_are_not_looked_at_are_said(lint: Any) -> None:
         "show it (shown by 2,097,152 instances)"
     )
     assert not of(lint(world(TWO, FIELD) + tree(4, MOVED)), "LNT005")
+
+
+def test_groups_of_clips_that_are_not_looked_at_are_said(lint: Any) -> None:
+    """Each instance stands below clips of its own, none of which reach into what it shows."""
+
+    def carrier(number: int) -> str:
+        keys = 'string primPath = "/a"\nasset[] assetPaths = [@./c.usda@]\n'
+        clips = f"clips = {{\ndictionary default = {{\n{keys}}}\n}}\n"
+        return f'def Xform "c{number:03}" (\n{clips})\n{{\n{instance("i", "/_a")}}}\n'
+
+    asset = f'class Xform "_a"\n{{\n{FIELD}}}\n'
+    [found] = of(lint(world(*map(carrier, range(103))) + asset), "LNT005")
+    assert found.message == (
+        "whether value clips reach it was looked at below 100 of 103 groups of prims with clips "
+        "that it stands below (shown by 103 instances)"
+    )
+    assert not of(lint(world(*map(carrier, range(100))) + asset), "LNT005")
+
+
+@pytest.mark.parametrize("last", ["</nowhere>", "</w.r0>", "</w.r7>"])
+def test_what_relationships_forward_to_is_asked_once(
+    last: str, lint: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[Any] = []
+    own = Blaming._own
+    monkeypatch.setattr(Blaming, "_own", lambda self, at: asked.append(at) or own(self, at))
+    links = 60
+    text = forwarding(links).replace("</w/v/f>", last)
+    told = {each.site.property for each in lint(text).findings}
+    assert told >= {f"field:n{link}" for link in range(links)}
+    assert len(asked) < 6 * links
 
 
 def test_shares_of_instances_by_path(engine: Engine, catalog: Any, lint: Any) -> None:

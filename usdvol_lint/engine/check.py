@@ -87,8 +87,8 @@ class StageCheck:
         for text in self._broken:
             failures.add(NOT_CHECKED, facts.stage.GetPseudoRoot(), text)
         self._broken.clear()
-        for prim, looked_at in cut_short(facts.stage):
-            yield from self._stamp.stamp(NOT_CHECKED, _partly_placed(prim, looked_at))
+        for prim, words in cut_short(facts.stage):
+            yield from self._stamp.stamp(NOT_CHECKED, _cut_short(prim, words))
         yield from self._failed(failures)
         yield from self._stamp.suppressions(facts.stage, failures.prims)
         yield from self._failed(Failures())
@@ -148,11 +148,6 @@ class StageCheck:
                 yield rule, root
 
 
-def _partly_placed(prim: Any, looked_at: int) -> NotChecked:
+def _cut_short(prim: Any, words: str) -> NotChecked:
     """That a prim is shown more often than could be looked at."""
-    return NotChecked(
-        f"where it is and when it is visible was looked at for the first {looked_at:,} of the "
-        "instances that show it",
-        at=prim,
-        suggestion="check the asset that is instanced by itself",
-    )
+    return NotChecked(words, at=prim, suggestion="check the asset that is instanced by itself")
