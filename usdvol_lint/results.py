@@ -49,8 +49,8 @@ class Cause(NamedTuple):
     """One thing to mend, whatever number of stages, instances and variants show it.
 
     `source` is what is to blame, with the layer as fingerprints have it: in relation to the root.
-    `severity` is the worst of all places, `cover` joins theirs; `places` are the first ones, and
-    `count` is the number of all.
+    `severity` is the worst of all places, `cover` joins theirs; `places` are the first ones,
+    `count` is the number of all, and `here` that of those on the first stage.
     `was` is what the baseline has, where that is less; `reason` is why the first of its places is
     suppressed, if all are: each has its own.
     """
@@ -64,6 +64,7 @@ class Cause(NamedTuple):
     state: State = State.NEW
     was: Cover | None = None
     reason: str | None = None
+    here: int = 1
 
     @property
     def first(self) -> Finding:

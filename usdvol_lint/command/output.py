@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
@@ -167,7 +168,7 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
     UsageError names these files.
     """
     failures = []
-    plain = options._replace(color=False, width=80, quiet=False)
+    for_files = plain(options)
     for destination in destinations:
         format, file, _ = destination
         if file is None:
@@ -175,16 +176,21 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
             print_text(guarded(parts) if format in TEXTS and is_github() else parts)
             continue
         try:
-            _write_file(destination, file, report, plain)
+            _write_file(destination, file, report, for_files)
         except OSError as error:
             if destination.is_added:  # the host's own, for which nobody asked
                 said = f"the summary of the step (GITHUB_STEP_SUMMARY) can't be written: {file}"
                 print(f"usdvol-lint: {printable(said)}: {error.strerror}", file=sys.stderr)
                 continue
             failures.append(f"--output {file}: {error.strerror}")
-            print_text(written(report, format, plain))
+            print_text(written(report, format, for_files))
     if failures:
         raise UsageError("; ".join(failures))
+
+
+def plain(options: Options) -> Options:
+    """The options for a report in a file."""
+    return options._replace(color=False, width=80, quiet=False)
 
 
 def _write_file(destination: Destination, file: str, report: Report, options: Options) -> None:
@@ -226,27 +232,49 @@ def _terminal_wants_color() -> bool:
 
 def print_text(parts: Iterable[str]) -> None:
     """Writes text as UTF-8 whatever the locale, which may lack characters of a stage's names."""
-    if sys.stdout is None:
-        raise UsageError("there is no standard output to print to")
-    try:
-        sys.stdout.flush()
-        _write(sys.stdout.buffer, parts)
-        sys.stdout.buffer.flush()
-    except OSError as error:
-        # What is left in the buffer must not fail again when Python exits.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        # A reader that closed the pipe, as `head` does, is no failure.
-        if not isinstance(error, BrokenPipeError):
-            raise UsageError(f"can't write to standard output: {error.strerror}") from error
+    printer = Printer()
+    printer.print(parts)
+    printer.close()
+
+
+class Printer:
+    """Prints text as it comes; what can't be printed is said once all of it came."""
+
+    def __init__(self) -> None:
+        self._why_not = "" if sys.stdout else "there is no standard output to print to"
+        self._is_over = sys.stdout is None
+
+    def print(self, parts: Iterable[str]) -> None:
+        if self._is_over or sys.stdout is None:
+            return
+        try:
+            sys.stdout.flush()
+            _write(sys.stdout.buffer, parts)
+            sys.stdout.buffer.flush()
+        except OSError as error:
+            # What is left in the buffer must not fail again when Python exits.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+            self._is_over = True
+            # A reader that closed the pipe, as `head` does, is no failure.
+            if not isinstance(error, BrokenPipeError):
+                self._why_not = f"can't write to standard output: {error.strerror}"
+
+    def close(self) -> None:
+        """Raises UsageError where not all was printed."""
+        if self._why_not:
+            raise UsageError(self._why_not)
 
 
 def _replace(file: Path, parts: Iterable[str]) -> None:
-    if _is_device(file):
-        with open(file, "wb") as device:
-            _write(device, parts)
-        return
-    with replacing(file) as stream:
-        _write(stream, parts)
+    with write_to(file) as write:
+        write(parts)
+
+
+@contextmanager
+def write_to(file: Path) -> Iterator[Callable[[Iterable[str]], None]]:
+    """What takes the parts of a text for a file, which is replaced once all are there."""
+    with open(file, "wb", 0) if _is_device(file) else replacing(file) as stream:
+        yield lambda parts: _write(stream, parts)
 
 
 def _write(file: BinaryIO, parts: Iterable[str]) -> None:
