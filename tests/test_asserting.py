@@ -7,11 +7,13 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from process import ROOT, environment, write
 
-from usdvol_lint import Config, UsageError, assert_clean
+from usdvol_lint import Config, UsageError, assert_clean, lint
+from usdvol_lint.config import Glob
 
 STAGE = """\
 #usda 1.0
@@ -145,6 +147,60 @@ def test_only_a_configuration_that_is_named_counts(here: Path) -> None:
 def test_mistakes_are_no_finding(call: str, words: str, here: Path) -> None:
     with pytest.raises(UsageError, match=re.escape(words)):
         eval(call)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"exclude": (3,)}, "exclude must be a list of strings, not [3]"),
+        ({"exclude": "*"}, "exclude must be a list of strings, not '*'"),
+        ({"exclude": 3}, "exclude must be a list of strings, not 3"),
+        ({"exclude": (Glob(None, "*"),)}, "exclude: the folder of a pattern must be a text"),  # type: ignore[arg-type]
+        ({"stages": ("!",)}, "stages: '!' is no pattern"),
+        ({"frames": "1-x"}, "frames: write it as FIRST-LAST, such as 1001-1100, not '1-x'"),
+        ({"frames": (10, 1)}, "frames: '10-1' ends before it begins"),
+        ({"frames": (1, "x")}, "frames: write it as FIRST-LAST, such as 1001-1100, not '1-x'"),
+        ({"per_path": ({"files": "a"},)}, "per_path, table 1: say what is so there"),
+        ({"per_path": 3}, "per_path must be tables, each below a line [[per-path]], not [3]"),
+        ({"suppress": ({"rules": "AST"},)}, "suppress, table 1: 'reason' must say why"),
+        ({"ignore": "AST"}, "ignore must be a list of strings, not 'AST'"),
+        ({"select": "AST"}, "select must be a list of strings, not 'AST'"),
+        ({"severity": {"AST": "nfo"}}, "severity.AST must be one of"),
+        ({"severity": {3: "info"}}, "severity must be a table with texts as keys, not 3"),
+        ({"options": {"AST002": 3}}, "options.AST002 must be a table, not 3"),
+        ({"jobs": "x"}, "jobs must be a whole number from 0, not 'x'"),
+        ({"jobs": None}, "jobs must be a whole number from 0, not None"),
+        ({"statistics": 1}, "statistics must be true or false, not 1"),
+        ({"required_version": ">9"}, "required_version is '>9', and this is usdvol-lint"),
+        ({"version_pattern": "("}, "version_pattern: '(' is no regular expression"),
+        ({"today": "x"}, "today must be a date"),
+        ({"search_path": ("gone",)}, "search_path: there is no folder 'gone'"),
+        ({"path_map": {"": "cache"}}, "path_map has an empty beginning, which every path has"),
+        ({"path_map": {"P:/": ""}}, "path_map.P:/ must not be empty"),
+        ({"origins": 3}, "the settings must be a usdvol_lint.Config"),
+    ],
+)
+def test_wrong_settings_of_a_program_are_no_finding(
+    settings: dict[str, Any], words: str, here: Path
+) -> None:
+    config = Config(**settings)
+    with pytest.raises(UsageError, match=re.escape(words)):
+        assert_clean("uri.usda", config=config)
+    with pytest.raises(UsageError, match=re.escape(words)):
+        lint(["uri.usda"], config)
+
+
+def test_settings_of_a_program_mean_what_those_of_a_file_do(here: Path) -> None:
+    assert_clean(here, config=Config(exclude=("gone.usda",)))  # type: ignore[arg-type]
+    assert_clean(here, config=Config(ignore=["AST"], frames=(1, 10)))  # type: ignore[arg-type]
+    later = {"files": "/gone.usda", "ignore": ["AST"]}
+    assert_clean(here, config=Config(per_path=(later,), root=str(here)))  # type: ignore[arg-type]
+    (here / "lax.toml").write_text("content = 'off'\nfail-on-unchecked = true", encoding="utf-8")
+    refused = "needs a run that looks at everything: leave out "
+    with pytest.raises(UsageError, match=f"{refused}content off"):
+        assert_clean("uri.usda", config=Config(fail_on_unchecked=True, content="off"))
+    with pytest.raises(UsageError, match=f"{refused}lax.toml: content = 'off'"):
+        assert_clean("uri.usda", config="lax.toml")
 
 
 def exporter(folder: Path, text: str) -> list[str]:

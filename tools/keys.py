@@ -302,6 +302,10 @@ KEYS: Mapping[str, Key] = {
         "table of beginnings of paths, and where volume files with them really are",
         "`{}`",
         '`path-map = { "P:/" = "/mnt/show/" }`',
-        {"type": "object", "additionalProperties": {"type": "string", "minLength": 1}},
+        {
+            "type": "object",
+            "propertyNames": {"minLength": 1},
+            "additionalProperties": {"type": "string", "minLength": 1},
+        },
     ),
 }

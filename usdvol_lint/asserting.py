@@ -9,6 +9,7 @@ from pathlib import Path
 from usdvol_lint.command.codes import CLEAN, exit_code
 from usdvol_lint.config import FAIL_ON, Config
 from usdvol_lint.config.files import read_config
+from usdvol_lint.config.given import checked
 from usdvol_lint.config.values import filled, one_of
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.report import Options, render
@@ -41,7 +42,9 @@ def assert_clean(
     if not named:
         raise UsageError("assert_clean: nothing to check: name a stage or a folder")
     file = None if config is None or isinstance(config, Config) else Path(_path("config", config))
-    base = read_config(file) if file else config if isinstance(config, Config) else Config()
+    base = checked(
+        read_config(file) if file else config if isinstance(config, Config) else Config()
+    )
     settings = base._replace(
         select=base.select if select is None else _codes("select", select),
         ignore=base.ignore + _codes("ignore", ignore),

@@ -253,9 +253,10 @@ def rule(
 ) -> Callable[[Check], Rule]:
     """Makes a rule of the generator below it, which it is named after: `file-missing`.
 
-    Raises ValueError for a `when` whose keys no wing declares, whose options the rule lacks, or
-    that no prim of these types ever meets.
+    Raises ValueError for what is no code, severity or text, and for a `when` whose keys no wing
+    declares, whose options the rule lacks, or that no prim of these types ever meets.
     """
+    _check_words(code, severity, since)
     types = (on,) if isinstance(on, str) else on
     if not types:
         raise ValueError(f"{code}: `on` names no type")
@@ -281,3 +282,13 @@ def rule(
         )
 
     return decorate
+
+
+def _check_words(code: Any, severity: Any, since: Any) -> None:
+    """Raises ValueError for what would fail where rules are sorted, judged or compared."""
+    if not isinstance(code, str):
+        raise ValueError(f"the code of a rule is a text such as 'STU001', not {code!r}")
+    if not isinstance(severity, Severity):
+        raise ValueError(f"{code}: `severity` is ERROR, WARNING or INFO, not {severity!r}")
+    if not isinstance(since, str):
+        raise ValueError(f"{code}: `since` is a text such as '0.1', not {since!r}")

@@ -71,7 +71,7 @@ def test_inputs_become_arguments(runner: Runner) -> None:
     assert told(runner) == ["--", "."]
     given = told(
         runner,
-        paths="shots\n  my assets/a.usda  \n\n",
+        paths="shots \r\n  my assets/a.usda  \n \r\n\t\n",
         args="--fail-on warning\n--ignore 'VOL012, SCH'",
         sarif_file="out/usdvol lint.sarif",
         category="nightly run",

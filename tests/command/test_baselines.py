@@ -41,6 +41,26 @@ def test_a_library_is_adopted(library: Path) -> None:
     assert checked(".", cwd=library).code == 0, "what sub does not cover was kept"
 
 
+def test_what_a_run_does_not_look_at_is_kept(library: Path) -> None:
+    """Also where the baseline is written without being read, or nothing is checked."""
+    write = ("--no-baseline", "--write-baseline", "b.jsonl")
+    checked(*write, ".", cwd=library)
+    before = (library / "b.jsonl").read_text("utf-8")
+    assert checked(*write, "fog.usda", cwd=library).code == 0
+    assert (library / "b.jsonl").read_text("utf-8") == before
+    (library / "empty.txt").touch()
+    for nothing in (("--exclude", "*", "."), ("--files-from", "empty.txt")):
+        for options in (write, write[1:]):
+            ran = checked(*options, *nothing, cwd=library)
+            assert (ran.code, ran.err) == (0, "")
+            assert ran.out.startswith("nothing to check: ")
+            assert ran.out.endswith("; b.jsonl stays as it is\n")
+            assert (library / "b.jsonl").read_text("utf-8") == before
+    (library / "fog.usda").unlink()
+    assert checked(*write, ".", cwd=library).code == 0
+    assert "fog" not in (library / "b.jsonl").read_text("utf-8")
+
+
 def states(library: Path) -> list[str]:
     ran = checked(".", "--output-format", "json", cwd=library)
     return [cause["state"] for cause in ran.json["causes"]]

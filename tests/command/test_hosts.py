@@ -33,6 +33,18 @@ def test_in_a_job_the_log_has_text_and_annotations_and_the_step_a_summary(tmp_pa
     assert "AST002" in summary.read_text()
 
 
+def test_a_text_in_a_file_leaves_the_log_of_a_job_what_it_has(tmp_path: Path) -> None:
+    (tmp_path / "broken.usda").write_text(BROKEN)
+    ran = run(*ONLY, "--output", "report.txt", "broken.usda", cwd=tmp_path)
+    assert (ran.out, (tmp_path / "report.txt").read_text().count("AST002")) == ("", 1)
+    env = environment(GITHUB_ACTIONS="true", GITHUB_STEP_SUMMARY=str(tmp_path / "summary.md"))
+    ran = run(*ONLY, "--output", "report.txt", "broken.usda", cwd=tmp_path, env=env)
+    assert "    AST002 error: " in ran.out
+    assert "::error file=broken.usda," in ran.out
+    assert "AST002" in (tmp_path / "summary.md").read_text()
+    assert (tmp_path / "report.txt").read_text().count("AST002") == 1
+
+
 def test_a_hook_adds_nothing_to_the_summary_of_a_job(tmp_path: Path) -> None:
     write(tmp_path, fog=volume("fog"))
     (tmp_path / "broken.usda").write_text(BROKEN)

@@ -280,3 +280,18 @@ def test_what_goes_wrong_in_the_tool_itself_is_no_finding(
     monkeypatch.setattr(linting, "lint_stages", fail)
     said = "usdvol-lint: internal error: RuntimeError: two lines (--verbose shows more)\n"
     assert tool(".") == Ran(2, "", said)
+
+
+@pytest.mark.parametrize(("file", "arguments"), [("select = []", ""), ("", "--ignore ALL")])
+def test_a_run_without_rules_says_so(
+    file: str, arguments: str, tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    (tmp_path / "usdvol-lint.toml").write_text(file, encoding="utf-8")
+    write(tmp_path, fog=volume("fog"))
+    ran = tool(*arguments.split(), "fog.usda")
+    said = (
+        "usdvol-lint: no rule is on, as `select` and `ignore` say: only what can't be read is told"
+    )
+    assert (ran.code, ran.err) == (0, f"{said}\n")
+    assert tool(*arguments.split(), "--quiet", "fog.usda").err == ""
+    assert tool("--select", "STG003", "fog.usda").err == ""

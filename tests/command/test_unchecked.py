@@ -66,6 +66,18 @@ def uri(folder: Path) -> Path:
         (STUDIO_FIELD, "", "LNT005"),
         (STUDIO_FIELD, "--ignore LNT", "LNT005"),
         (STUDIO_FIELD, "--select VOL", "LNT005"),
+        *(
+            (STUDIO_FIELD, f"--{chosen}", "LNT005")
+            for chosen in (
+                "select AST",
+                "select VOL001",
+                "ignore VOL",
+                "ignore VOL002",
+                "ignore ALL",
+            )
+        ),
+        *((URI, f"--{chosen}", "AST010") for chosen in ("ignore AST", "select PRT", "ignore ALL")),
+        (URI, "--config lax.toml", "AST010"),
         (ALEMBIC, "--ignore AST", "LNT005"),
         (ALEMBIC.replace(".abc", ".usda"), "--severity STG001=info", "STG001"),
         (VARIANTS, "--ignore VOL --variants all --config few.toml", "LNT005"),
@@ -76,6 +88,8 @@ def test_what_was_not_checked_fails_the_run(
 ) -> None:
     """And is told, since nobody could see otherwise why the run failed."""
     (tmp_path / "set.abc").write_text("Ogawa")
+    per_path = '[[per-path]]\nfiles = "**"\nignore = ["AST"]\n'
+    (tmp_path / "lax.toml").write_text(per_path, encoding="utf-8")
     (tmp_path / "few.toml").write_text("variant-limit = 1", encoding="utf-8")
     write(tmp_path, stage=text)
     ran = run("--fail-on-unchecked", "--quiet", *arguments.split(), "stage.usda", cwd=tmp_path)
@@ -134,7 +148,7 @@ def test_every_format_knows_that_it_fails_the_run(tmp_path: Path) -> None:
                 f"--ignore {code}",
                 f"--ignore: {code} can't be ignored with --fail-on-unchecked: leave one out",
             )
-            for code in ("LNT005", "lnt004")
+            for code in ("LNT005", "lnt004", "AST010", "STG001", "path-unverifiable")
         ),
     ],
 )
@@ -143,6 +157,33 @@ def test_it_excludes_what_leaves_something_out(
 ) -> None:
     ran = tool("--fail-on-unchecked", "--show-settings", *arguments.split())
     assert ran == Ran(2, "", f"usdvol-lint: error: {said}\n")
+
+
+def test_it_excludes_what_hides_it_by_path(tmp_path: Path) -> None:
+    for said, ignored in (("LNT005", '["LNT005"]'), ("AST010", '["VOL", "AST010"]')):
+        text = f'[[per-path]]\nfiles = "**"\nignore = {ignored}\n'
+        (tmp_path / "usdvol-lint.toml").write_text(text, encoding="utf-8")
+        ran = run("--fail-on-unchecked", "uri.usda", cwd=uri(tmp_path))
+        told = f"ignore: {said} can't be ignored with --fail-on-unchecked: leave one out"
+        assert (ran.code, ran.out) == (2, "")
+        assert ran.err.endswith(f"per-path, table 1: {told}\n")
+
+
+def test_it_excludes_what_is_assumed(tmp_path: Path) -> None:
+    (tmp_path / "usdvol-lint.toml").write_text('assume-present = ["/mnt/**"]', encoding="utf-8")
+    ran = run("--fail-on-unchecked", "uri.usda", cwd=uri(tmp_path))
+    said = "--fail-on-unchecked needs a run that looks at everything: leave out "
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err.startswith(f"usdvol-lint: error: {said}")
+    assert ran.err.endswith("usdvol-lint.toml: assume-present\n")
+
+
+def test_what_only_watches_finds_nothing(tmp_path: Path) -> None:
+    """A rule that is not in force says what it can't check, and nothing of what is wrong."""
+    missing = FIELD.replace("</smoke/density>", "</smoke/gone>").replace("FILE", "./a.vdb")
+    write(tmp_path, stage=missing)
+    ran = run("--fail-on-unchecked", "--quiet", "--select", "PRT", "stage.usda", cwd=tmp_path)
+    assert ran == Ran(0, "", "")
 
 
 def test_every_rule_that_says_so_is_known() -> None:

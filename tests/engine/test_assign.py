@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import shutil
+import weakref
 from collections import Counter
 from pathlib import Path
 
@@ -16,11 +17,13 @@ from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts import Context, Facts, Walked
+from usdvol_lint.facts.found import Wing, summary
 from usdvol_lint.facts.grids.contents import ContentClass
+from usdvol_lint.facts.prims.tables import Table
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.model import Severity
 from usdvol_lint.packs.catalog import Catalog
-from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule
+from usdvol_lint.rule import ABSTRACT_TYPE, STAGE, UNKNOWN_TYPE, Rule, When
 
 
 def assigned(stage: Usd.Stage, found: Walked, rules: list[Rule]) -> list[tuple[Rule, Usd.Prim]]:
@@ -178,3 +181,27 @@ def test_stages_whose_files_hold_the_same_share_a_key(engine: Engine, tmp_path: 
         return sum(isinstance(each, ContentClass) for each in gc.get_objects())
 
     assert lint("a") == lint("b")
+
+
+class Key:
+    """A key of somebody's own, which may hold anything of its stage."""
+
+
+def test_no_key_of_a_stage_is_kept_in_memory(tmp_path: Path) -> None:
+    kept: list[weakref.ref[Key]] = []
+
+    class Keys(Wing):
+        @summary
+        def own(self, table: Table) -> list[Key]:
+            keys = [Key() for _ in table.prims]
+            kept.extend(map(weakref.ref, keys))
+            return keys
+
+    stage = Usd.Stage.Open(write_stage(tmp_path, 'def Volume "a" {}'))
+    rules = [asks("ONE001", "Volume")._replace(when=When(Keys.own, lambda key: True))]
+    found = walk(stage, asked_by(rules), PrimKinds())
+    facts = Facts(Context.of(stage), found)
+    facts.keys = Keys(facts.tables)  # type: ignore[attr-defined]
+    assignment = Assignment(rules, {})
+    assert len(list(assignment.pairs(found, facts, lambda *failure: None))) == 1
+    assert [reference() for reference in kept] == [None]

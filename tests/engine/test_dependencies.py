@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -10,6 +10,7 @@ from pxr import UsdUtils
 
 from usdvol_lint.config import Storage
 from usdvol_lint.engine.dependencies import concerned
+from usdvol_lint.engine.search_path import set_search_path
 from usdvol_lint.files.names import names_of
 
 LAYERS = {
@@ -28,6 +29,12 @@ LAYERS = {
         "        1: @./fog.0001.vdb@,\n        2: @./fog.0002.vdb@,\n    }\n}\n"
     ),
     "searched": 'def OpenVDBAsset "d" {\n    asset filePath = @library/fog.vdb@\n}\n',
+    "arguments": (
+        "(\n    subLayers = [@./gone.usda:SDF_FORMAT_ARGS:a=b@]\n)\n"
+        'def "x" (\n    references = [\n        @./gone.usdz[x.usda:SDF_FORMAT_ARGS:a=b]@</x>,\n'
+        "        @./away.usdz[x.usda]:SDF_FORMAT_ARGS:a=b@</x>\n    ]\n) {\n}\n"
+    ),
+    "fallback": 'def OpenVDBAsset "d" {\n    asset filePath = @vol/fog.vdb@\n}\n',
     "shared": 'def OpenVDBAsset "d" {\n    asset filePath = @P:/fog.vdb@\n}\n',
     "clips": (
         'def "x" (\n    clips = {\n        dictionary default = {\n'
@@ -41,7 +48,7 @@ LAYERS = {
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.chdir(tmp_path)
     for name, text in LAYERS.items():
         Path(f"{name}.usda").write_text(f"#usda 1.0\n{text}", encoding="utf-8")
@@ -50,8 +57,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("packed.usda").write_text(
         '#usda 1.0\ndef "x" (\n    references = @./sub.usdz[sub.usda]@</x>\n) {\n}\n'
     )
-    Path("fog.0001.vdb").touch()
-    return tmp_path
+    for name in ("fog.0001.vdb", "second/vol/fog.vdb"):
+        Path(name).parent.mkdir(parents=True, exist_ok=True)
+        Path(name).touch()
+    set_search_path(["first", "second"])
+    yield tmp_path
+    set_search_path([])
 
 
 @pytest.mark.parametrize(
@@ -64,6 +75,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (["fog.0003.vdb"], "frames"),  # gone, and named until then, as far as anybody knows
         (["library/fog.vdb"], "searched"),
         (["share/fog.vdb"], "shared"),
+        (["gone.usda"], "arguments"),
+        (["gone.usdz"], "arguments"),
+        (["away.usdz"], "arguments"),
+        (["first/vol/fog.vdb"], "fallback"),  # found before that in `second`, until it was gone
+        (["vol/fog.vdb"], "fallback"),
+        (["first/vol/smog.vdb"], ""),
         (["clip.001.usda"], "clip.001 clips"),
         (["clip.002.usda"], "clip.001 clips"),
         (["sub.usdz"], "packed"),
@@ -73,7 +90,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 )
 def test_who_uses_what_changed(changed: Sequence[str], stages: str, folder: Path) -> None:
     paths = frozenset(name for path in changed for name in names_of(path))
-    concerns = concerned(paths, Storage(path_map={"P:/": str(folder / "share")}))
+    storage = Storage(("first", "second"), path_map={"P:/": str(folder / "share")})
+    concerns = concerned(paths, storage)
     found = [path.stem for path in sorted(folder.glob("*.usda")) if concerns(path.name)]
     # Nobody knows what a stage uses that can't be read.
     assert found == sorted({*stages.split(), "garbage"})
@@ -84,6 +102,10 @@ def test_a_folder_that_changed_as_one(folder: Path) -> None:
     """A submodule, or the link that leads to it."""
     concerns = concerned(frozenset(names_of(str(folder))), Storage())
     assert concerns("alone.usda")
+    (folder / "second" / "other").mkdir()
+    concerns = concerned(frozenset(names_of(str(folder / "second" / "other"))), Storage())
+    assert concerns("searched.usda")  # nobody knows what was in it
+    assert not concerns("alone.usda")
 
 
 def test_a_path_that_is_not_utf_8_may_use_anything(folder: Path) -> None:

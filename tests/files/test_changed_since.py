@@ -89,6 +89,56 @@ def test_all_that_differs_from_the_merge_base(repository: Path) -> None:
     assert changes_since("main", [str(inside)], []) == changes_since("main", [str(repository)], [])
 
 
+def test_all_that_differs_in_submodules(
+    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each file, in submodules of submodules too, whatever git is told to ignore there."""
+    for name, inner in (("deep", ()), ("lib", ("deep",))):
+        own = tmp_path / name
+        own.mkdir()
+        git(own, "init", "--quiet")
+        for file in ("kept", "gone"):
+            (own / file).write_text(name)
+        _add_submodules(own, *inner)
+    _add_submodules(repository, "lib")
+    git(repository, "config", "diff.ignoreSubmodules", "all")
+    assert changed(repository, "HEAD") == set()
+    lib = repository / "lib"
+    (lib / "deep" / "new").touch()
+    assert changed(repository, "HEAD") == {"lib/deep/new"}
+    (lib / "gone").unlink()
+    git(lib, "commit", "--quiet", "--all", "--message", "two")
+    git(repository, "add", "--force", "lib")
+    git(repository, "-c", "diff.ignoreSubmodules=none", "commit", "--quiet", "--message", "bump")
+    # As for a hook.
+    monkeypatch.setenv("GIT_DIR", str(repository / ".git"))
+    monkeypatch.setenv("GIT_INDEX_FILE", str(repository / ".git" / "index"))
+    assert changed(repository, "HEAD~1") == {"lib/gone", "lib/deep/new"}
+    monkeypatch.undo()
+    git(repository, "checkout", "--quiet", "HEAD~1", "--", "lib")
+    git(lib, "reset", "--quiet", "--hard", "HEAD~1")
+    git(repository, "add", "--force", "lib")
+    (lib / "deep" / "new").unlink()
+    assert changed(repository, "HEAD~1") == set()
+    shutil.rmtree(lib)
+    assert changed(repository, "HEAD") == {"lib"}
+    lib.mkdir()  # as in a clone without its submodules
+    assert changed(repository, "HEAD~1") == set()
+    git(repository, "reset", "--quiet", "--hard", "HEAD")
+    assert changed(repository, "HEAD~1") == {"lib"}
+
+
+def _add_submodules(folder: Path, *names: str) -> None:
+    for name in names:
+        url = str(folder.parent / name)
+        local = ("-c", "protocol.file.allow=always")
+        git(folder, *local, "submodule", "--quiet", "add", url, name)
+        git(folder, *local, "submodule", "--quiet", "update", "--init", "--recursive")
+        git(folder, "config", "--file", ".gitmodules", f"submodule.{name}.ignore", "all")
+    git(folder, "add", "--all")
+    git(folder, "commit", "--quiet", "--message", "submodules")
+
+
 @pytest.mark.parametrize("revision", ["nope", "sub.usda", "main..topic", "HEAD~7"])
 def test_a_revision_that_is_none(revision: str, repository: Path) -> None:
     (repository / "sub.usda").write_text("changed")
@@ -176,6 +226,9 @@ def test_stages_that_use_what_changed(repository: Path) -> None:
     (repository / "notes.txt").touch()
     ran = run(*chosen, ".", cwd=repository)
     said = "nothing to check: none of 4 stages uses a file that changed since 'main'\n"
+    assert (ran.code, ran.out, ran.err) == (0, said, "")
+    ran = run(*chosen, "sub.usda", cwd=repository)
+    said = "nothing to check: the stage uses no file that changed since 'main'\n"
     assert (ran.code, ran.out, ran.err) == (0, said, "")
     (repository / "sub.usda").write_text(STAGE % ("", "    # more\n"), encoding="utf-8")
     assert checked() == {"shot.usda", "sub.usda"}

@@ -88,6 +88,8 @@ def test_what_leads_nowhere_is_told_at_once() -> None:
         "no such file or folder: 'xyzzy'"
     )
     assert refused(*map(str, range(12))).endswith("; and 2 more")
+    for name in ("x" * 5000, "shots/" * 1000):
+        assert refused(f"{name}/a.usda").startswith("no such file or folder: ")
 
 
 def test_the_nearest_folder_is_offered_with_what_is_in_it() -> None:
@@ -109,6 +111,11 @@ def test_links_are_followed_by_what_they_are() -> None:
     assert found("current") == ["current/a.usda", "current/inner/b.usda"]
     assert found("current/a.usda", "v002") == ["v002/a.usda", "v002/inner/b.usda"]
     assert found("**/a.usda") == ["v001/a.usda", "v002/a.usda"]
+    Path("v002/out.usda").symlink_to("../v001/a.usda")
+    Path("v002/outside").symlink_to("../v001")
+    everything = ["a.usda", "inner/b.usda", "out.usda", "outside/a.usda"]
+    assert found("current", "v002") == [f"v002/{name}" for name in everything]
+    assert found("current/out.usda", "v002/out.usda") == ["v002/out.usda"]
 
 
 @LINKS

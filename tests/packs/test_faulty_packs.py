@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 from process import run, volume, write
 
+from usdvol_lint.config.files import read_config
 from usdvol_lint.model import PackError
-from usdvol_lint.packs.catalog import load
+from usdvol_lint.packs.catalog import load, load_for
 
 RULE = """
 from usdvol_lint.rule import INFO, Problem, rule
@@ -239,3 +240,35 @@ def test_a_rule_that_has_something_to_look_at_says_nothing_of_it(
     ran = run("--isolated", "--pack", on(tmp_path, *types), *chosen, stages, cwd=tmp_path)
     assert ran.code == 0
     assert "looked at nothing" not in ran.out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            "severity=INFO",
+            "severity='warning'",
+            "FLT001: `severity` is ERROR, WARNING or INFO, not 'w",
+        ),
+        ('since="1"', "since=1", "FLT001: `since` is a text such as '0.1', not 1"),
+        ('"FLT001"', "1", "the code of a rule is a text such as 'STU001', not 1"),
+        ("def faulty", "def", "SyntaxError: "),
+        ('"FLT001"', '"FL1"', "a code is three capitals and three digits, not 'FL1'"),
+        ('"FLT001"', '"AST002"', "AST002 (faulty) takes the code or name of another rule"),
+        ("@rule", "# rule", "holds no rule: "),
+    ],
+)
+def test_a_pack_that_can_not_be_loaded_is_named_with_who_names_it(
+    old: str, new: str, said: str, tmp_path: Path
+) -> None:
+    text = RULE.format(problem="'seen', at=volume").replace(old, new)
+    if new == "# rule":
+        text = text.replace("rule(", "(")
+    (tmp_path / "pack").mkdir()
+    (tmp_path / "pack" / "faulty.py").write_text(text, encoding="utf-8")
+    (tmp_path / "own.toml").write_text("packs = ['pack']", encoding="utf-8")
+    with pytest.raises(PackError) as caught:
+        load_for(read_config(tmp_path / "own.toml"))
+    assert str(caught.value).startswith(f"{tmp_path / 'own.toml'}: packs: ")
+    assert said in str(caught.value)
+    assert "faulty" in str(caught.value) or "pack'" in str(caught.value)

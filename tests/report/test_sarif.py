@@ -173,6 +173,8 @@ def test_other_places_are_the_stages_that_show_it() -> None:
 def test_what_was_not_checked_is_no_success(stages: list[StageReport], text: str) -> None:
     (invocation,) = sarif(report(*stages))["invocations"]
     assert (invocation["executionSuccessful"], invocation["exitCode"]) == (False, 2)
+    interrupted = report(*stages)._replace(failure="interrupted", interrupted=15)
+    assert sarif(interrupted)["invocations"][0]["exitCode"] == 143
     (notification,) = invocation["toolExecutionNotifications"]
     assert notification["level"] == "error"
     assert text in notification["message"]["text"]

@@ -47,7 +47,7 @@ def test_a_broken_pack(modules: dict[str, str], said: str, tmp_path: Path) -> No
     pack(tmp_path / "pack", **modules)
     ran = run("--isolated", "--pack", "pack", ".", cwd=tmp_path)
     assert (ran.code, ran.out) == (2, "")
-    assert re.fullmatch(f"usdvol-lint: error: {said}\n", ran.err), ran.err
+    assert re.fullmatch(f"usdvol-lint: error: --pack: {said}\n", ran.err), ran.err
 
 
 def test_a_pack_that_prints_does_not_garble_the_report(tmp_path: Path) -> None:

@@ -78,9 +78,15 @@ class Prepared(NamedTuple):
     def apply(self, report: Report) -> Applied:
         """Compares the causes of a run with the baseline, and writes what is to be written.
 
-        In what was written all causes are known that it holds.
+        In what was written all causes are known that it holds.  A file that is replaced keeps what
+        the run did not look at.
         """
+        if self.use.write and not report.stages and os.path.exists(self.use.write):
+            file = printable(self.use.write)
+            return Applied(report._replace(nothing=f"{report.nothing}; {file} stays as it is"))
         compared, unmatched = _compared(report, self.baseline)
+        if self.use.write and self.baseline is None:
+            self = self._replace(baseline=_left_by(self.use.write, report))
         now = _scope(compared, self.baseline)
         told = compared._replace(baseline=_told(compared, self, unmatched, now.lacking))
         if not self.use.target:
@@ -109,6 +115,21 @@ def _is_first_write(use: Use) -> bool:
     if not use.read or not use.write or os.path.exists(use.read):
         return False
     return canonical(use.read) == canonical(use.write)
+
+
+def _left_by(file: str, report: Report) -> Baseline | None:
+    """The baseline that a run replaces which sees less; None where it sees all, or there is none.
+
+    One that can't be read, or goes by another root, is replaced as a whole.
+    """
+    if not os.path.exists(file):
+        return None
+    try:
+        baseline = read_baseline(file)
+    except UsageError:
+        return None
+    is_alike = baseline.root == report.root and not baseline.is_report
+    return baseline if is_alike and _scope(report, baseline).lacking else None
 
 
 class _Scopes(NamedTuple):

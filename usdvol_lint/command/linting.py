@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -18,7 +18,7 @@ from usdvol_lint.command.settings import read_settings
 from usdvol_lint.command.streaming import Streams
 from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
-from usdvol_lint.packs.catalog import load_for
+from usdvol_lint.packs.catalog import NOT_IGNORABLE, load_for
 from usdvol_lint.report import FOR_HOSTS, STREAMED
 from usdvol_lint.results import Report
 from usdvol_lint.run.causes import versions_in
@@ -80,6 +80,8 @@ def _ended(job: _Job, report: Report, streams: Streams) -> int:
         return job.end_early(report, streams)
     report, failure = job.prepared.apply(report) if job.prepared else (report, "")
     job.write(report._replace(failure=failure), streams)
+    if not given["quiet"]:
+        _tell_without_rules(report)
     if job.config.suppress and not given["quiet"]:
         _tell_expired(job.config)
     if failure:
@@ -196,6 +198,14 @@ def _prepared(given: dict[str, Any], config: Config) -> Prepared | None:
     from usdvol_lint.command.baselines import prepared
 
     return prepared(given, config)
+
+
+def _tell_without_rules(report: Report) -> None:
+    """Says on standard error that nothing was looked for, which a clean report does not show."""
+    rules = report.settings["rules"]
+    if report.stages and isinstance(rules, Mapping) and rules.keys() <= NOT_IGNORABLE:
+        said = "no rule is on, as `select` and `ignore` say: only what can't be read is told"
+        click.echo(f"usdvol-lint: {said}", err=True)
 
 
 def _tell_expired(config: Config) -> None:

@@ -52,7 +52,8 @@ def pair(said: Sequence[tuple[str, str]], default: str) -> list[Destination]:
 
     A file goes with the format before it, or else with that after it; a format without a file is
     for standard output, as is the file `-`.
-    If all are files in formats for programs, a text report is added for standard output.
+    If all are files in formats for programs, a text report is added for standard output, and in a
+    job of GitHub also where the text goes to a file: the log would have nothing.
     Raises UsageError where the numbers don't match or a file is named twice.
     """
     destinations = list(_paired(said, default))
@@ -61,7 +62,7 @@ def pair(said: Sequence[tuple[str, str]], default: str) -> list[Destination]:
         raise UsageError("only one report can go to standard output: give the others an --output")
     if len({os.path.abspath(file) for file in files}) < len(files):
         raise UsageError("one file can't take several reports: name each --output once")
-    if files and all(d.file and d.format in MACHINE_FORMATS for d in destinations):
+    if files and all(map(_is_beside_the_log, destinations)):
         destinations.append(Destination(AUTO, None))
     return [each for destination in destinations for each in _expanded(destination)]
 
@@ -91,6 +92,13 @@ def _paired(said: Sequence[tuple[str, str]], default: str) -> Iterator[Destinati
             format = file = None
     if format is not None or file is not None or not said:
         yield Destination(format or default, _file(file))
+
+
+def _is_beside_the_log(destination: Destination) -> bool:
+    """Whether a report leaves open what is printed; in a job of GitHub also the text in a file."""
+    is_text = destination.format not in MACHINE_FORMATS
+    is_left_to_us = destination.format == AUTO and is_github()
+    return bool(destination.file) and (not is_text or is_left_to_us)
 
 
 def _file(value: str | None) -> str | None:

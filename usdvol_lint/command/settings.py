@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from usdvol_lint.config import SUMMARIES, Config, Glob
+from usdvol_lint.config.combining import check_depth
 from usdvol_lint.config.files import find_config_file, read_config
 from usdvol_lint.config.layers import laid_over
 from usdvol_lint.config.values import CHECKS, globs, level, one_of, shown
@@ -48,7 +49,7 @@ def read_settings(given: dict[str, Any]) -> tuple[Config, Path | None]:
     if file and given["config_file"] is None:
         _check_found(base, file)
     settings = laid_over(base, dict(_values(given)), _option)
-    _check_depth(settings)
+    check_depth(settings)
     return settings, file
 
 
@@ -91,31 +92,6 @@ def _shown(given: tuple[str, ...]) -> tuple[str, ...]:
 def _option(key: str) -> str:
     """The option that says something of a key, and has not always its name."""
     return {"packs": "--pack", "suppressions": "--no-suppressions"}.get(key, f"--{key}")
-
-
-def _check_depth(settings: Config) -> None:
-    """Raises UsageError where little is looked at, and much is concluded from it.
-
-    A suppression would seem unused, and what was left out checked.
-    """
-    is_asked = settings.fail_on_unchecked or "unused" in settings.show
-    for name in ("load", "content", "times") if is_asked else ():
-        value = getattr(settings, name)
-        if value != "all":
-            if settings.fail_on_unchecked:
-                asking = _said(settings, "fail-on-unchecked", "")
-            else:
-                asking = _said(settings, "show", "unused")
-            needed = f"{asking} needs a run that looks at everything"
-            raise UsageError(f"{needed}: leave out {_said(settings, name, str(value))}")
-
-
-def _said(settings: Config, key: str, value: str) -> str:
-    """A value with where it is said: `--load none`, `usdvol-lint.toml: load = 'none'`."""
-    origin = settings.origins.of(key, value if key == "show" else "")
-    if not value:
-        return origin.words
-    return f"{origin.words} = {value!r}" if origin.file else f"{origin.words} {value}"
 
 
 def _config_file(named: str | None, isolated: bool) -> Path | None:

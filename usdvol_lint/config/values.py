@@ -91,8 +91,10 @@ def _boolean(where: str, value: Any) -> bool:
 
 
 def _text(where: str, value: Any) -> str:
-    if not isinstance(value, str) or not value:
+    if not isinstance(value, str):
         raise UsageError(f"{where} must be a text, not {value!r}")
+    if not value:
+        raise UsageError(f"{where} must not be empty: leave it out")
     return value
 
 
@@ -187,7 +189,10 @@ def globs(where: str, value: Any) -> tuple[str, ...]:
 
 
 def _path_map(where: str, value: Any) -> dict[str, str]:
-    return {start: _text(f"{where}.{start}", to) for start, to in table(where, value).items()}
+    starts = table(where, value)
+    if not all(starts):
+        raise UsageError(f"{where} has an empty beginning, which every path has: leave it out")
+    return {start: _text(f"{where}.{start}", to) for start, to in starts.items()}
 
 
 def _frames(where: str, value: Any) -> tuple[float, float]:

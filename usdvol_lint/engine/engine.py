@@ -62,7 +62,7 @@ class Engine:
     ) -> None:
         self._known = rules
         self._suppressions = suppressions or InStages()
-        self._rules = [rules[code] for code in active.severities]
+        self._rules = [rules[code] for code in sorted({*active.severities, *active.watching})]
         self._active = active
         self._telling = active.telling
         self._idle = tuple(idle_rules(self._rules))
@@ -80,8 +80,18 @@ class Engine:
 
             set_search_path(self._depth.storage.search_path)
 
-    def lint(self, path: str) -> StageReport:
-        """The report on one stage; never raises for what the stage holds or a rule does."""
+    def lint(self, path: str, answer: Callable[[StageReport], None] = _ignore) -> StageReport:
+        """The report on one stage; never raises for what the stage holds or a rule does.
+
+        `answer` is called with it before the stage is let go, which for a large one takes a while.
+        """
+        alive: list[object] = []
+        report = self._checked(path, alive)
+        answer(report)
+        return report
+
+    def _checked(self, path: str, alive: list[object]) -> StageReport:
+        """The same; what takes a while to let go is in `alive` too."""
         clock = _Stopwatch()
         try:
             session = Sdf.Layer.CreateAnonymous() if self._depth.selections else None
@@ -99,6 +109,7 @@ class Engine:
             self._telling,
         )
         found: list[Stamped] = []
+        alive += (context, found)
         try:
             return self._report(path, context, clock, found)
         except UNREADABLE as error:  # where no rule was asked that would have reported it

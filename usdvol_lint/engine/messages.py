@@ -10,7 +10,8 @@ from usdvol_lint.paths import display
 
 # Few stages fail, so what takes their errors apart is compiled only then.
 _SESSION = r", sessionLayer @anon:[^@]*@"
-_MENTION = r"[@<]([^@<>]+)[@>]"
+_MENTION = r"(?s)(?P<source> at '.*' in <)|[@<](?P<path>[^@<>]+)[@>]"
+"""A path that USD names, or before that what a layer's text has where it breaks, as it stands."""
 
 
 def messages(error: Unreadable) -> list[str]:
@@ -19,4 +20,5 @@ def messages(error: Unreadable) -> list[str]:
 
 
 def _shown(mention: re.Match[str]) -> str:
-    return display(mention[1]) if os.path.isfile(mention[1]) else mention[0]
+    path = mention["path"]
+    return display(path) if path and os.path.isfile(path) else mention[0]

@@ -54,17 +54,13 @@ class Context(NamedTuple):
         telling: frozenset[str] | None = None,
     ) -> Context:
         """The context of a stage with empty caches, but for `known` and `folders`."""
-        from usdvol_lint.facts.files.disk import Disk
-        from usdvol_lint.facts.files.storage import Whereabouts
-        from usdvol_lint.facts.grids.known import KnownContents
-        from usdvol_lint.facts.usd.kinds import kinds_on
-        from usdvol_lint.facts.volumes.usage import UsedFields
+        from usdvol_lint.facts import needing_usd as made_of
 
-        kinds = kinds_on(stage)
-        known = known or KnownContents()
+        kinds = made_of.kinds_on(stage)
+        known = known or made_of.KnownContents()
         known.begin_stage()
-        disk = Disk(folders, Whereabouts(depth.storage))
-        return cls(stage, kinds, depth, disk, known, UsedFields(), advance, telling)
+        disk = made_of.Disk(folders, made_of.Whereabouts(depth.storage))
+        return cls(stage, kinds, depth, disk, known, made_of.UsedFields(), advance, telling)
 
 
 class Walked(NamedTuple):
@@ -97,20 +93,18 @@ class Facts:
     """
 
     def __init__(self, context: Context, walked: Walked) -> None:
-        from usdvol_lint.facts.layers.overs import Overs
-        from usdvol_lint.facts.prims.attributes import AuthoredReader
-        from usdvol_lint.facts.prims.tables import Tables
-        from usdvol_lint.facts.usd.clips import Clips
+        from usdvol_lint.facts import needing_usd as made_of
 
         stage, kinds, depth, disk, known, used, advance, telling = context
-        clips = Clips(walked.clipped)
-        tables = Tables(walked.kept, kinds, AuthoredReader(kinds, clips), telling)
+        clips = made_of.Clips(walked.clipped)
+        authored = made_of.AuthoredReader(kinds, clips)
+        tables = made_of.Tables(walked.kept, kinds, authored, telling)
         self.stage = stage
         self.kinds = kinds
         self.tables = tables
         self.prims = Prims(tables, kinds, clips, walked.drawn)
         self.files = Files(tables, stage, clips, disk, advance, bool(depth.frames))
-        overs = Overs(stage, kinds, tables, walked.undefined, walked.overs, walked.drawn)
+        overs = made_of.Overs(stage, kinds, tables, walked.undefined, walked.overs, walked.drawn)
         self.layers = Layers(tables, stage, clips, kinds, overs, walked.drawn, depth.frames)
         self.grids = Grids(tables, self.files, depth.content, known, advance)
         self.volumes = Volumes(

@@ -11,6 +11,17 @@ from usdvol_lint.files.names import is_among, names_of
 from usdvol_lint.model import UsageError
 from usdvol_lint.words import printable, quoted
 
+_SUBMODULE = "160000"
+"""The mode of what git has of a submodule: the commit that is checked out in it."""
+_OF_ONE_REPOSITORY = frozenset(
+    f"GIT_{name}"
+    for name in (
+        *("DIR", "WORK_TREE", "INDEX_FILE", "PREFIX", "COMMON_DIR", "IMPLICIT_WORK_TREE"),
+        *("OBJECT_DIRECTORY", "ALTERNATE_OBJECT_DIRECTORIES", "GRAFT_FILE", "SHALLOW_FILE"),
+    )
+)
+"""What a hook sets, and leads git to another repository than that of the folder."""
+
 _FETCH = (
     "a clone with part of the history needs the rest: 'fetch-depth: 0' for actions/checkout, "
     "GIT_DEPTH: 0 for GitLab, or 'git fetch --unshallow'"
@@ -78,10 +89,14 @@ class _NoRepositoryError(Exception):
 
 
 class _Git:
-    """Git in the repository that a folder belongs to, of which `folder` is then the top."""
+    """Git in the repository that a folder belongs to, of which `folder` is then the top.
 
-    def __init__(self, folder: str) -> None:
+    In a submodule nothing is heeded that is set for the repository around it.
+    """
+
+    def __init__(self, folder: str, is_submodule: bool = False) -> None:
         self.folder = folder
+        self._unset = _OF_ONE_REPOSITORY if is_submodule else frozenset()
         code, top, said = self._call("rev-parse", "--show-toplevel")
         if code:
             if b"not a git repository" in said or not said:
@@ -91,10 +106,10 @@ class _Git:
 
     def merge_base(self, revision: str) -> str:
         """The last commit that HEAD and a revision have in common."""
-        code, commit, _ = self._call("rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
-        if code:
+        commit = self.commit(revision)
+        if commit is None:
             raise UsageError(f"--changed-since: git finds no revision {quoted(revision)}; {_FETCH}")
-        code, base, _ = self._call("merge-base", commit.decode("ascii").strip(), "HEAD")
+        code, base, _ = self._call("merge-base", commit, "HEAD")
         if code:
             raise UsageError(
                 f"--changed-since: git finds no commit that {quoted(revision)} and HEAD have in "
@@ -103,23 +118,72 @@ class _Git:
         return base.decode("ascii").strip()
 
     def changed(self, base: str) -> Iterator[str]:
-        """The absolute paths of what differs, those that are gone too."""
-        diff = ("diff", "--name-only", "-z", "--no-renames", "--no-ext-diff", base, "--")
-        yield from self._paths(*diff)
-        yield from self._paths(diff[0], "--cached", *diff[1:])
-        yield from self._paths("ls-files", "--others", "--exclude-standard", "-z")
+        """The absolute paths of what differs, those that are gone too, and in submodules."""
+        commits = {path: at for path, at in self._submodules() if _submodule(path)}
+        for path, old, new in (*self.differing(base), *self.differing("--cached", base)):
+            if old is None:
+                yield path
+                continue
+            commits[path] = old
+            yield from self._between(path, old, new)
+        for path, commit in commits.items():
+            yield from self._in_submodule(path, commit)
+        listed = self._asked("ls-files", "--others", "--exclude-standard", "-z")
+        yield from map(self._absolute, filter(None, listed.split(b"\0")))
 
-    def _paths(self, *arguments: str) -> Iterator[str]:
+    def differing(self, *between: str) -> Iterator[tuple[str, str | None, str]]:
+        """The paths that git tells to differ, of a submodule with its commits."""
+        # Git may be set to tell nothing of submodules; what is in their folders is asked there.
+        raw = ("--raw", "-z", "--no-abbrev", "--no-renames", "--ignore-submodules=dirty")
+        told = self._asked("diff", *raw, "--no-ext-diff", *between, "--").split(b"\0")
+        for entry, name in zip(told[::2], told[1::2], strict=False):
+            before, after, old, new, _ = entry.removeprefix(b":").decode("ascii").split()
+            is_submodule = before == after == _SUBMODULE
+            yield self._absolute(name), old if is_submodule else None, new
+
+    def _submodules(self) -> Iterator[tuple[str, str]]:
+        """The submodules, each with its commit: also those of which git sees no difference."""
+        for entry in filter(None, self._asked("ls-files", "--stage", "-z").split(b"\0")):
+            if entry.startswith(_SUBMODULE.encode()):
+                about, _, name = entry.partition(b"\t")
+                yield self._absolute(name), about.split()[1].decode("ascii")
+
+    def _between(self, path: str, old: str, new: str) -> Iterator[str]:
+        """What differs between two commits of a submodule; all of it where git can't tell."""
+        inner = _submodule(path)
+        if not new.strip("0") or inner is None:
+            return
+        if inner.commit(old) is None or inner.commit(new) is None:
+            yield path
+            return
+        yield from (each for each, _, _ in inner.differing(old, new))
+
+    def _in_submodule(self, path: str, commit: str) -> Iterator[str]:
+        """What changed in a submodule since a commit of it; all of it where git can't tell."""
+        inner = _submodule(path)
+        if inner is None or inner.commit(commit) is None:
+            yield path
+        else:
+            yield from inner.changed(commit)
+
+    def commit(self, revision: str) -> str | None:
+        code, commit, _ = self._call("rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
+        return None if code else commit.decode("ascii").strip()
+
+    def _absolute(self, name: bytes) -> str:
+        return os.path.join(self.folder, _path(name.rstrip(b"/")))
+
+    def _asked(self, *arguments: str) -> bytes:
         code, out, said = self._call(*arguments)
         if code:
             raise UsageError(f"--changed-since: git {arguments[0]}: {_first_line(said)}")
-        for name in filter(None, out.split(b"\0")):
-            yield os.path.join(self.folder, _path(name.rstrip(b"/")))
+        return out
 
     def _call(self, *arguments: str) -> tuple[int, bytes, bytes]:
         """The exit code, and what git wrote to standard output and standard error."""
         command = [_program(), "-C", self.folder, "-c", "core.fsmonitor=false", *arguments]
-        environment = {**os.environ, "LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}
+        kept = {name: os.environ[name] for name in os.environ if name not in self._unset}
+        environment = {**kept, "LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}
         try:
             done = subprocess.run(
                 command,
@@ -131,6 +195,17 @@ class _Git:
         except FileNotFoundError:
             raise UsageError(_NO_GIT) from None
         return done.returncode, done.stdout, done.stderr
+
+
+def _submodule(path: str) -> _Git | None:
+    """Git in a submodule; None where it is not checked out."""
+    if not os.path.isdir(path):
+        return None
+    try:
+        inner = _Git(path, is_submodule=True)
+    except _NoRepositoryError:
+        return None
+    return inner if os.path.realpath(inner.folder) == os.path.realpath(path) else None
 
 
 def _program() -> str:

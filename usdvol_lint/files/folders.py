@@ -13,13 +13,15 @@ from usdvol_lint.paths import SUFFIXES
 class Found(NamedTuple):
     """A path, and which stage it is: the same name in the same folder, links resolved.
 
+    `links` is how many of them the path leads through.
+
     A file that links to one in another folder is a stage of its own: what it names in relation to
     itself is somewhere else.
     """
 
     path: str
     key: tuple[str, str]
-    is_linked: bool
+    links: int
 
 
 class Search(NamedTuple):
@@ -33,11 +35,16 @@ def found_at(path: str) -> Found:
     """A path that was named, whether or not a stage is there."""
     real = os.path.realpath(path)
     folder = os.path.realpath(os.path.dirname(path) or os.curdir)
-    return Found(path, (folder, real), _is_linked(path, real))
+    return Found(path, (folder, real), _links_in(path))
 
 
-def _is_linked(path: str, real: str) -> bool:
-    return os.path.normcase(os.path.abspath(path)) != os.path.normcase(real)
+def _links_in(path: str) -> int:
+    """How many of the names of a path are links."""
+    links, path = 0, os.path.abspath(path)
+    while path != os.path.dirname(path):
+        links += _is_link(path)
+        path = os.path.dirname(path)
+    return links
 
 
 def stages_in(folder: str, skips: Callable[[str], bool] = lambda folder: False) -> Search:
@@ -64,17 +71,17 @@ class _Search:
     def __init__(self, skips: Callable[[str], bool]) -> None:
         self._skips = skips
         self._entered: set[str] = set()
-        self._links: deque[str] = deque()
+        self._links: deque[tuple[str, int]] = deque()
         self.folders: list[str] = []
         self.found: list[Found] = []
         self.has_skipped = False
 
     def run(self, folder: str) -> None:
-        self._enter(folder, is_linked=_is_link(folder))
+        self._enter(folder, _links_in(folder))
         while self._links:
-            self._enter(self._links.popleft(), is_linked=True)
+            self._enter(*self._links.popleft())
 
-    def _enter(self, folder: str, is_linked: bool) -> None:
+    def _enter(self, folder: str, links: int) -> None:
         waiting = [(folder, os.path.realpath(folder))]
         while waiting:
             path, real = waiting.pop()
@@ -85,24 +92,24 @@ class _Search:
             try:
                 entries = list(_visible(path))
             except OSError:
-                self.found.append(Found(path, (real, real), is_linked))
+                self.found.append(Found(path, (real, real), links))
                 continue
             for entry in entries:
                 if not _is_folder(entry):
-                    self._add(entry, real, is_linked)
+                    self._add(entry, real, links)
                 elif self._skips(entry.path):
                     self.has_skipped = True
                 elif not _is_link(entry.path):
                     waiting.append((entry.path, os.path.join(real, entry.name)))
                 elif not _holds(os.path.realpath(entry.path), real):
-                    self._links.append(entry.path)
+                    self._links.append((entry.path, links + 1))
 
-    def _add(self, entry: os.DirEntry[str], folder: str, is_linked: bool) -> None:
+    def _add(self, entry: os.DirEntry[str], folder: str, links: int) -> None:
         if not entry.name.lower().endswith(SUFFIXES):
             return
         path = os.path.join(folder, entry.name)
         real = os.path.realpath(path) if entry.is_symlink() else path
-        self.found.append(Found(entry.path, (folder, real), is_linked or real != path))
+        self.found.append(Found(entry.path, (folder, real), links + (real != path)))
 
 
 def _visible(folder: str) -> Iterator[os.DirEntry[str]]:
@@ -117,13 +124,12 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
         return False
 
 
-def _is_link(folder: str) -> bool:
-    """Whether a folder is a symbolic link or, on Windows, a junction."""
+def _is_link(path: str) -> bool:
+    """Whether a path is a symbolic link or, on Windows, a junction."""
     if os.name == "nt":
-        return os.path.realpath(folder) != os.path.join(
-            os.path.realpath(os.path.dirname(folder) or os.curdir), os.path.basename(folder)
-        )
-    return os.path.islink(folder)
+        folder = os.path.realpath(os.path.dirname(path) or os.curdir)
+        return os.path.realpath(path) != os.path.join(folder, os.path.basename(path))
+    return os.path.islink(path)
 
 
 def _holds(folder: str, inner: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -112,11 +113,11 @@ class _Arguments:
 
 
 def _each_once(found: Iterable[Found]) -> list[str]:
-    """The paths of stages, sorted; where several lead to one, the first of those without links."""
+    """The paths of stages, sorted; where several lead to one, the first with fewest links."""
     chosen: dict[tuple[str, str], Found] = {}
     for each in sorted(found, key=lambda each: _order(each.path)):
         before = chosen.setdefault(each.key, each)
-        if before.is_linked and not each.is_linked:
+        if each.links < before.links:
             chosen[each.key] = each
     return sorted((each.path for each in chosen.values()), key=_order)
 
@@ -132,8 +133,8 @@ def _is_there(path: str) -> bool:
         os.lstat(path)
     except (FileNotFoundError, NotADirectoryError, ValueError):
         return False
-    except OSError:
-        return True
+    except OSError as error:
+        return error.errno != errno.ENAMETOOLONG  # which nothing can be called
     return True
 
 

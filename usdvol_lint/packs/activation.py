@@ -9,10 +9,10 @@ from usdvol_lint.config import Config
 from usdvol_lint.config.values import strings
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.nearest import did_you_mean
-from usdvol_lint.packs.catalog import NOT_IGNORABLE, OF_UNCHECKED, Catalog
-from usdvol_lint.packs.selection import levels, options_rule, selected
+from usdvol_lint.packs.catalog import NOT_IGNORABLE, Catalog
+from usdvol_lint.packs.selection import check_unchecked, levels, options_rule, selected
 from usdvol_lint.releases import is_later
-from usdvol_lint.rule import Rule
+from usdvol_lint.rule import NotChecked, Rule
 
 _KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
 
@@ -25,6 +25,8 @@ class ActiveRules(NamedTuple):
     `softened` are the codes that the user made milder than they are on their own.
     `dated` are those of which what came after the release `as_of` is an info: built-in rules whose
     severity the user did not choose.
+    `watching` are rules that are not in force and run all the same, so that it is said what they
+    can't check; what they find is not.
     """
 
     severities: Mapping[str, Severity]
@@ -33,6 +35,7 @@ class ActiveRules(NamedTuple):
     softened: frozenset[str] = frozenset()
     as_of: str | None = None
     dated: frozenset[str] = frozenset()
+    watching: frozenset[str] = frozenset()
 
     @property
     def telling(self) -> frozenset[str]:
@@ -52,23 +55,35 @@ def activate(config: Config, catalog: Catalog) -> ActiveRules:
     Raises UsageError for unknown codes, names and options, and says where they stand.
     """
     codes = selected(config, catalog)
+    watching: frozenset[str] = frozenset()
     if config.fail_on_unchecked:
         codes |= _of_unchecked(config, catalog)
+        watching = _leaving_unchecked(catalog) - codes
     given = levels(config, catalog)
     severities = {code: given.get(code, catalog.rules[code].severity) for code in sorted(codes)}
     chosen = frozenset(given.keys() & codes)
-    active = ActiveRules(severities, _options(config, catalog), chosen)
+    active = ActiveRules(severities, _options(config, catalog), chosen, watching=watching)
     return _dated(active, config.rules_as_of, catalog)
 
 
 def _of_unchecked(config: Config, catalog: Catalog) -> frozenset[str]:
     """The codes that a run needs which fails for what was not checked."""
     for selector in config.ignore:
-        if catalog.match(selector).codes <= OF_UNCHECKED:
-            where = config.origins.words("ignore", selector)
-            said = f"{selector} can't be ignored with --fail-on-unchecked: leave one out"
-            raise UsageError(f"{where}: {said}")
-    return OF_UNCHECKED
+        check_unchecked(catalog.match(selector), selector, config.origins.words("ignore", selector))
+    from usdvol_lint.results import UNCHECKED  # of no use to worker processes
+
+    return UNCHECKED
+
+
+def _leaving_unchecked(catalog: Catalog) -> frozenset[str]:
+    """The rules of a run without any selection that may say that they could not check something."""
+    rules = (rule for rule in catalog.rules.values() if rule.default)
+    return frozenset(rule.code for rule in rules if _names_not_checked(rule))
+
+
+def _names_not_checked(rule: Rule) -> bool:
+    """Whether the module of a rule names `NotChecked`, without which no rule yields one."""
+    return any(value is NotChecked for value in getattr(rule.check, "__globals__", {}).values())
 
 
 def _dated(active: ActiveRules, as_of: str | None, catalog: Catalog) -> ActiveRules:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from os.path import isdir
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from os.path import isdir, realpath
 from typing import TYPE_CHECKING, NamedTuple
 
 from usdvol_lint.config import Config
@@ -34,8 +35,6 @@ ENGINE_RULES = (STAGE_UNREADABLE, RULE_FAILED, UNUSED_SUPPRESSION, USD_TOO_OLD, 
 """The codes that the engine itself reports; `rules/lint/` holds only their pages."""
 NOT_IGNORABLE = frozenset({STAGE_UNREADABLE.code, RULE_FAILED.code})
 """They say that the job was not done, so nobody can switch them off."""
-OF_UNCHECKED = frozenset({USD_TOO_OLD.code, NOT_CHECKED.code})
-"""What the engine itself did not check: in force where such a thing fails a run."""
 
 
 _LETTERS, _WHOLE_CODE = 3, 6
@@ -123,9 +122,10 @@ class Catalog(NamedTuple):
         return self.match(selector).codes
 
 
-def load(packs: Sequence[str] = ()) -> Catalog:
+def load(packs: Sequence[str] = (), where: Mapping[str, str] = {}) -> Catalog:
     """The built-in rules, those of installed packs, and those of the folders `packs`.
 
+    `where` has, by the real path of a folder, how messages name where it is said.
     Raises PackError for a pack that can't be loaded, or two rules of the same code or name.
     """
     found = find_packs(packs)
@@ -134,17 +134,12 @@ def load(packs: Sequence[str] = ()) -> Catalog:
     names = {rule.name: rule for rule in ENGINE_RULES}
     families = {"lint": set(rules)}
     for package, folder in found:
-        for rule in import_rules(package, folder):
-            same_code = rules.setdefault(rule.code, rule)
-            same_name = names.setdefault(rule.name, rule)
-            for other in (same_code, same_name):
-                if other is not rule:
-                    raise PackError(
-                        f"rule pack {folder!r}: {rule.code} ({rule.name}) takes the code or "
-                        f"name of another rule, {other.code} ({other.name})"
-                    )
-            if family := _family(rule, package):
-                families.setdefault(family, set()).add(rule.code)
+        with _telling(where.get(folder)):
+            for rule in import_rules(package, folder):
+                _check_taken(folder, rule, rules.setdefault(rule.code, rule))
+                _check_taken(folder, rule, names.setdefault(rule.name, rule))
+                if family := _family(rule, package):
+                    families.setdefault(family, set()).add(rule.code)
         built_in = built_in or frozenset(rules)  # the first pack is
     return Catalog(
         dict(sorted(rules.items())),
@@ -152,6 +147,24 @@ def load(packs: Sequence[str] = ()) -> Catalog:
         built_in,
         {family: frozenset(codes) for family, codes in families.items()},
     )
+
+
+@contextmanager
+def _telling(where: str | None) -> Iterator[None]:
+    """Says in a PackError where the pack is named."""
+    try:
+        yield
+    except PackError as error:
+        raise PackError(f"{where}: {error}") if where else error from error.__cause__
+
+
+def _check_taken(folder: str, rule: Rule, other: Rule) -> None:
+    """Raises PackError where another rule has the code or name of a rule."""
+    if other is not rule:
+        raise PackError(
+            f"rule pack {folder!r}: {rule.code} ({rule.name}) takes the code or name of another "
+            f"rule, {other.code} ({other.name})"
+        )
 
 
 def load_for(config: Config) -> Catalog:
@@ -162,7 +175,8 @@ def load_for(config: Config) -> Catalog:
             raise UsageError(
                 f"{where}: there is no folder {quoted(pack)}, which is to be a rule pack"
             )
-    return load(config.packs)
+    words = config.origins.words
+    return load(config.packs, {realpath(pack): words("packs", pack) for pack in config.packs})
 
 
 def _family(rule: Rule, package: str) -> str:

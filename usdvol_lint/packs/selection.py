@@ -83,6 +83,19 @@ def ignored_by(selector: str, catalog: Catalog, where: str) -> Match:
     return match._replace(codes=match.codes - NOT_IGNORABLE)
 
 
+def check_unchecked(match: Match, selector: str, where: str) -> Match:
+    """The same without the codes that say that something was not checked.
+
+    Raises UsageError, which `where` begins, for a selector that means nothing else.
+    """
+    from usdvol_lint.results import UNCHECKED  # few runs fail for what was not checked
+
+    if match.codes <= UNCHECKED:
+        said = f"{selector} can't be ignored with --fail-on-unchecked: leave one out"
+        raise UsageError(f"{where}: {said}")
+    return match._replace(codes=match.codes - UNCHECKED)
+
+
 def options_rule(config: Config, catalog: Catalog, name: str) -> Rule:
     """The rule whose options stand below a name; raises UsageError if there is none."""
     return named(catalog.find, name, config.origins.words("options", name))

@@ -27,6 +27,8 @@ MOST_PLACES = 50
 
 # All that is not ASCII is escaped: no terminal obeys it, and what halves of characters there are
 # can be told from bytes that can't be decoded.
+_SIGNALLED = 128
+"""What a run that a signal ended exits with, without the number of the signal."""
 _ENCODE = json.JSONEncoder(allow_nan=False).encode
 
 _DRIVE = re.compile(r"[A-Za-z]:(?=/)")
@@ -86,7 +88,7 @@ def _invocation(report: Report, causes: int) -> dict[str, object]:
     invocation: dict[str, object] = {"executionSuccessful": not failures}
     notifications = [_notification("error", text) for text in failures]
     if failures:
-        invocation["exitCode"] = 2
+        invocation["exitCode"] = _SIGNALLED + report.interrupted if report.interrupted else 2
     if causes > MOST_RESULTS:
         text = f"these are the worst {MOST_RESULTS:,} of {count(causes, 'finding')}"
         hint = "ignore rules, check fewer stages, or write a baseline to see the others"

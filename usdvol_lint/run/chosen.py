@@ -45,7 +45,8 @@ class Chosen(NamedTuple):
             return "", self.listing.nothing
         since = f"changed since {quoted(self.changed.since)}"
         if not stages:
-            return "", f"none of {every:,} stages uses a file that {since}"
+            none = "the stage uses no" if every == 1 else f"none of {every:,} stages uses a"
+            return "", f"{none} file that {since}"
         return f"{unchanged:,} of {every:,} stages left out, which use no file that {since}", ""
 
 

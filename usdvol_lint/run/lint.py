@@ -100,7 +100,7 @@ def lint(
     began = time.perf_counter()
     pool = Pool(child)
     try:
-        settled = config() if callable(config) else config or Config()
+        settled = config() if callable(config) else _given(config or Config())
         named = naming(settled) if naming else Naming()
         run = _Run(pool, settled, named, progress, interruption or Interruption(), teller)
         return run.report(tuple(paths), changes(settled), began)
@@ -232,6 +232,12 @@ def stage_reports(
             yield None
     if interruption:
         interruption.stops(None)
+
+
+def _given(config: Config) -> Config:
+    from usdvol_lint.config.given import checked  # the command line has checked its own
+
+    return checked(config)
 
 
 def _causes(

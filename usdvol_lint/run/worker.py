@@ -60,8 +60,10 @@ def main() -> None:
     gc.freeze()  # what all stages share is never garbage
     garbage = _Garbage()
     while path := requests.next():
-        is_checked = concerns is None or concerns(path)
-        answers.end(engine.lint(path) if is_checked else _unchanged(path))
+        if concerns is None or concerns(path):
+            engine.lint(path, answers.end)
+        else:
+            answers.end(_unchanged(path))
         garbage.collect()
 
 

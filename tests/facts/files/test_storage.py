@@ -115,6 +115,9 @@ def test_what_is_missing_is_told_of_where_it_was_looked_for(
         "AST002",
         f"no file at '{start}s.1004.vdb' in '{seq}'",
     )
+    single = Storage(path_map={f"{start}fog.vdb": f"{seq}/mist.vdb"})
+    (finding,) = lint(single, f"{start}fog.vdb").findings
+    assert finding.message == f"no file at '{start}fog.vdb', which is '{seq}/mist.vdb' here"
     (finding,) = lint(storage, f"{start}fx/s.1004.vdb").findings
     assert finding.message == f"no file at '{start}fx/s.1004.vdb': no folder '{seq}/fx'"
     (finding,) = lint(storage, f"{start}clod.vdb").findings

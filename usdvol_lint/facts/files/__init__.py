@@ -118,7 +118,9 @@ class Files(Wing):
         """The missing files of `filePath` but those of which another rule tells why."""
         from usdvol_lint.facts.files.absences import unexplained
 
-        return unexplained(self.paths(field), self._disk, self._has_packages, self.tables.tells)
+        return unexplained(
+            self.paths(field), lambda: self.recased(field), self._has_packages, self.tables.tells
+        )
 
     @fact
     def missing_folder(self, field: Any) -> str | None:
@@ -144,6 +146,7 @@ class Files(Wing):
 
         return find_frames(self._disk, found.anchored(), found.first.path)
 
+    @fact
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
         from usdvol_lint.facts.files.letter_case import recased

@@ -9,7 +9,7 @@ from math import isnan
 from usdvol_lint.facts.files.assets import Affected, AssetSamples
 from usdvol_lint.facts.files.corrections import missing_folder
 from usdvol_lint.facts.files.disk import Disk
-from usdvol_lint.facts.files.letter_case import recased
+from usdvol_lint.facts.files.letter_case import Recased
 from usdvol_lint.facts.files.malformed import hides_file
 from usdvol_lint.facts.files.origins import outside_package
 from usdvol_lint.facts.files.paths import split_path
@@ -21,17 +21,20 @@ _ANY = "write or copy it there, or name a file that is there"
 
 
 def unexplained(
-    paths: AssetSamples, disk: Disk, has_packages: bool, tells: Callable[[str], bool]
+    paths: AssetSamples,
+    recased: Callable[[], Recased | None],
+    has_packages: bool,
+    tells: Callable[[str], bool],
 ) -> Affected | None:
     """The missing files but those of which another rule tells why they are not found.
 
     Their paths are malformed, have another case than the disk, or lead out of their package.
-    `tells`: as `Tables.tells`.
+    `recased`: asks for the samples of another case; `tells`: as `Tables.tells`.
     """
     missing = paths.of(AssetState.MISSING)
     if missing is None:
         return None
-    in_other_case = recased(paths, disk) if tells("AST009") else None
+    in_other_case = recased() if tells("AST009") else None
     outside = outside_package(paths) if has_packages and tells("AST015") else None
     others = (in_other_case and in_other_case.affected, outside)
     explained = set(chain.from_iterable(each.samples for each in others if each))

@@ -93,6 +93,8 @@ def _reason(path: str, missing: str, authored: str, reader: str) -> str:
     below = path[len(missing) :]
     led_to = os.path.normpath(os.path.join(os.path.dirname(reader), authored))
     is_at_home = not reader or led_to == path
+    if not below and authored.replace("\\", "/").rpartition("/")[2] != os.path.basename(missing):
+        return f", which is {quoted(missing)} here"
     if not below:
         return "" if is_at_home else f" in {quoted(os.path.dirname(missing))}"
     shown = _with_end(authored, below, "") if is_at_home else missing
