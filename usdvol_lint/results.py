@@ -107,11 +107,18 @@ class StageResult(NamedTuple):
     levels: Mapping[Severity, int] = {}
     part: bool = False
 
-    def judged(self, causes: Sequence[Cause]) -> StageResult:
-        """The same with the levels that follow from the states of the causes."""
+    def judged(
+        self, causes: Sequence[Cause], equal: dict[object, Mapping[Severity, int]] | None = None
+    ) -> StageResult:
+        """The same with the levels that follow from the states of the causes.
+
+        What is `equal` to the levels of another stage is shared with it.
+        """
         shown = zip(self.causes, self.worst, strict=True)
         counted = [level for number, level in shown if level and causes[number].state.counts]
-        return self._replace(levels=dict(sorted(Counter(counted).items())))
+        levels = dict(sorted(Counter(counted).items()))
+        shared = {} if equal is None else equal
+        return self._replace(levels=shared.setdefault(tuple(levels.items()), levels))
 
 
 class Summary(NamedTuple):
@@ -202,7 +209,8 @@ class Report(NamedTuple):
 
     def with_causes(self, causes: Sequence[Cause]) -> Report:
         """The same with other states of its causes, whose number and order stay."""
-        stages = tuple(stage.judged(causes) for stage in self.stages)
+        equal: dict[object, Mapping[Severity, int]] = {}
+        stages = tuple(stage.judged(causes, equal) for stage in self.stages)
         return self._replace(causes=tuple(causes), stages=stages)
 
     @property

@@ -12,7 +12,12 @@ from typing import IO
 import pytest
 from process import PROGRAM, ROUGH, STUDIO, environment, run, volume, write
 
+from usdvol_lint.command.failed import failed
+from usdvol_lint.command.output import Destination
 from usdvol_lint.command.progress import ProgressBar
+from usdvol_lint.command.streaming import Streams
+from usdvol_lint.config import Config
+from usdvol_lint.report import Options
 
 SLOW = ("--isolated", "--pack", str(ROUGH), "--select", "RGH", "--jobs", "1")
 
@@ -85,6 +90,24 @@ def test_a_file_that_can_not_be_written_meanwhile_is_tried_again(tmp_path: Path)
     ran = run("--isolated", *asked, "--output", "/dev/full", "a.usda", cwd=tmp_path)
     assert (ran.code, ran.out.count("STU001")) == (2, 1)
     assert ran.err == "usdvol-lint: error: --output /dev/full: No space left on device\n"
+
+
+def test_a_run_that_breaks_off_leaves_no_half_report(tmp_path: Path) -> None:
+    """What was printed ends with why; a file stays as it was."""
+    asked = [Destination("jsonl", None), Destination("concise", str(tmp_path / "out.txt"))]
+    (tmp_path / "out.txt").write_text("before")
+    broken = failed((), RuntimeError("boom"), Config())
+    printed: list[str] = []
+    with Streams(lambda: (asked, Options())) as streams:
+        streams._printer.print = printed.extend  # type: ignore[method-assign, assignment]
+        streams.begin(broken)
+        done = streams.fail(broken)
+    assert done == {asked[0]}
+    told = [json.loads(line) for line in printed]
+    assert [line["type"] for line in told] == ["run", "summary"]
+    assert told[1]["failure"] == "internal error: RuntimeError: boom"
+    assert [each.name for each in tmp_path.iterdir()] == ["out.txt"]
+    assert (tmp_path / "out.txt").read_text() == "before"
 
 
 def test_the_progress_line_names_what_others_wait_for(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import pytest
-from reports import NO_EXTENTS, NO_READER, TANK, found, report, shown_on, streamed
+from reports import KNOWN, NO_EXTENTS, NO_READER, TANK, found, report, shown_on, streamed
 
 from usdvol_lint.model import Severity, Site, StageReport, Status
 from usdvol_lint.report import Options, render
@@ -132,7 +132,9 @@ def test_what_may_be_completed_is_told_last_and_under_its_stage(format: str) -> 
     assert text.index("shots/b.usda") < text.index("shots/a.usda")
     assert [cause.code for cause in subject.causes] == ["SCH007", "AST002"]
     assert [stage.causes for stage in subject.stages] == [(1,), (0,)]
-    assert sorted(render(subject, format, Options())) == sorted(text)
+    both = late._replace(findings=(*late.findings, KNOWN))
+    text, _ = streamed(format, [both, C._replace(findings=())], Options())
+    assert ("\nshots/a.usda (continued)\n" in text) == (format == "full")
 
 
 def test_what_is_suppressed_is_told_where_it_is_not_or_last() -> None:

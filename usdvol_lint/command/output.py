@@ -5,18 +5,17 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, NamedTuple
 
 import click
 
 from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_file
+from usdvol_lint.command.writing import Printer, is_device, write_to
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.paths import SUFFIXES, canonical
-from usdvol_lint.replacing import replacing
 from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
 from usdvol_lint.words import printable
@@ -165,7 +164,7 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
             raise UsageError(f"--output {destination.file}: {said}")
         if not os.path.isdir(file.parent):
             raise UsageError(f"--output {destination.file}: there is no folder {file.parent}")
-        if not os.access(file if _is_device(file) else file.parent, os.W_OK):
+        if not os.access(file if is_device(file) else file.parent, os.W_OK):
             raise UsageError(f"--output {destination.file}: no permission to write there")
 
 
@@ -245,50 +244,6 @@ def print_text(parts: Iterable[str]) -> None:
     printer.close()
 
 
-class Printer:
-    """Prints text as it comes; what can't be printed is said once all of it came."""
-
-    def __init__(self) -> None:
-        self._why_not = "" if sys.stdout else "there is no standard output to print to"
-        self._is_over = sys.stdout is None
-
-    def print(self, parts: Iterable[str]) -> None:
-        if self._is_over or sys.stdout is None:
-            return
-        try:
-            sys.stdout.flush()
-            _write(sys.stdout.buffer, parts)
-            sys.stdout.buffer.flush()
-        except OSError as error:
-            # What is left in the buffer must not fail again when Python exits.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-            self._is_over = True
-            # A reader that closed the pipe, as `head` does, is no failure.
-            if not isinstance(error, BrokenPipeError):
-                self._why_not = f"can't write to standard output: {error.strerror}"
-
-    def close(self) -> None:
-        """Raises UsageError where not all was printed."""
-        if self._why_not:
-            raise UsageError(self._why_not)
-
-
 def _replace(file: Path, parts: Iterable[str]) -> None:
     with write_to(file) as write:
         write(parts)
-
-
-@contextmanager
-def write_to(file: Path) -> Iterator[Callable[[Iterable[str]], None]]:
-    """What takes the parts of a text for a file, which is replaced once all are there."""
-    with open(file, "wb", 0) if _is_device(file) else replacing(file) as stream:
-        yield lambda parts: _write(stream, parts)
-
-
-def _write(file: BinaryIO, parts: Iterable[str]) -> None:
-    file.writelines(part.encode("utf-8", "backslashreplace") for part in parts)
-
-
-def _is_device(file: Path) -> bool:
-    """Whether it exists but is no regular file, such as /dev/null or a pipe."""
-    return os.path.exists(file) and not os.path.isfile(file)

@@ -9,7 +9,8 @@ from types import TracebackType
 from typing import TypeAlias
 
 from usdvol_lint.command.hosts import Guard, is_github
-from usdvol_lint.command.output import TEXTS, Destination, Printer, plain, write_to
+from usdvol_lint.command.output import TEXTS, Destination, plain
+from usdvol_lint.command.writing import Printer, write_to
 from usdvol_lint.model import Severity
 from usdvol_lint.report import Options, writer
 from usdvol_lint.results import Cause, Place, Report, StageResult

@@ -30,6 +30,7 @@ class Full(Staged):
     def __init__(self, options: Options) -> None:
         super().__init__(options)
         self._lines: list[Line] = []
+        self._begun: set[int] = set()
 
     def stage(self, number: int, stage: StageResult) -> Iterator[str]:
         heard = self.told_on(number)
@@ -37,6 +38,7 @@ class Full(Staged):
         here = {cause for one in heard for cause in one.numbers}
         if telling or _is_shown(stage, self.options):
             extras = _extras(stage, self.levels, here, self.options)
+            self._begun.add(number)
             yield self._block(_stage(stage, telling, extras, self.options))
         self._lines += map(line_of, telling)
 
@@ -44,7 +46,8 @@ class Full(Staged):
         late = {} if self.options.summary else self.told_late()
         for number, telling in late.items():
             stage = report.stages[number]._replace(particle_fields=None)
-            yield self._block(_stage(stage, telling, (), self.options))
+            again = number in self._begun
+            yield self._block(_stage(stage, telling, (), self.options, again))
             self._lines += map(line_of, telling)
         for block in _closing(report, self._lines, self.options):
             yield self._block(block)
@@ -92,7 +95,11 @@ def _is_shown(stage: StageResult, options: Options) -> bool:
 
 
 def _stage(
-    stage: StageResult, telling: Sequence[Told], extras: Iterable[str], options: Options
+    stage: StageResult,
+    telling: Sequence[Told],
+    extras: Iterable[str],
+    options: Options,
+    is_continued: bool = False,
 ) -> str:
     found = {prim: list(lines) for prim, lines in groupby(telling, key=_prim_of)}
     held = {} if options.quiet else {one.prim: one for one in stage.particle_fields or ()}
@@ -101,7 +108,8 @@ def _stage(
         for prim in sorted({*found, *held})
     ]
     blocks = ("".join(f"{line}\n" for line in group) for group in (*groups, extras))
-    return _heading(stage, options) + "\n" + "\n".join(filter(None, blocks))
+    heading = _heading(stage, options) + " (continued)" * is_continued
+    return heading + "\n" + "\n".join(filter(None, blocks))
 
 
 def _heading(stage: StageResult, options: Options) -> str:
