@@ -110,6 +110,14 @@ def test_a_run_that_breaks_off_leaves_no_half_report(tmp_path: Path) -> None:
     assert (tmp_path / "out.txt").read_text() == "before"
 
 
+def test_beside_a_baseline_nothing_is_told_before_it_is_compared(tmp_path: Path) -> None:
+    write(tmp_path, a=volume("fog"))
+    asked = (*SLOW, "--root", ".", "a.usda")
+    assert run(*asked, "--write-baseline", "known.jsonl", cwd=tmp_path).code == 0
+    ran = run(*asked, "--baseline", "known.jsonl", "--output-format", "concise", cwd=tmp_path)
+    assert (ran.code, ran.out, ran.err) == (0, "", "")
+
+
 def test_the_progress_line_names_what_others_wait_for(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("usdvol_lint.command.progress._START_DELAY", 0.0)
     with ProgressBar(enabled=True) as progress:
