@@ -53,21 +53,21 @@ def test_the_same_bytes_for_any_number_of_jobs(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
-def test_each_stage_once_in_the_order_given(two: Path) -> None:
+def test_each_stage_once_and_sorted_by_path(two: Path) -> None:
     write(two / "b" / "deep", one=volume("fog"))
     write(two / "a", two=volume("fog"))
     write(two / ".hidden", no=volume("fog"))
     (two / "notes.txt").write_text("not a stage, and not named")
     ran = run(
         *ONLY_STUDIO,
-        *("--output-format", "json", "smoke.usda", "b", ".", "./fog.usda", two / "a"),
+        *("--output-format", "json", "smoke.usda", "b", ".", "./fog.usda", "a"),
         cwd=two,
     )
     assert [stage["path"] for stage in ran.json["stages"]] == [
-        "smoke.usda",
-        "b/deep/one.usda",
         "a/two.usda",
+        "b/deep/one.usda",
         "fog.usda",
+        "smoke.usda",
     ]
 
 
