@@ -127,14 +127,28 @@ def test_what_may_be_completed_is_told_last_and_under_its_stage(format: str) -> 
     absent = TANK._replace(absent=(frozenset({("/lib/tank.usda", "/Tank/fire", "filePath")}),))
     late = shown_on("a", absent, "/A")
     (other,) = shown_on("b", NO_EXTENTS[0], "/B").findings
-    text, subject = streamed(format, [late, B._replace(findings=(other,))], Options())
+    more = [C._replace(path=f"shots/c{number}.usda", findings=()) for number in range(20)]
+    text, subject = streamed(format, [late, B._replace(findings=(other,)), *more], Options())
     assert text.index("SCH007 warning") < text.index("AST002 error")
     assert text.index("shots/b.usda") < text.index("shots/a.usda")
     assert [cause.code for cause in subject.causes] == ["SCH007", "AST002"]
-    assert [stage.causes for stage in subject.stages] == [(1,), (0,)]
+    assert [stage.causes for stage in subject.stages[:2]] == [(1,), (0,)]
     both = late._replace(findings=(*late.findings, KNOWN))
-    text, _ = streamed(format, [both, C._replace(findings=())], Options())
+    text, _ = streamed(format, [both, *more], Options())
     assert ("\nshots/a.usda (continued)\n" in text) == (format == "full")
+
+
+def test_of_a_few_stages_each_has_one_section() -> None:
+    absent = TANK._replace(absent=(frozenset({("/lib/tank.usda", "/Tank/fire", "filePath")}),))
+    both = shown_on("a", absent, "/A")
+    both = both._replace(findings=(*both.findings, KNOWN))
+    more = [C._replace(path=f"shots/c{number}.usda", findings=()) for number in range(19)]
+    text, _ = streamed("full", [both, *more], Options(verbose=True))
+    assert "(continued)" not in text
+    assert text.count("shots/a.usda\n") == 1
+    section = text[: text.index("shots/c0.usda")]
+    assert "told above" not in section
+    assert all(code in section for code in ("AST002", KNOWN.code))
 
 
 def test_what_is_suppressed_is_told_where_it_is_not_or_last() -> None:

@@ -20,10 +20,15 @@ from usdvol_lint.results import Report, StageResult
 from usdvol_lint.words import printable
 
 _LONGEST_SUGGESTION = 400
+_FEW_STAGES = 20
+"""So many stages are worth waiting for: what is absent on one is known once all were seen."""
 
 
 class Full(Staged):
-    """By stage and prim, each stage as soon as it is known; where else it shows comes last."""
+    """By stage and prim, each stage as soon as it is known; where else it shows comes last.
+
+    Of a few stages nothing is told before all of them are known, so that each has one section.
+    """
 
     _between = ""
 
@@ -31,8 +36,21 @@ class Full(Staged):
         super().__init__(options)
         self._lines: list[Line] = []
         self._begun: set[int] = set()
+        self._waiting: list[tuple[int, StageResult]] = []
+        self._are_many = False
 
     def stage(self, number: int, stage: StageResult) -> Iterator[str]:
+        self._waiting.append((number, stage))
+        self._are_many = self._are_many or len(self._waiting) > _FEW_STAGES
+        if self._are_many:
+            yield from self._told_so_far()
+
+    def _told_so_far(self) -> Iterator[str]:
+        waiting, self._waiting = self._waiting, []
+        for each in waiting:
+            yield from self._tell(*each)
+
+    def _tell(self, number: int, stage: StageResult) -> Iterator[str]:
         heard = self.told_on(number)
         telling = [] if self.options.summary else heard
         here = {cause for one in heard for cause in one.numbers}
@@ -43,6 +61,8 @@ class Full(Staged):
         self._lines += map(line_of, telling)
 
     def end(self, report: Report) -> Iterator[str]:
+        self._waiting = [(number, report.stages[number]) for number, _ in self._waiting]
+        yield from self._told_so_far()
         late = {} if self.options.summary else self.told_late()
         for number, telling in late.items():
             stage = report.stages[number]._replace(particle_fields=None)
