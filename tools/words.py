@@ -107,7 +107,8 @@ def _said_to(arguments: str, shown: str = "") -> str:
 
 
 def _said_of_settings(text: str) -> str:
-    Path("usdvol-lint.toml").write_text(f"{text}\n", encoding="utf-8")
+    written = text.replace("{digits}", _SAID["{digits}"])
+    Path("usdvol-lint.toml").write_text(f"{written}\n", encoding="utf-8")
     return _said_to("--show-settings --config usdvol-lint.toml", text)
 
 

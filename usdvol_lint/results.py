@@ -49,8 +49,8 @@ class Cause(NamedTuple):
     """One thing to mend, whatever number of stages, instances and variants show it.
 
     `source` is what is to blame, with the layer as fingerprints have it: in relation to the root.
-    `severity` is the worst of all places, `cover` joins theirs; `places` are the first ones, and
-    `count` is the number of all.
+    `severity` is the worst of all places, `cover` joins theirs; `places` are the first ones,
+    `count` is the number of all, and `here` that of those on the first stage.
     `was` is what the baseline has, where that is less; `reason` is why the first of its places is
     suppressed, if all are: each has its own.
     """
@@ -64,6 +64,7 @@ class Cause(NamedTuple):
     state: State = State.NEW
     was: Cover | None = None
     reason: str | None = None
+    here: int = 1
 
     @property
     def first(self) -> Finding:
@@ -106,11 +107,18 @@ class StageResult(NamedTuple):
     levels: Mapping[Severity, int] = {}
     part: bool = False
 
-    def judged(self, causes: Sequence[Cause]) -> StageResult:
-        """The same with the levels that follow from the states of the causes."""
+    def judged(
+        self, causes: Sequence[Cause], equal: dict[object, Mapping[Severity, int]] | None = None
+    ) -> StageResult:
+        """The same with the levels that follow from the states of the causes.
+
+        What is `equal` to the levels of another stage is shared with it.
+        """
         shown = zip(self.causes, self.worst, strict=True)
         counted = [level for number, level in shown if level and causes[number].state.counts]
-        return self._replace(levels=dict(sorted(Counter(counted).items())))
+        levels = dict(sorted(Counter(counted).items()))
+        shared = {} if equal is None else equal
+        return self._replace(levels=shared.setdefault(tuple(levels.items()), levels))
 
 
 class Summary(NamedTuple):
@@ -201,7 +209,8 @@ class Report(NamedTuple):
 
     def with_causes(self, causes: Sequence[Cause]) -> Report:
         """The same with other states of its causes, whose number and order stay."""
-        stages = tuple(stage.judged(causes) for stage in self.stages)
+        equal: dict[object, Mapping[Severity, int]] = {}
+        stages = tuple(stage.judged(causes, equal) for stage in self.stages)
         return self._replace(causes=tuple(causes), stages=stages)
 
     @property

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 _UNITS = ((1 << 40, "T"), (1 << 30, "G"), (1 << 20, "M"), (1 << 10, "K"))
 _LONGEST_QUOTE = 500
+_LONGEST_WORD = 4_096
 _MOST_COUNTED = 10**12
 
 
@@ -36,11 +37,24 @@ def printable(text: str) -> str:
 
     These are control characters, line breaks, bidirectional overrides, invisible characters,
     spaces other than U+0020, and bytes that could not be decoded (`\xff`).
+    Of a word that is longer than any path of a file, such as the path of a prim may be, the middle
+    is left out, and its length said.
     """
+    if len(text) > _LONGEST_WORD:
+        text = _with_short_words(text)
     if not text.isprintable():
         text = "".join(map(_visible, text))
     # `##[` and `##vso[` are commands to CI hosts, wherever they stand in a line of a log.
     return text.replace("##[", "#\\x23[").replace("##vso[", "#\\x23vso[") if "##" in text else text
+
+
+def _with_short_words(text: str) -> str:
+    import re  # costs start-up time, and few texts are long
+
+    def short(word: re.Match[str]) -> str:
+        return word[0] if len(word[0]) <= _LONGEST_WORD else shortened(word[0], _LONGEST_QUOTE)
+
+    return re.sub(r"\S+", short, text)
 
 
 def without_commands(json: str) -> str:

@@ -106,5 +106,5 @@ CASES = (
     Case("prims-all-rules", _ALL_RULES, _ONE_RULE, 1.1, many_prims),
     Case("assembled", linter(), python(_TRAVERSE), 1.3, assembled),
     Case("million", linter(), python(_TRAVERSE), 1.3, million_prims, is_big=True),
-    Case("million-memory", _MEMORY, None, 2000, million_prims, unit="MB", is_big=True),
+    Case("million-memory", _MEMORY, None, 800, million_prims, unit="MB", is_big=True),
 )

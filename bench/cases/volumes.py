@@ -182,8 +182,8 @@ _MEMORY = gauged("memory", linter())
 CASES = (
     Case("samples", linter("--select", "AST"), python(_READ_SAMPLES), 2.0, many_samples),
     Case("sequence", linter(), python(_READ_FILES), 2.0, long_sequence),
-    Case("frames", linter(), python(_READ_FILES), 2.0, longer_sequence, is_big=True),
-    Case("frames-memory", _MEMORY, None, 500, longer_sequence, unit="MB", is_big=True),
+    Case("frames", linter(), python(_READ_FILES), 2.5, longer_sequence, is_big=True),
+    Case("frames-memory", _MEMORY, None, 350, longer_sequence, unit="MB", is_big=True),
     Case("volumes", linter(), python(_READ_VOLUMES), 2.0, many_volumes),
     Case("volumes-peer", linter(), _PEER, 0.05, many_volumes, needs=_PEER.words[0]),
     Case("headers", _HEADERS, _VDB_PRINT, 0.2, many_files, needs="vdb_print"),

@@ -192,6 +192,21 @@ def test_what_merges_and_editors_leave_is_read(tmp_path: Path) -> None:
     assert states(using(file).apply(now).report) == ["known", "known"]
 
 
+def test_a_file_that_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One of a stranger may be any file; and none is written that can't be read."""
+    file = written(tmp_path, cause())
+    size = file.stat().st_size
+    monkeypatch.setattr("usdvol_lint.baseline.reading.MOST_BYTES", size)
+    monkeypatch.setattr("usdvol_lint.baseline.file.MOST_BYTES", size)
+    assert len(held(file)) == 1
+    applied = using(file, write=str(file)).apply(report(tmp_path, cause(), cause(prim="/B")))
+    most = f"has more than {size:,} bytes"
+    assert applied.failure.endswith(f": no baseline {most}; what was there is as it was")
+    assert file.stat().st_size == size
+    file.write_bytes(file.read_bytes() + b"\n")
+    assert said(file) == f"b.jsonl: no baseline: none {most}"
+
+
 def test_many_frames_in_all_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("usdvol_lint.baseline.entry._MOST_FRAMES", 9)
     causes = [cause(prim=f"/A{last}", frames=tuple(map(float, range(last)))) for last in (4, 5, 6)]

@@ -15,6 +15,9 @@ from usdvol_lint.command import cli
 from usdvol_lint.config import Config
 from usdvol_lint.config.values import CHECKS
 
+TOO_LARGE = "has a number of more than 64 bits, which no setting is"
+NUL = "has a NUL character, which nothing is called: leave it out"
+
 
 def test_every_setting_has_a_check() -> None:
     """But for where they are said; `extend` is none, but what they are read from."""
@@ -141,6 +144,13 @@ strict = true
         ("jobs = 1.5", "jobs must be a whole number from 0, not 1.5"),
         ("jobs = true", "jobs must be a whole number from 0, not True"),
         ("jobs = -1", "jobs must be a whole number from 0, not -1"),
+        (f"jobs = 0x{'f' * 9000}", f"jobs {TOO_LARGE}"),
+        (f"timeout = {1 << 63}", f"timeout {TOO_LARGE}"),
+        (f"options.file-missing.most = [-{1 << 63}]", f"options {TOO_LARGE}"),
+        ('root = "a\\u0000b"', f"root {NUL}"),
+        ('extend = "a\\u0000b"', f"extend {NUL}"),
+        ('path-map = { "a\\u0000" = "b" }', f"path-map {NUL}"),
+        ('stages = ["\\U00000000"]', f"stages {NUL}"),
         ("timeout = 0", "timeout must be a number of seconds above 0, at most 1,000,000, not 0"),
         (
             "timeout = inf",
@@ -196,6 +206,7 @@ def test_mistakes_in_a_configuration(
             b"a" + b".a" * 100_000 + b" = 1\n",
             "no configuration has more than 4,194,304 bytes, ",
         ),
+        ("usdvol-lint.toml", b"jobs = " + b"9" * 5_000, "has a number of too many digits"),
         ("usdvol-lint.toml", b"select = " + b"[" * 5_000, "has too many brackets in one another"),
         ("pyproject.toml", b"[tool\n", "Expected ']' at the end of a table declaration"),
         ("pyproject.toml", b"[tool]\nusdvol-lint = 3\n", "tool.usdvol-lint must be a table, not 3"),

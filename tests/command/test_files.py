@@ -21,13 +21,17 @@ def tree(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("file", "arguments", "shown"),
     [
-        ("", "shots assets", "shots/old.usda shots/shot.usda assets/smoke.usda"),
+        ("", "shots assets", "assets/smoke.usda shots/old.usda shots/shot.usda"),
         ("", ".", "assets/smoke.usda shots/old.usda shots/shot.usda"),
         ('exclude = ["old.usda"]', ".", "assets/smoke.usda shots/shot.usda"),
         ('exclude = ["old.usda"]', ". --exclude assets/", "shots/shot.usda"),
         ('exclude = ["old.usda"]', "shots --exclude !old.usda", "shots/old.usda shots/shot.usda"),
         ("", "--files-from list.txt", "assets/smoke.usda shots/old.usda"),
-        ("", "shots/old.usda --files-from list.txt", "shots/old.usda assets/smoke.usda"),
+        (
+            "",
+            "shots/shot.usda --files-from list.txt",
+            "assets/smoke.usda shots/old.usda shots/shot.usda",
+        ),
     ],
 )
 def test_show_files(

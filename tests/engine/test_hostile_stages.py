@@ -6,10 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hostiles import FIELD, HEADER, TWO, VOLUME, chain, forwarding, nested, tree, world
+from hostiles import FIELD, HEADER, TWO, VOLUME, chain, forwarding, instance, nested, tree, world
 
+from usdvol_lint.engine import stamp
+from usdvol_lint.engine.blame import Blaming
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.site import Sites
+from usdvol_lint.engine.suppressions import Suppressions
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.suppressions import InStages
 
@@ -83,6 +86,37 @@ def test_places_that_are_not_looked_at_are_said(lint: Any) -> None:
     assert not of(lint(world(TWO, FIELD) + tree(4, MOVED)), "LNT005")
 
 
+def test_groups_of_clips_that_are_not_looked_at_are_said(lint: Any) -> None:
+    """Each instance stands below clips of its own, none of which reach into what it shows."""
+
+    def carrier(number: int) -> str:
+        keys = 'string primPath = "/a"\nasset[] assetPaths = [@./c.usda@]\n'
+        clips = f"clips = {{\ndictionary default = {{\n{keys}}}\n}}\n"
+        return f'def Xform "c{number:03}" (\n{clips})\n{{\n{instance("i", "/_a")}}}\n'
+
+    asset = f'class Xform "_a"\n{{\n{FIELD}}}\n'
+    [found] = of(lint(world(*map(carrier, range(103))) + asset), "LNT005")
+    assert found.message == (
+        "whether value clips reach it was looked at below 100 of 103 groups of prims with clips "
+        "that it stands below (shown by 103 instances)"
+    )
+    assert not of(lint(world(*map(carrier, range(100))) + asset), "LNT005")
+
+
+@pytest.mark.parametrize("last", ["</nowhere>", "</w.r0>", "</w.r7>"])
+def test_what_relationships_forward_to_is_asked_once(
+    last: str, lint: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[Any] = []
+    own = Blaming._own
+    monkeypatch.setattr(Blaming, "_own", lambda self, at: asked.append(at) or own(self, at))
+    links = 60
+    text = forwarding(links).replace("</w/v/f>", last)
+    told = {each.site.property for each in lint(text).findings}
+    assert told >= {f"field:n{link}" for link in range(links)}
+    assert len(asked) < 6 * links
+
+
 def test_shares_of_instances_by_path(engine: Engine, catalog: Any, lint: Any) -> None:
     """With patterns for paths, each of few instances is told apart, and many are not."""
     from usdvol_lint.config import Config
@@ -110,26 +144,34 @@ def test_long_names_and_lists_are_cut(lint: Any) -> None:
     assert max(len(each.message) + len(each.suggestion or "") for each in report.findings) < 4_200
 
 
-def test_what_was_found_stands_where_its_place_is_not(
-    lint: Any, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("where", "name", "what"),
+    [
+        (Sites, "_find", "the layer and line of findings"),
+        (stamp, "cover_of", "how much findings cover"),
+        (stamp, "absent_of", "what other stages may complete"),
+        (Suppressions, "reason", "what suppresses findings"),
+    ],
+)
+def test_what_was_found_stands_where_what_belongs_to_it_is_not(
+    where: Any, name: str, what: str, lint: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It is told at its prim, and once a stage that looking for places failed."""
+    """It is told at its prim, and once a stage that looking for that failed."""
 
-    def fail(self: Sites, problem: Any) -> None:
-        raise LookupError("no place")
+    def fail(*asked: Any) -> None:
+        raise LookupError("nowhere")
 
     text = world(VOLUME, VOLUME.replace('"v"', '"u"'))
     found = {(each.code, each.site.prim, each.message) for each in lint(text).findings}
-    monkeypatch.setattr(Sites, "_find", fail)
+    monkeypatch.setattr(where, name, fail)
     report = lint(text)
-    failed = [each for each in report.findings if each.code == "LNT002"]
+    [failed] = [each for each in report.findings if each.code == "LNT002"]
     assert {(each.code, each.site.prim, each.message) for each in report.findings} == found | {
-        ("LNT002", failed[0].site.prim, failed[0].message)
+        ("LNT002", failed.site.prim, failed.message)
     }
-    assert failed[0].message == (
-        "the layer and line of findings could not be found here, and on "
-        f"{len(found) - 1} more prims: LookupError: no place"
+    assert failed.message == (
+        f"{what} could not be found here, and on {len(found) - 1} more prims: LookupError: nowhere"
     )
-    assert (failed[0].site.layer, failed[0].site.line) == ("hostile.usda", None)
-    assert failed[0].detail
-    assert "no place" in failed[0].detail
+    assert (failed.site.layer, failed.site.line is None) == ("hostile.usda", where is Sites)
+    assert failed.detail
+    assert "nowhere" in failed.detail

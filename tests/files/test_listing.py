@@ -49,7 +49,8 @@ def refused(*paths: str, **globs: Sequence[str]) -> str:
     ("paths", "expected"),
     [
         ("shots", "shots/a/shot.usda shots/b/shot.usda"),
-        ("shots/b shots", "shots/b/shot.usda shots/a/shot.usda"),
+        ("shots/b shots", "shots/a/shot.usda shots/b/shot.usda"),
+        ("shots a.usda", "a.usda shots/a/shot.usda shots/b/shot.usda"),
         ("a.usda shots/../a.usda ./a.usda", "a.usda"),
         (".", "a.USDZ a.usda shots/a/shot.usda shots/b/shot.usda"),
         ("shots/**/*.usda", "shots/a/shot.usda shots/b/shot.usda"),

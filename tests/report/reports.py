@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +21,11 @@ from usdvol_lint.model import (
     StageReport,
     Status,
 )
+from usdvol_lint.report import Options, Writer, writer
 from usdvol_lint.report.json_report import SCHEMA_VERSION
-from usdvol_lint.results import BaselineUse, Report, RunInfo, State
+from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, State
 from usdvol_lint.run.causes import Causes
+from usdvol_lint.run.folding import folded
 
 SCHEMA: dict[str, Any] = json.loads(
     (ROOT / f"usdvol_lint/report/report-{SCHEMA_VERSION}.schema.json").read_text(encoding="utf-8")
@@ -228,6 +231,43 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
             2,
         ),
     ).with_causes([cause._replace(**states.get(cause.code, {})) for cause in causes])
+
+
+class Listener:
+    """Keeps what a writer says of a run that goes on."""
+
+    def __init__(self, writer: Writer) -> None:
+        self.writer = writer
+        self.said: list[str] = []
+
+    def begin(self, head: Report) -> None:
+        self.said += self.writer.begin(head)
+
+    def cause(self, number: int, cause: Cause) -> None:
+        self.said += self.writer.cause(number, cause)
+
+    def place(self, number: int, place: Place) -> None:
+        self.said += self.writer.place(number, place)
+
+    def raised(self, number: int, cause: Cause, was: Severity) -> None:
+        self.said += self.writer.raised(number, cause, was)
+
+    def stage(self, number: int, stage: StageResult) -> None:
+        self.said += self.writer.stage(number, stage)
+
+
+def streamed(
+    format: str, stages: Sequence[StageReport], options: Options, most: int = 20
+) -> tuple[str, Report]:
+    """What is written while a run over these stages goes on, and the report at its end."""
+    told = Listener(writer(format, options))
+    head = report()
+    told.begin(head)
+    judged = ((stage, False) for stage in stages)
+    results, causes = folded(Causes(most=most), judged, False, told)
+    whole = head._replace(stages=results).with_causes(causes)
+    told.said += told.writer.end(whole)
+    return "".join(told.said), whole
 
 
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)

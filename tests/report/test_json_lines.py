@@ -8,12 +8,13 @@ from typing import Any
 import jsonschema  # type: ignore[import-untyped]
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 from process import ROOT
 from referencing import Registry, Resource
-from reports import BY_CAUSE, SCHEMA, STRICT, TANK, report, shown_on
-from test_report_laws import LAW, OPTIONS, REPORTS
+from reports import BY_CAUSE, SCHEMA, STRICT, TANK, report, shown_on, streamed
+from test_report_laws import LAW, OPTIONS, REPORTS, STAGES
 
-from usdvol_lint.model import Severity
+from usdvol_lint.model import Severity, StageReport
 from usdvol_lint.report import Options, render
 from usdvol_lint.report.json_lines import JsonLines
 from usdvol_lint.report.json_report import SCHEMA_VERSION
@@ -44,6 +45,8 @@ def rebuilt(told: list[dict[str, Any]]) -> dict[str, Any]:
             case "cause":
                 assert line.pop("number") == len(whole["causes"])
                 whole["causes"].append(line)
+            case "change":
+                whole["causes"][line.pop("cause")] |= line
             case "place":
                 whole["causes"][line.pop("cause")]["places"].append(line)
             case "stage":
@@ -58,9 +61,44 @@ def test_the_whole_report_can_be_made_of_the_lines(subject: Report, options: Opt
     told = lines(subject, options)
     for line in told:
         VALIDATOR.validate(line)
+    assert all(line["type"] != "change" for line in told), "all is known already"
     whole = rebuilt(told)
     assert whole == json.loads(render(subject, "json", options))
     jsonschema.validate(whole, STRICT)
+
+
+def with_paths(numbered: tuple[int, StageReport]) -> StageReport:
+    """A stage with paths that files may have; others complete nothing."""
+    number, stage = numbered
+    lack = (frozenset({("/lib/a.usda", "/A", "x")}),)
+    findings = (each._replace(absent=lack if each.absent else ()) for each in stage.findings)
+    return stage._replace(path=f"{number}.usda", findings=tuple(findings), completes=None)
+
+
+@LAW
+@given(st.lists(STAGES, max_size=4), st.integers(1, 3))
+def test_the_whole_report_can_be_made_of_what_is_told_meanwhile(
+    stages: list[StageReport], most: int
+) -> None:
+    """What is known later is a line of its own."""
+    text, subject = streamed("jsonl", list(map(with_paths, enumerate(stages))), Options(), most)
+    told = [json.loads(line, parse_constant=pytest.fail) for line in text.splitlines()]
+    for line in told:
+        VALIDATOR.validate(line)
+    assert rebuilt(told) == json.loads(render(subject, "json", Options()))
+
+
+def test_a_place_that_raises_a_cause_is_a_line() -> None:
+    mild = TANK._replace(severity=Severity.WARNING)
+    stages = [shown_on("a", mild, "/A"), shown_on("b", TANK, "/B"), shown_on("c", mild, "/C")]
+    text, _ = streamed("jsonl", stages, Options(), most=2)
+    told = [json.loads(line) for line in text.splitlines()]
+    assert [line["type"] for line in told[:5]] == ["run", "cause", "place", "change", "change"]
+    assert (told[1]["severity"], told[1]["count"]) == ("warning", 1)
+    assert told[3:5] == [
+        {"type": "change", "cause": 0, "severity": "error"},
+        {"type": "change", "cause": 0, "count": 3},
+    ]
 
 
 def test_the_lines_in_order() -> None:

@@ -227,6 +227,8 @@ def test_long_texts_are_cut(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_one_long_message_is_cut() -> None:
-    ((text, _),) = texts(report(stage("a.usda", MISSING._replace(message="m" * 10**6))))
+    ((text, _),) = texts(
+        report(stage("a.usda", MISSING._replace(message="so many words " * 10**5)))
+    )
     assert len(text) < 3000
     assert "…\n" in text

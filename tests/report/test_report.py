@@ -222,6 +222,16 @@ def test_printable(text: str, expected: str) -> None:
     assert printable(text) == expected
 
 
+def test_of_a_word_that_is_no_path_of_a_file_the_middle_is_left_out() -> None:
+    longest = "/" + "n" * 4095
+    assert printable(f"<{longest[2:]}>") == f"<{longest[2:]}>"
+    assert printable(f"at {longest}n, {longest}") == (
+        f"at /{'n' * 249}… 3,598 characters …{'n' * 249}, {longest}"
+    )
+    words = "word " * 30_000
+    assert printable(words) == words
+
+
 @pytest.mark.parametrize(
     ("format", "unwanted"),
     [

@@ -17,7 +17,7 @@ from usdvol_lint.paths import canonical
 Blamed: TypeAlias = tuple[str, Source]
 Break: TypeAlias = Callable[[Any, Any], None]
 
-_OF_STAGES = {"AST012", "AST017", "STG007"}
+_OF_STAGES = {"ARR027", "AST012", "AST017", "STG007"}
 """They are about the range that the root layer says, which a layer on top has to say again."""
 _OF_RUNS = {"LNT001", "LNT002", "LNT004"}
 _CARRIED_OVER = (

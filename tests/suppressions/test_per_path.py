@@ -160,10 +160,10 @@ def test_a_run(tmp_path: Path) -> None:
         for cause in report.json["causes"]
     ] == [
         ("lookdev/fog.usda", "warning", "new", "error"),
-        ("old/fog.usda", "error", "suppressed", "error"),
         ("shots/fog.usda", "error", "new", "error"),
+        ("old/fog.usda", "error", "suppressed", "error"),
     ]
-    assert report.json["causes"][1]["reason"] == "ignored by per-path for 'old/**'"
+    assert report.json["causes"][2]["reason"] == "ignored by per-path for 'old/**'"
     assert report.json["stages"][0]["levels"] == {"warning": 1}
     assert [each["files"] for each in report.json["settings"]["per_path"]] == [
         ["lookdev/**"],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -26,6 +27,8 @@ from usdvol_lint.words import quoted
 
 FORMAT_KEY = "usdvol_lint_baseline"
 FORMAT = 1
+MOST_BYTES = 512 << 20
+"""What is read as a baseline, a million causes: one of a stranger may be any file."""
 _HEAD = 4096
 _MERGED = (b"<<<<<<<", b'{"fingerprint"')
 """What a baseline begins with that git could not merge, or whose first line is gone."""
@@ -152,8 +155,11 @@ def as_text(baseline: Baseline) -> str:
 
 def write_baseline(baseline: Baseline) -> None:
     """Writes a file, or leaves the one that is there; raises OSError."""
+    data = as_text(baseline).encode("utf-8")
+    if len(data) > MOST_BYTES:
+        raise OSError(errno.EFBIG, f"no baseline has more than {MOST_BYTES:,} bytes")
     with replacing(Path(baseline.file)) as stream:
-        stream.write(as_text(baseline).encode("utf-8"))
+        stream.write(data)
         stream.flush()
         os.fsync(stream.fileno())  # some disks are full only here
 

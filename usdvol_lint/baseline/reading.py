@@ -15,7 +15,7 @@ from usdvol_lint.baseline.entry import (
     is_held,
     least_held,
 )
-from usdvol_lint.baseline.file import FORMAT_KEY, Baseline, check_version, read_lines
+from usdvol_lint.baseline.file import FORMAT_KEY, MOST_BYTES, Baseline, check_version, read_lines
 from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 from usdvol_lint.baseline.scope import arguments_from_json, scope_from_json
 from usdvol_lint.baseline.values import found, list_of, optional_string, string, table_of, value_of
@@ -37,12 +37,15 @@ def _text(file: str) -> str:
     try:
         if os.path.exists(file) and not os.path.isfile(file):  # a pipe may never end
             raise UsageError(f"{file}: no baseline: it is no file")
-        data = Path(file).read_bytes()
+        with Path(file).open("rb") as stream:
+            data = stream.read(MOST_BYTES + 1)
     except FileNotFoundError:
         hint = f"--write-baseline {file} writes one"
         raise UsageError(f"{file}: there is no such baseline; {hint}") from None
     except OSError as error:
         raise UsageError(f"{file}: no baseline: {error.strerror}") from None
+    if len(data) > MOST_BYTES:
+        raise UsageError(f"{file}: no baseline: none has more than {MOST_BYTES:,} bytes")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -56,10 +56,11 @@ def write_failed(
     """Writes the reports that are for programs; people are told on standard error."""
     if destinations := [each for each in asked if not each.is_text_to_read]:
         options = options._replace(repository=options.repository or checkout_of(paths))
-        output.write(_failed(paths, error, config), destinations, options)
+        output.write(failed(paths, error, config), destinations, options)
 
 
-def _failed(paths: tuple[str, ...], error: BaseException, config: Config) -> Report:
+def failed(paths: tuple[str, ...], error: BaseException, config: Config) -> Report:
+    """The report on a run that broke off."""
     return Report(
         version=__version__,
         usd_version=None,

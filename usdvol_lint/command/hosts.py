@@ -19,14 +19,31 @@ def is_github() -> bool:
     return os.environ.get("GITHUB_ACTIONS") == "true"
 
 
+class Guard:
+    """Encloses text that GitHub takes no commands from, whatever stages have in their names."""
+
+    def __init__(self) -> None:
+        self._token = ""
+
+    def opened(self, parts: Iterable[str]) -> Iterator[str]:
+        """The text, after what begins it if this is the first of it."""
+        for part in filter(None, parts):
+            if not self._token:
+                self._token = secrets.token_hex(16)  # which no stage can foresee
+                yield f"::stop-commands::{self._token}\n"
+            yield part
+
+    def closed(self) -> Iterator[str]:
+        """What ends it, if there was any."""
+        if self._token:
+            yield f"::{self._token}::\n"
+
+
 def guarded(parts: Iterable[str]) -> Iterator[str]:
-    """Text that GitHub takes no commands from, whatever stages have in their names."""
-    text = "".join(parts)
-    if text:
-        token = secrets.token_hex(16)  # which no stage can foresee
-        yield f"::stop-commands::{token}\n"
-        yield text
-        yield f"::{token}::\n"
+    """The whole text, so that GitHub takes no commands from it."""
+    guard = Guard()
+    yield from guard.opened(parts)
+    yield from guard.closed()
 
 
 def summary_file() -> str | None:

@@ -13,13 +13,14 @@ import click
 from usdvol_lint.command import output
 from usdvol_lint.command.choosing import arguments, changes
 from usdvol_lint.command.codes import CLEAN, ended_by, exit_code, signal_of
-from usdvol_lint.command.failed import mark_reported, run_info, write_failed
+from usdvol_lint.command.failed import failed, mark_reported, run_info, write_failed
 from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.settings import read_settings
+from usdvol_lint.command.streaming import Streams
 from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
 from usdvol_lint.packs.catalog import NOT_IGNORABLE, load_for
-from usdvol_lint.report import FOR_HOSTS
+from usdvol_lint.report import FOR_HOSTS, STREAMED
 from usdvol_lint.results import Report
 from usdvol_lint.run.causes import versions_in
 from usdvol_lint.run.interruption import Interruption, name_of
@@ -54,13 +55,13 @@ def lint_stages(
         code = _linted(paths, given, child, signals)
     except KeyboardInterrupt as error:
         number = signal_of(error)
-        return _ended(number, f"interrupted by {name_of(number)}")
+        return _tell_end(number, f"interrupted by {name_of(number)}")
     except Exception as error:
         mark_reported(error)
         raise
     if signals.number and not signals.is_early:
         name = name_of(signals.number)
-        return _ended(signals.number, f"interrupted by {name} once all stages were done")
+        return _tell_end(signals.number, f"interrupted by {name} once all stages were done")
     return code
 
 
@@ -71,25 +72,34 @@ def _linted(
     signals: Interruption,
 ) -> int:
     job = _Job(paths, given)
-    try:
-        signals.release()
-        paths = job.read_list()
-        shows = not given["quiet"] and sys.stderr.isatty()
-        with ProgressBar(enabled=shows) as progress:
-            report = lint(paths, job.settle, progress, child, job.naming, job.changes, signals)
-        signals.hold()
-    except (Exception, KeyboardInterrupt) as error:
-        signals.hold()
-        job.write_failure(error)
-        raise
+    shows = not given["quiet"] and sys.stderr.isatty()
+    with ProgressBar(enabled=shows) as progress, Streams(job.streamed, progress.aside) as streams:
+        try:
+            signals.release()
+            paths = job.read_list()
+            report = lint(
+                paths, job.settle, progress, child, job.naming, job.changes, signals, streams
+            )
+            signals.hold()
+        except (Exception, KeyboardInterrupt) as error:
+            signals.hold()
+            job.write_failure(error, streams)
+            raise
+        progress.close()
+        return _ended(job, report, streams)
+
+
+def _ended(job: _Job, report: Report, streams: Streams) -> int:
+    """Writes what is not written yet, and returns the exit code."""
+    given = job.given
     if report.run.usd_said and not given["quiet"]:
         said = "; ".join(report.run.usd_said)
         click.echo(f"usdvol-lint: USD could not load all its plugins: {printable(said)}", err=True)
     report = report._replace(run=run_info(report.run, job.config))
     if report.interrupted:
-        return job.end_early(report)
+        return job.end_early(report, streams)
     report, failure = job.prepared.apply(report) if job.prepared else (report, "")
-    output.write(report._replace(failure=failure), job.destinations, job.options())
+    job.write(report._replace(failure=failure), streams)
     if not given["quiet"]:
         _tell_without_rules(report)
     if job.config.suppress and not given["quiet"]:
@@ -112,18 +122,18 @@ class _Job:
 
     def __init__(self, paths: tuple[str, ...], given: dict[str, Any]) -> None:
         self._paths = paths
-        self._given = given
+        self.given = given
 
     def read_list(self) -> tuple[str, ...]:
         """The arguments, with those in a list."""
-        self._paths = arguments(self._paths, self._given)
+        self._paths = arguments(self._paths, self.given)
         return self._paths
 
     def changes(self, config: Config) -> Changes | None:
-        return changes(self._paths, self._given, config, self.file)
+        return changes(self._paths, self.given, config, self.file)
 
     def settle(self) -> Config:
-        given = self._given
+        given = self.given
         self.config, self.file = read_settings(given)
         if self.config.jobs > (most := owned()) and not given["quiet"]:
             click.echo(f"usdvol-lint: {_more_jobs(self.config.jobs, most)}", err=True)
@@ -141,16 +151,16 @@ class _Job:
         if config.root is not None and not os.path.isdir(config.root):
             where = config.origins.words("root")
             raise UsageError(f"{where}: the root {quoted(config.root)} is no folder")
-        root = root_of(self._paths, self._given["root"], of_baseline, config.root, folder)
+        root = root_of(self._paths, self.given["root"], of_baseline, config.root, folder)
         if self.prepared:
             self.prepared.check_root(root)
         return Naming(root, versions_in(config.version_pattern), self.repository)
 
     def options(self) -> Options:
-        return output.options_of(self._given, self.config)._replace(
-            fail_on_unpruned=self._given["fail_on_unpruned"],
-            category=self._given["category"] or "",
-            summary=self._given["summary"] or "",
+        return output.options_of(self.given, self.config)._replace(
+            fail_on_unpruned=self.given["fail_on_unpruned"],
+            category=self.given["category"] or "",
+            summary=self.given["summary"] or "",
             repository=self.repository,
             page_of=lambda code: load_for(self.config).page(code),
         )
@@ -158,24 +168,43 @@ class _Job:
     @property
     def _inputs(self) -> tuple[str | None, ...]:
         """The files that the run reads, as far as they are named."""
-        given = self._given
+        given = self.given
         named = (given["files_from"], given["baseline"], given["write_baseline"])
         return (*self._paths, *named, self.config.baseline)
 
-    def end_early(self, report: Report) -> int:
+    def streamed(self) -> tuple[Sequence[Destination], Options]:
+        """The reports to write while the run goes on.
+
+        None where the states of causes, or what was looked at, is not known before its end.
+        """
+        given = self.given
+        waits = self.prepared or given["summary"] or given["changed_since"] is not None
+        asked = () if waits else self.destinations
+        return [each for each in asked if each.format in STREAMED], self.options()
+
+    def write(self, report: Report, streams: Streams) -> None:
+        """Writes the reports, or what is left of those that were written meanwhile."""
+        done = streams.end(report)
+        left = [each for each in self.destinations if each not in done]
+        output.write(report, left, self.options())
+        streams.check()
+
+    def end_early(self, report: Report, streams: Streams) -> int:
         """Writes the reports on what an interrupted run has; a baseline is only compared with."""
         if self.prepared and not self.prepared.use.target:
             report, _ = self.prepared.apply(report)
-        output.write(report, self.destinations, self.options())
-        return _ended(report.interrupted, f"{report.failure}; what was found is reported")
+        self.write(report, streams)
+        return _tell_end(report.interrupted, f"{report.failure}; what was found is reported")
 
-    def write_failure(self, error: BaseException) -> None:
-        """Writes the reports that were asked for."""
-        asked = self.destinations or output.named_by(self._given["outputs"], self._inputs)
-        write_failed(asked, self._paths, error, self.config, self.options())
+    def write_failure(self, error: BaseException, streams: Streams) -> None:
+        """Writes the reports that were asked for, and ends those that were begun."""
+        asked = self.destinations or output.named_by(self.given["outputs"], self._inputs)
+        done = streams.fail(failed(self._paths, error, self.config))
+        left = [each for each in asked if each not in done]
+        write_failed(left, self._paths, error, self.config, self.options())
 
 
-def _ended(number: int, said: str) -> int:
+def _tell_end(number: int, said: str) -> int:
     """What a run exits with that a signal ended; says so if the terminal is still there."""
     with suppress(OSError):
         click.echo(f"usdvol-lint: {said}", err=True)

@@ -7,15 +7,15 @@ import shutil
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, NamedTuple
 
 import click
 
 from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_file
+from usdvol_lint.command.writing import Printer, is_device, write_to
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
 from usdvol_lint.paths import SUFFIXES, canonical
-from usdvol_lint.replacing import replacing
 from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
 from usdvol_lint.words import printable
@@ -164,7 +164,7 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
             raise UsageError(f"--output {destination.file}: {said}")
         if not os.path.isdir(file.parent):
             raise UsageError(f"--output {destination.file}: there is no folder {file.parent}")
-        if not os.access(file if _is_device(file) else file.parent, os.W_OK):
+        if not os.access(file if is_device(file) else file.parent, os.W_OK):
             raise UsageError(f"--output {destination.file}: no permission to write there")
 
 
@@ -175,7 +175,7 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
     UsageError names these files.
     """
     failures = []
-    plain = options._replace(color=False, width=80, quiet=False)
+    for_files = plain(options)
     for destination in destinations:
         format, file, _ = destination
         if file is None:
@@ -183,16 +183,21 @@ def write(report: Report, destinations: Sequence[Destination], options: Options)
             print_text(guarded(parts) if format in TEXTS and is_github() else parts)
             continue
         try:
-            _write_file(destination, file, report, plain)
+            _write_file(destination, file, report, for_files)
         except OSError as error:
             if destination.is_added:  # the host's own, for which nobody asked
                 said = f"the summary of the step (GITHUB_STEP_SUMMARY) can't be written: {file}"
                 print(f"usdvol-lint: {printable(said)}: {error.strerror}", file=sys.stderr)
                 continue
             failures.append(f"--output {file}: {error.strerror}")
-            print_text(written(report, format, plain))
+            print_text(written(report, format, for_files))
     if failures:
         raise UsageError("; ".join(failures))
+
+
+def plain(options: Options) -> Options:
+    """The options for a report in a file."""
+    return options._replace(color=False, width=80, quiet=False)
 
 
 def _write_file(destination: Destination, file: str, report: Report, options: Options) -> None:
@@ -234,33 +239,11 @@ def _terminal_wants_color() -> bool:
 
 def print_text(parts: Iterable[str]) -> None:
     """Writes text as UTF-8 whatever the locale, which may lack characters of a stage's names."""
-    if sys.stdout is None:
-        raise UsageError("there is no standard output to print to")
-    try:
-        sys.stdout.flush()
-        _write(sys.stdout.buffer, parts)
-        sys.stdout.buffer.flush()
-    except OSError as error:
-        # What is left in the buffer must not fail again when Python exits.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        # A reader that closed the pipe, as `head` does, is no failure.
-        if not isinstance(error, BrokenPipeError):
-            raise UsageError(f"can't write to standard output: {error.strerror}") from error
+    printer = Printer()
+    printer.print(parts)
+    printer.close()
 
 
 def _replace(file: Path, parts: Iterable[str]) -> None:
-    if _is_device(file):
-        with open(file, "wb") as device:
-            _write(device, parts)
-        return
-    with replacing(file) as stream:
-        _write(stream, parts)
-
-
-def _write(file: BinaryIO, parts: Iterable[str]) -> None:
-    file.writelines(part.encode("utf-8", "backslashreplace") for part in parts)
-
-
-def _is_device(file: Path) -> bool:
-    """Whether it exists but is no regular file, such as /dev/null or a pipe."""
-    return os.path.exists(file) and not os.path.isfile(file)
+    with write_to(file) as write:
+        write(parts)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from usdvol_lint.config import Config, Glob
 from usdvol_lint.config.layers import laid_over
 from usdvol_lint.config.misnamed import FILE_NAME, TABLE, check_keys, check_names, check_tables
-from usdvol_lint.config.values import CHECKS, table
+from usdvol_lint.config.values import CHECKS, plain, table
 from usdvol_lint.model import UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.words import quoted
@@ -104,7 +104,9 @@ def _read_values(path: Path, where: str) -> dict[str, Any]:
 def _value(path: Path, key: str, value: Any) -> Any:
     if key not in CHECKS:
         raise UsageError(f"{path}: unknown key {key!r}{did_you_mean(key, CHECKS)}")
-    anchored = _anchored(key, CHECKS[key](_in(path)(key), value), path.parent)
+    where = _in(path)(key)
+    plain(where, value, has_nul=key == "options")
+    anchored = _anchored(key, CHECKS[key](where, value), path.parent)
     for folder in anchored if key == "search-path" else ():
         if not isdir(folder):
             raise UsageError(f"{path}: {key}: there is no folder {quoted(folder)}")
@@ -153,7 +155,8 @@ def _read_toml(path: Path) -> dict[str, Any]:
     import tomllib  # costs start-up time, and worker processes read no configuration
 
     try:
-        text = path.read_bytes()
+        with path.open("rb") as file:
+            text = file.read(_MOST_BYTES + 1)
         most_dots = max((line.count(b".") for line in text.splitlines()), default=0)
         if len(text) > _MOST_BYTES or most_dots > _MOST_DOTS:
             most = f"{_MOST_BYTES:,} bytes, or {_MOST_DOTS:,} dots in a line"
@@ -167,5 +170,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise UsageError(f"{path}: {error}") from error
     except UnicodeDecodeError as error:
         raise UsageError(f"{path}: not UTF-8 text") from error
+    except ValueError as error:  # Python converts no number of more than some thousand digits
+        raise UsageError(f"{path}: has a number of too many digits") from error
     except OSError as error:
         raise UsageError(f"{path}: {error.strerror}") from error

@@ -26,10 +26,31 @@ if TYPE_CHECKING:
     from usdvol_lint.suppressions import Suppression
 
 LONGEST_TIMEOUT = 1_000_000
+_LARGEST = (1 << 63) - 1
+"""As TOML has it: Python shows no number of some thousand digits."""
 _SIZES = {"": 1, "K": 1 << 10, "M": 1 << 20, "G": 1 << 30, "T": 1 << 40}
 _NO_SIZES = {"auto": None, "none": 0, "0": 0}
 _NO_LEVELS = ("ignore", "ignored", "off", "none", "never", False)
 """What somebody writes for the severity of a rule that is to report nothing."""
+
+
+def plain(where: str, value: Any, has_nul: bool = False) -> None:
+    """Raises UsageError if something in a value can be no path, no name and no number of a setting.
+
+    `has_nul` is for the options of rules, which may have any text.
+    """
+    match value:
+        case dict():
+            for name, inner in value.items():
+                plain(where, name, has_nul)
+                plain(where, inner, has_nul)
+        case list():
+            for item in value:
+                plain(where, item, has_nul)
+        case str() if "\0" in value and not has_nul:
+            raise UsageError(f"{where} has a NUL character, which nothing is called: leave it out")
+        case int() if abs(value) > _LARGEST:
+            raise UsageError(f"{where} has a number of more than 64 bits, which no setting is")
 
 
 def strings(where: str, value: Any) -> list[str]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
 
 from usdvol_lint.engine.fallbacks import losing_fallback
+from usdvol_lint.engine.forwards import Forwards
 from usdvol_lint.engine.saying import has_value, maker, of_prim, saying, weakest, with_metadata
-from usdvol_lint.engine.strength import Opinion, decisive, path_beside
+from usdvol_lint.engine.strength import Opinion, Standing, decisive, path_beside, standing_of
 from usdvol_lint.engine.taking import Edit, Takings
 from usdvol_lint.engine.variables import deciding_layer
 from usdvol_lint.facts.usd.bringing import node_of
@@ -43,11 +43,13 @@ class Blaming:
     def __init__(self) -> None:
         self._has_variables: bool | None = None
         self._takings = Takings()
+        self._forwards: Forwards[Blame] = Forwards()
         self._clip_sets: dict[Any, list[tuple[ClipSet, frozenset[str]]]] = {}
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
         self._takings.recomposed()
+        self._forwards.recomposed()
         self._clip_sets.clear()
 
     def blame(self, problem: Problem | NotChecked) -> Blame:
@@ -55,8 +57,9 @@ class Blaming:
         at = problem.at
         prim = at.GetPrim()
         own = self._own(problem)
-        against = (*problem.against, *_forwarded(at)) if _is_relationship(at) else problem.against
-        others = [each for other in against if (each := self._opinion(other, problem))]
+        others = [each for other in problem.against if (each := self._opinion(other, problem))]
+        if _is_relationship(at):
+            others += self._forwards.behind(at, self._standing)
         if edit := self._edit(problem, own):
             others.append((edit.prim, Blame(edit.spec)))
         if own.spec is None or not others:
@@ -70,6 +73,13 @@ class Blaming:
         name = theirs.property if theirs.clip else _property_of(found.spec)
         name = name or (None if path else own.property)
         return theirs._replace(property=name, subject=problem.subject or path or theirs.subject)
+
+    def _standing(self, relationship: Any) -> tuple[Blame, Standing] | None:
+        """What is to blame for where a relationship leads, and how it stands."""
+        blame = self._own(Problem("", at=relationship))
+        opinion = Opinion(relationship.GetPrim(), blame.spec)
+        standing = standing_of(opinion) if blame.spec else None
+        return (blame, standing) if standing else None
 
     def _edit(self, problem: Problem | NotChecked, own: Blame) -> Edit | None:
         """The edit of another layer that takes away what is missing."""
@@ -161,17 +171,6 @@ class Blaming:
 
 def _is_relationship(at: Any) -> bool:
     return isinstance(at, Usd.Relationship)
-
-
-def _forwarded(relationship: Any) -> Iterator[Any]:
-    """The relationships that one forwards to, from one to the next."""
-    seen = {relationship.GetPath()}
-    while len(targets := relationship.GetTargets()) == 1 and targets[0] not in seen:
-        seen.add(targets[0])
-        relationship = relationship.GetStage().GetRelationshipAtPath(targets[0])
-        if not relationship:
-            return
-        yield relationship
 
 
 def _paths_of(clip_set: ClipSet) -> frozenset[str]:

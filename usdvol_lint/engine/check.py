@@ -24,7 +24,10 @@ from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
 
 
 class StageCheck:
-    """Checks one stage; findings come from generators, so that they can be sent as they come."""
+    """Checks one stage; findings come from generators, so that they can be sent as they come.
+
+    `broken` is text that USD could not read, and gave no value for; it may grow all the time.
+    """
 
     def __init__(
         self,
@@ -33,12 +36,14 @@ class StageCheck:
         options: Options,
         assignment: Assignment,
         stamp: Stamp,
+        broken: list[UnicodeDecodeError] | None = None,
     ) -> None:
         self._context = context
         self._rules = rules
         self._options = options
         self._assignment = assignment
         self._stamp = stamp
+        self._broken = broken if broken is not None else []
 
     def walk(self) -> Walked:
         """The prims that the rules ask for, under the variant selection composed now."""
@@ -79,8 +84,11 @@ class StageCheck:
                 failures.add(rule, prim, error)
         for prim, fault in facts.tables.unreadable:
             failures.add(NOT_CHECKED, prim, fault)
-        for prim, looked_at in cut_short(facts.stage):
-            yield from self._stamp.stamp(NOT_CHECKED, _partly_placed(prim, looked_at))
+        for text in self._broken:
+            failures.add(NOT_CHECKED, facts.stage.GetPseudoRoot(), text)
+        self._broken.clear()
+        for prim, words in cut_short(facts.stage):
+            yield from self._stamp.stamp(NOT_CHECKED, _cut_short(prim, words))
         yield from self._failed(failures)
         yield from self._stamp.suppressions(facts.stage, failures.prims)
         yield from self._failed(Failures())
@@ -88,8 +96,8 @@ class StageCheck:
     def _failed(self, failures: Failures) -> Iterator[Stamped]:
         """What failed, also in looking for places of what was found."""
         sites = self._stamp.sites
-        for prim, error in sites.faults:
-            failures.add_place(prim, error)
+        for prim, what, error in sites.faults:
+            failures.add_place(prim, what, error)
         yield from failures.findings(sites)
         sites.faults.clear()
 
@@ -140,11 +148,6 @@ class StageCheck:
                 yield rule, root
 
 
-def _partly_placed(prim: Any, looked_at: int) -> NotChecked:
+def _cut_short(prim: Any, words: str) -> NotChecked:
     """That a prim is shown more often than could be looked at."""
-    return NotChecked(
-        f"where it is and when it is visible was looked at for the first {looked_at:,} of the "
-        "instances that show it",
-        at=prim,
-        suggestion="check the asset that is instanced by itself",
-    )
+    return NotChecked(words, at=prim, suggestion="check the asset that is instanced by itself")

@@ -17,6 +17,7 @@ from usdvol_lint.engine.failures import still_holding, unreadable
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
+from usdvol_lint.engine.undecoded import undecoded
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.disk import Disk
@@ -86,12 +87,18 @@ class Engine:
         `answer` is called with it before the stage is let go, which for a large one takes a while.
         """
         alive: list[object] = []
-        report = self._checked(path, alive)
+        with undecoded() as broken:
+            report = self._checked(path, alive, broken)
         answer(report)
         return report
 
-    def _checked(self, path: str, alive: list[object]) -> StageReport:
-        """The same; what takes a while to let go is in `alive` too."""
+    def _checked(
+        self, path: str, alive: list[object], broken: list[UnicodeDecodeError]
+    ) -> StageReport:
+        """The same; what takes a while to let go is in `alive` too.
+
+        `broken` is text that USD could not read until now.
+        """
         clock = _Stopwatch()
         try:
             session = Sdf.Layer.CreateAnonymous() if self._depth.selections else None
@@ -111,7 +118,7 @@ class Engine:
         found: list[Stamped] = []
         alive += (context, found)
         try:
-            return self._report(path, context, clock, found)
+            return self._report(path, context, clock, found, broken)
         except UNREADABLE as error:  # where no rule was asked that would have reported it
             trouble = unreadable(error)
         clock.lap("check")
@@ -119,12 +126,18 @@ class Engine:
         return report_trouble(path, trouble, seconds=clock.seconds, found=others)
 
     def _report(
-        self, path: str, context: Context, clock: _Stopwatch, found: list[Stamped]
+        self,
+        path: str,
+        context: Context,
+        clock: _Stopwatch,
+        found: list[Stamped],
+        broken: list[UnicodeDecodeError],
     ) -> StageReport:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
         stamp = self._stamp(path)
-        check = StageCheck(context, self._rules, self._active.options, self._assignment, stamp)
+        options = self._active.options
+        check = StageCheck(context, self._rules, options, self._assignment, stamp, broken)
         walked = check.walk()
         clock.lap("walk")
         facts = check.facts(walked)

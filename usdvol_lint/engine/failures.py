@@ -39,26 +39,26 @@ class _Failure:
         error: BaseException,
         traceback: str,
         of_precondition: bool = False,
-        of_place: bool = False,
+        sought: str = "",
     ) -> None:
         self.rule = rule
         self.prim = prim
         self.error = error
         self.traceback = traceback
         self.of_precondition = of_precondition
-        self.of_place = of_place
+        self.sought = sought
         self.is_by_usd = is_by_usd(error) and not of_precondition
         self.count = 0
 
     @property
     def subject(self) -> str:
-        return "" if self.is_by_usd or self.of_place else self.rule.code
+        return "" if self.is_by_usd or self.sought else self.rule.code
 
     @property
     def suggestion(self) -> str:
         if self.is_by_usd:
             return _OF_THE_STAGE
-        return _OF_THE_PLACE if self.of_place else _OF_THE_RULE
+        return _OF_THE_PLACE if self.sought else _OF_THE_RULE
 
     @property
     def message(self) -> str:
@@ -70,8 +70,8 @@ class _Failure:
             what = f"the precondition of rule {rule.code} ({rule.name})"
             return f"{what} failed, so the rule looked at every prim that it asks for: {said}"
         others = f", and on {self.count - 1} more prims" if self.count > 1 else ""
-        if self.of_place:
-            return f"the layer and line of findings could not be found here{others}: {said}"
+        if self.sought:
+            return f"{self.sought} could not be found here{others}: {said}"
         return f"rule {rule.code} ({rule.name}) failed here{others}: {said}"
 
 
@@ -95,14 +95,17 @@ class Failures:
         self._failures[key].count += 1
         error.__traceback__ = None  # its frames hold the stage, and one of them holds this
 
-    def add_place(self, prim: Any, error: Exception) -> None:
-        """Records what was raised where the place of a finding on a prim was looked for."""
-        key: Identity = ("place", type(error).__name__, str(_line(error)))
+    def add_place(self, prim: Any, what: str, error: Exception) -> None:
+        """Records what was raised where something was looked for, such as the place of a finding.
+
+        The finding itself, on that prim, stands all the same.
+        """
+        key: Identity = (what, type(error).__name__, str(_line(error)))
         if is_by_usd(error):
             key = _cause(prim, error)
         if key not in self._failures:
             text = _traceback(error)
-            self._failures[key] = _Failure(NOT_CHECKED, prim, error, text, of_place=True)
+            self._failures[key] = _Failure(NOT_CHECKED, prim, error, text, sought=what)
         self._failures[key].count += 1
         error.__traceback__ = None
 

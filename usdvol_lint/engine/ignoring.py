@@ -39,13 +39,18 @@ class Said(NamedTuple):
 
 
 def read(data: Any, rules: Mapping[str, Rule], today: str | None) -> Said:
-    """What a value of the key `usdvolLint` says; `rules` are all there are, by code."""
+    """What a value of the key `usdvolLint` says; `rules` are all there are, by code.
+
+    Values that USD can't read are None, and say nothing: they are told of as what can't be read.
+    """
     reasons: dict[str, str] = {}
     faults: list[Fault] = []
     ignored = data.get(IGNORE, {}) if isinstance(data, dict) else {}
     faults += _misshapen(data)
     if isinstance(ignored, dict):
         for code, value in ignored.items():
+            if value is None:
+                continue
             fault = _no_code(code, rules) or _no_reason(code, value, today)
             if fault:
                 faults.append(Fault((KEY, IGNORE, code), *fault))
@@ -80,7 +85,7 @@ def _misshapen(data: Any) -> Iterator[Fault]:
         if key != IGNORE:
             message = f"{KEY!r} has a key {quoted(key)}, which means nothing"
             yield Fault((KEY, key), message, f"all it can have is {IGNORE!r}")
-    if not isinstance(data.get(IGNORE, {}), dict):
+    if not isinstance(data.get(IGNORE) or {}, dict):
         found = _kind(data[IGNORE])
         yield Fault(
             (KEY, IGNORE),

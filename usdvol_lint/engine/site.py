@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from pxr import Usd
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from usdvol_lint.layertext.lines import TextLayer
 
 
+_Found = TypeVar("_Found")
+
+PLACE = "the layer and line of findings"
 _DIGITS = 6
 """Decimals of a time that a retime was taken off, which leaves a rounding error."""
 
@@ -61,8 +65,8 @@ class Sites:
         self._entries = Entries(repository, self._texts) if repository else None
         self._layers: dict[str, _Layer] = {}
         self._blaming = Blaming()
-        self.faults: list[tuple[Any, Exception]] = []
-        """What was raised where a place was looked for, each with the prim of the problem."""
+        self.faults: list[tuple[Any, str, Exception]] = []
+        """What was raised where something was looked for: the prim of the problem, and what."""
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
@@ -73,11 +77,17 @@ class Sites:
 
         Where looking for it fails, that is its prim: what was found stands all the same.
         """
+        prim = problem.at.GetPrim()
+        found = self.tried(prim, PLACE, lambda: self._find(problem), None)
+        return found or self._at_prim(problem)
+
+    def tried(self, prim: Any, what: str, find: Callable[[], _Found], otherwise: _Found) -> _Found:
+        """What is found for a problem at a prim; where that fails, `otherwise`."""
         try:
-            return self._find(problem)
+            return find()
         except Exception as error:  # whatever it is: the engine reports it
-            self.faults.append((problem.at.GetPrim(), error))
-            return self._at_prim(problem)
+            self.faults.append((prim, what, error))
+            return otherwise
 
     def _at_prim(self, problem: Problem | NotChecked) -> Located:
         """The prim of a problem, in the stage's own layer."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
@@ -11,7 +11,7 @@ from usdvol_lint.engine.lacking import absent_of
 from usdvol_lint.engine.parts import parts_of
 from usdvol_lint.engine.site import Located, Sites, cover_of
 from usdvol_lint.layertext.source import SharedTexts
-from usdvol_lint.model import Finding, Severity
+from usdvol_lint.model import Cover, Finding, Severity
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
@@ -26,6 +26,10 @@ _LONGEST = 2_000
 """So many characters a message has, about; paths alone may have megabytes."""
 _LONGEST_SUGGESTION = 100_000
 """What there is to paste stays whole, such as a line for each of a thousand frames."""
+
+_REACH = "how much findings cover"
+_ABSENT = "what other stages may complete"
+_SUPPRESSED = "what suppresses findings"
 
 
 class Stamped(NamedTuple):
@@ -98,14 +102,21 @@ class Stamp:
         """
         if not self._asked.heeded:
             return
+        root = stage.GetPseudoRoot()
         for prim in failed:
-            self._suppressions.ask(prim)
+            self._tried(prim, partial(self._suppressions.ask, prim), None)
         if self._asked.unused:
-            for unused in self._suppressions.unused(stage, self._active.severities):
+            codes = self._active.severities
+            found = self._tried(root, lambda: list(self._suppressions.unused(stage, codes)), [])
+            for unused in found:
                 yield from self.stamp(UNUSED_SUPPRESSION, unused)
         if "_suppressions" in self.__dict__:
             for fault in self._suppressions.faults():
                 yield from self.stamp(UNUSED_SUPPRESSION, fault)
+
+    def _tried(self, prim: Any, find: Callable[[], Any], otherwise: Any) -> Any:
+        """What suppressions say at a prim; where they can't be asked, `otherwise`."""
+        return self.sites.tried(prim, _SUPPRESSED, find, otherwise)
 
     def _stamped(
         self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
@@ -118,6 +129,8 @@ class Stamp:
         if reported_as is not rule and source.layer is not None:
             source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())
         own = min(reported_as.severity, problem.severity or reported_as.severity)
+        prim, tried = problem.at.GetPrim(), self.sites.tried
+        cover = tried(prim, _REACH, lambda: cover_of(problem, blame, own), Cover(own))
         finding = Finding(
             code=reported_as.code,
             name=reported_as.name,
@@ -125,15 +138,18 @@ class Stamp:
             message=shortened(problem.message + clip, _LONGEST),
             site=located.site,
             source=source,
-            cover=cover_of(problem, blame, own),
+            cover=cover,
             suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST_SUGGESTION),
             help=help_for(reported_as),
             fold=problem.fold,
-            absent=() if self._is_alone else absent_of(problem),
+            absent=() if self._is_alone else tried(prim, _ABSENT, lambda: absent_of(problem), ()),
             since=problem.since,
         )
         same = identity(rule, problem, blame.spec) if self._several_selections else ()
-        for shown in self._as_shown(finding, problem, located):
+        as_told = [_shown_by(finding, located.instances)]
+        for shown in self._tried(
+            prim, lambda: list(self._as_shown(finding, problem, located)), as_told
+        ):
             reason = (shown.ignored,) if same and shown.ignored else ()
             yield Stamped(shown, (*same, *reason), problem.holds)
 

@@ -32,7 +32,7 @@ class Opinion(NamedTuple):
     spec: Any
 
 
-class _Standing(NamedTuple):
+class Standing(NamedTuple):
     """Where an opinion stands: `order` is less for a stronger one; the arcs from the root to it.
 
     `keys` are the same for the arcs of an instance and for those of the prims below it.
@@ -49,7 +49,7 @@ def decisive(opinions: Sequence[Opinion]) -> Opinion:
     It is the strongest, unless its layers have none of the others: then it is the spec with the
     arc that first brought them together.
     """
-    standings = [(each, found) for each in opinions if (found := _standing(each))]
+    standings = [(each, found) for each in opinions if (found := standing_of(each))]
     if len(standings) < 2:
         return standings[0][0] if standings else opinions[0]
     strongest, standing = min(standings, key=lambda pair: pair[1].order)
@@ -75,7 +75,8 @@ def path_beside(prim: Any, spec: Any) -> str:
     return str(max(nodes, key=shared).path.StripAllVariantSelections()) if nodes else ""
 
 
-def _standing(opinion: Opinion) -> _Standing | None:
+def standing_of(opinion: Opinion) -> Standing | None:
+    """Where an opinion stands; None where no layer of the stage has it."""
     node = node_with(opinion)
     if node is None:
         return None
@@ -85,7 +86,7 @@ def _standing(opinion: Opinion) -> _Standing | None:
         for each in from_root(node)
     ]
     arcs = tuple(crossings(node))
-    return _Standing((*steps, last), arcs, tuple(_keys(opinion.prim, arcs)))
+    return Standing((*steps, last), arcs, tuple(_keys(opinion.prim, arcs)))
 
 
 def _keys(prim: Any, arcs: Sequence[Crossing]) -> Iterator[tuple[str, str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 from typing import Any, NamedTuple
 
 from pxr import Usd
@@ -19,6 +20,7 @@ from usdvol_lint.engine.ignoring import (
 )
 from usdvol_lint.engine.shares import Share, Shares
 from usdvol_lint.facts.usd.calls import COMPOSED, get_parent, has_metadata
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.rule import Problem, Rule
 from usdvol_lint.suppressions import InStages
 
@@ -105,7 +107,7 @@ class Suppressions:
                 if reason.prim == prim and reason.text != TAKEN_BACK and code in codes:
                     fault = matched_nothing(code, reason.text)
                     spec = _holder(prim, fault.keys)
-                    if spec.layer in own:
+                    if spec and spec.layer in own:
                         yield self._unused(fault, prim, spec, code)
 
     def _unused(self, fault: Fault, at: Any, spec: Any, code: str) -> Problem:
@@ -121,8 +123,8 @@ class Suppressions:
             return None
         if self._asked.unused and (reason.prim, code) not in self._marked:
             self._marked.add((reason.prim, code))
-            spec = _holder(reason.prim, matched_nothing(code, "").keys)
-            self._used.add((spec.layer.identifier, str(spec.path), code))
+            if spec := _holder(reason.prim, matched_nothing(code, "").keys):
+                self._used.add((spec.layer.identifier, str(spec.path), code))
         return reason.text
 
     def _said(self, prim: Any, above: Mapping[str, _Reason]) -> Mapping[str, _Reason]:
@@ -184,16 +186,37 @@ def _problem(fault: Fault, at: Any, spec: Any) -> Problem:
 
 
 def _holder(prim: Any, keys: Keys) -> Any:
-    """The strongest spec of a prim that has a value below the keys."""
-    return next(spec for spec in prim.GetPrimStack() if _value(spec, _OF_PRIM, keys) is not None)
+    """The strongest spec of a prim that has something below the keys; None if none can be read."""
+    specs = [spec for spec in prim.GetPrimStack() if spec.HasInfo(_OF_PRIM)]
+    holders = (spec for spec in specs if _has(spec, keys))
+    return next(chain(holders, specs), None)
+
+
+def _has(spec: Any, keys: Keys) -> bool:
+    """Whether a spec says something below the keys, which USD may be unable to read."""
+    *above, last = keys
+    data: Any = _value(spec, _OF_PRIM, tuple(above)) if above else spec.customData
+    return not isinstance(data, str) and bool(data) and last in data
 
 
 def _value(spec: Any, field: str, keys: Keys) -> Any | None:
-    """The value below some keys of a dictionary of a spec; None if it has none."""
-    value = spec.GetInfo(field) if spec.HasInfo(field) else {}
-    for key in keys:
+    """The value below some keys, KEY the first, of a dictionary of a spec; None if it has none."""
+    value = _entry(spec, field) if spec.HasInfo(field) else None
+    for key in keys[1:]:
         value = value.get(key) if isinstance(value, dict) else None
     return value
+
+
+def _entry(spec: Any, field: str) -> Any | None:
+    """What a dictionary of a spec has as KEY, also where USD can't read all of it."""
+    try:
+        return spec.GetInfo(field).get(KEY)
+    except UNREADABLE:
+        if field == _OF_PRIM:
+            return spec.customData.get(KEY)
+        nothing = Usd.StagePopulationMask()
+        stage = Usd.Stage.OpenMasked(spec.layer, nothing, Usd.Stage.LoadNone)
+        return stage.GetMetadataByDictKey(field, KEY)
 
 
 def _has_text(spec: Any, field: str, keys: Keys) -> bool:

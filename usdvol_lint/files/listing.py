@@ -25,7 +25,7 @@ _CLOSE = 0.6
 def list_stages(
     paths: Iterable[str], exclude: Sequence[Glob] = (), wholes: Sequence[Glob] = ()
 ) -> Listing:
-    """The stages that arguments name, in their order, those of a folder sorted; each once.
+    """The stages that arguments name, sorted by path, whatever the order of these; each once.
 
     `exclude` takes away what is named too; where there are `wholes`, all others are parts.
     Raises UsageError where an argument leads to nothing, for all of them at once, and where a
@@ -113,13 +113,18 @@ class _Arguments:
 
 
 def _each_once(found: Iterable[Found]) -> list[str]:
-    """The paths of stages; where several lead to one, the first of those with fewest links."""
+    """The paths of stages, sorted; where several lead to one, the first with fewest links."""
     chosen: dict[tuple[str, str], Found] = {}
-    for each in found:
+    for each in sorted(found, key=lambda each: _order(each.path)):
         before = chosen.setdefault(each.key, each)
         if each.links < before.links:
             chosen[each.key] = each
-    return [each.path for each in chosen.values()]
+    return sorted((each.path for each in chosen.values()), key=_order)
+
+
+def _order(path: str) -> tuple[str, int, str]:
+    """By where a path leads; of those that are written in several ways the shortest is first."""
+    return os.path.normpath(path), len(path), path
 
 
 def _is_there(path: str) -> bool:

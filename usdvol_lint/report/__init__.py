@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
+from itertools import islice
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from usdvol_lint.model import Severity
 
 if TYPE_CHECKING:
     from usdvol_lint.packs.page import Page
-    from usdvol_lint.results import Cause, Place, Report
+    from usdvol_lint.results import Cause, Place, Report, StageResult
 
 FORMATS: Final[Mapping[str, str]] = {
     "full": "text.Full",
@@ -24,6 +25,8 @@ FORMATS: Final[Mapping[str, str]] = {
     "markdown": "markdown.Markdown",
 }
 """By the name of each format the module of this package, and the `Writer` in it."""
+STREAMED: Final = frozenset({"full", "concise", "jsonl"})
+"""Those that tell a cause before the rest of the run is known."""
 FOR_HOSTS: Final = frozenset({"sarif", "github", "gitlab"})
 """Those that name files by the repository of a code host."""
 
@@ -85,8 +88,10 @@ class Options(NamedTuple):
 class Writer:
     """Writes a report in one format: the text of each part follows that of the one before.
 
-    What a run came to is told in this order: `begin` once, `cause` for each cause with its first
-    place, `place` for each other place that it carries, `end` once.
+    What a run came to is told in this order, whether or not it is over: `begin` once; for each
+    stage a `cause` for what is seen for the first time, and a `place` for each other place that it
+    carries, or `raised` where one is worse than before, then `stage`; after the last stage causes
+    that were known no sooner, and `end` once.
     A format that needs the whole report for its first line writes all of it at the end.
     """
 
@@ -98,28 +103,54 @@ class Writer:
         return ()
 
     def cause(self, number: int, cause: Cause) -> Iterable[str]:
-        """A cause, with its number in the run."""
+        """A cause, with its number in the run, and what is known of it so far."""
         return ()
 
     def place(self, number: int, place: Place) -> Iterable[str]:
         """Another place of the cause with that number."""
         return ()
 
-    def end(self, report: Report) -> Iterable[str]:
-        """What stands after the last cause."""
+    def raised(self, number: int, cause: Cause, was: Severity) -> Iterable[str]:
+        """A cause that `was` told at a lower level, with the place that raises it."""
         return ()
+
+    def stage(self, number: int, stage: StageResult) -> Iterable[str]:
+        """What came of a stage; what waits for the rest of the run is not in it."""
+        return ()
+
+    def end(self, report: Report) -> Iterable[str]:
+        """What stands after the last cause and the last stage."""
+        return ()
+
+
+def writer(format: str, options: Options) -> Writer:
+    """What writes a report in one of FORMATS."""
+    module, _, name = FORMATS[format].partition(".")
+    made: Writer = getattr(import_module(f"{__name__}.{module}"), name)(options)
+    return made
 
 
 def written(report: Report, format: str, options: Options) -> Iterator[str]:
     """The parts of a report in one of FORMATS: none, or with a newline at the end of the last."""
-    module, _, name = FORMATS[format].partition(".")
-    writer: Writer = getattr(import_module(f"{__name__}.{module}"), name)(options)
-    yield from writer.begin(report._replace(stages=(), causes=()))
+    wanted = writer(format, options)
+    yield from wanted.begin(report._replace(stages=(), causes=()))
+    yield from _told(wanted, report)
+    yield from wanted.end(report)
+
+
+def _told(writer: Writer, report: Report) -> Iterator[str]:
+    """The causes by number, and the stages, each after the causes that are first seen on it."""
+    stages = iter(enumerate(report.stages))
+    done = 0
     for number, cause in enumerate(report.causes):
+        for stage in islice(stages, max(0, cause.places[0].stage - done)):
+            yield from writer.stage(*stage)
+            done += 1
         yield from writer.cause(number, cause)
         for place in cause.places[1:]:
             yield from writer.place(number, place)
-    yield from writer.end(report)
+    for stage in stages:
+        yield from writer.stage(*stage)
 
 
 def render(report: Report, format: str, options: Options) -> str:

@@ -5,32 +5,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from os.path import normpath
 from pathlib import Path
 
 from usdvol_lint.model import Site
-from usdvol_lint.report import Options, Writer
+from usdvol_lint.report import Options
 from usdvol_lint.report.numbers import count
+from usdvol_lint.report.staged import Staged
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
-from usdvol_lint.report.telling import Told, message, remarks, told
+from usdvol_lint.report.telling import Told, message, more_here, remarks
 from usdvol_lint.report.text import location
-from usdvol_lint.results import Report
+from usdvol_lint.results import Report, StageResult
 from usdvol_lint.words import printable
 
 
-class Concise(Writer):
-    """A line for each cause; what is told of one depends on all of its places."""
+class Concise(Staged):
+    """A line for each cause; the number of places is that on the stage."""
+
+    def __init__(self, options: Options) -> None:
+        super().__init__(options)
+        self._absolute = cache(_absolute)
+
+    def stage(self, number: int, stage: StageResult) -> Iterator[str]:
+        yield from self._lines(self.told_on(number), stage)
 
     def end(self, report: Report) -> Iterator[str]:
+        for number, telling in self.told_late().items():
+            yield from self._lines(telling, report.stages[number])
         if report.failure:
             yield f"usdvol-lint: {printable(report.failure)}\n"
-        absolute = cache(_absolute)
-        by_stage = told(report, self.options)
-        for number, stage in enumerate(report.stages):
-            for one in by_stage.get(number, ()):
-                yield " ".join(_parts(one, stage.path, self.options, absolute)) + "\n"
+
+    def _lines(self, telling: Sequence[Told], stage: StageResult) -> Iterator[str]:
+        for one in telling:
+            yield " ".join(_parts(one, stage.path, self.options, self._absolute)) + "\n"
 
 
 def _parts(
@@ -48,7 +57,7 @@ def _parts(
     if site.variant:
         yield f"(variant {printable(site.variant)})"
     yield message(one, options.verbose)
-    if more := sum(cause.count - 1 for cause in one.causes):
+    if more := more_here(one):
         yield f"(+{count(more, 'place')})"
     if is_of_a_layer and site.layer != stage and absolute(site.layer) != absolute(stage):
         yield f"(in {printable(stage)})"

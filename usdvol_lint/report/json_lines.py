@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from usdvol_lint.model import Finding
+from usdvol_lint.model import Severity
 from usdvol_lint.report import Options, Writer
 from usdvol_lint.report.json_report import Shared, cause_object, head, line, place_object, rest
 from usdvol_lint.results import Cause, Place, Report
@@ -21,26 +21,42 @@ class JsonLines(Writer):
 
     def __init__(self, options: Options) -> None:
         super().__init__(options)
-        self._first: dict[int, Finding] = {}
+        self._said: dict[int, Cause] = {}
 
     def begin(self, report: Report) -> Iterator[str]:
         self._shared = Shared.of(report)
         yield _of_type("run", head(report))
 
     def cause(self, number: int, cause: Cause) -> Iterator[str]:
-        self._first[number] = cause.first
+        self._said[number] = cause
         said = cause_object(cause, cause.places[:1], self._shared)
         yield _of_type("cause", {"number": number, **said})
 
     def place(self, number: int, place: Place) -> Iterator[str]:
-        said = place_object(place, self._first[number], self._shared)
+        said = place_object(place, self._said[number].first, self._shared)
         yield _of_type("place", {"cause": number, **said})
 
+    def raised(self, number: int, cause: Cause, was: Severity) -> Iterator[str]:
+        self._said[number] = self._said[number]._replace(severity=cause.severity)
+        yield _of_type("change", {"cause": number, "severity": cause.severity.label})
+
     def end(self, report: Report) -> Iterator[str]:
+        for number, cause in enumerate(report.causes):
+            if changed := self._changed(self._said[number], cause):
+                yield _of_type("change", {"cause": number, **changed})
         last = rest(report)
         for number, stage in enumerate(last.pop("stages")):
             yield _of_type("stage", {"number": number, **stage})
         yield _of_type("summary", last)
+
+    def _changed(self, said: Cause, cause: Cause) -> dict[str, object]:
+        """What was not known yet when a cause was told."""
+        changed: dict[str, object] = {}
+        if cause.cover != said.cover:
+            changed["cover"] = self._shared.cover(cause.cover)
+        if cause.count != said.count:
+            changed["count"] = cause.count
+        return changed
 
 
 def _of_type(name: str, said: Mapping[str, object]) -> str:

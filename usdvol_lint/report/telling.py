@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple, TypeAlias
 
-from usdvol_lint.model import Finding, Site
+from usdvol_lint.model import Finding, Severity, Site
 from usdvol_lint.report import Options
 from usdvol_lint.report.numbers import count, few
 from usdvol_lint.results import Cause, Report, StageResult, State
@@ -16,12 +16,15 @@ class Told(NamedTuple):
     """What is told at once: one cause, or several that are folded into the line of the first.
 
     `stage` is the number of the stage under which it is told, `others` are those of all others
-    that show it.
+    that show it, as far as they are known.
+    `numbers` are those of the causes; `was` is how bad it was when it was told before, if so.
     """
 
     causes: tuple[Cause, ...]
     stage: int
-    others: tuple[int, ...]
+    others: tuple[int, ...] = ()
+    numbers: tuple[int, ...] = ()
+    was: Severity | None = None
 
     @property
     def first(self) -> Cause:
@@ -32,41 +35,48 @@ class Told(NamedTuple):
         return self.causes[0].places[0].finding
 
 
+Heard: TypeAlias = tuple[int, Cause, Severity | None]
+"""A cause with its number, and how bad it was when it was told before, if so."""
+
+
 def told(report: Report, options: Options) -> Mapping[int, list[Told]]:
     """What is told under each stage that has something to tell, by prim."""
-    folded: dict[tuple[object, ...], list[int]] = {}
-    for number in _in_order(report, options):
-        folded.setdefault(_key(number, report.causes[number]), []).append(number)
-    shown_in = _stages_by_cause(report)
+    causes = enumerate(report.causes)
+    heard = [(number, cause, None) for number, cause in causes if options.shows(cause)]
+    shown_in = stages_by_cause(report)
     result: dict[int, list[Told]] = {}
-    for (stage, *_), numbers in folded.items():
-        assert isinstance(stage, int)
-        others = {other for number in numbers for other in shown_in.get(number, ())} - {stage}
-        causes = tuple(report.causes[number] for number in numbers)
-        result.setdefault(stage, []).append(Told(causes, stage, tuple(sorted(others))))
+    for one in folded(heard):
+        others = {other for number in one.numbers for other in shown_in.get(number, ())}
+        whole = one._replace(others=tuple(sorted(others - {one.stage})))
+        result.setdefault(one.stage, []).append(whole)
     return result
 
 
-def _in_order(report: Report, options: Options) -> list[int]:
-    """The numbers of the causes that are told, by stage and prim."""
-    numbers = [number for number, cause in enumerate(report.causes) if options.shows(cause)]
+def folded(heard: Iterable[Heard]) -> Iterator[Told]:
+    """What is told of these causes, by stage and prim."""
+    together: dict[tuple[object, ...], list[Heard]] = {}
+    for one in sorted(heard, key=_place_of):
+        together.setdefault(_key(one), []).append(one)
+    for several in together.values():
+        numbers, causes, was = zip(*several, strict=True)
+        yield Told(causes, causes[0].places[0].stage, (), numbers, was[0])
 
-    def place(number: int) -> tuple[int, str]:
-        first = report.causes[number].places[0]
-        return first.stage, first.finding.site.prim or ""
 
-    return sorted(numbers, key=place)
+def _place_of(heard: Heard) -> tuple[int, str]:
+    first = heard[1].places[0]
+    return first.stage, first.finding.site.prim or ""
 
 
-def _key(number: int, cause: Cause) -> tuple[object, ...]:
-    """What causes that are told in one line have in common; the stage comes first."""
+def _key(heard: Heard) -> tuple[object, ...]:
+    """What causes that are told in one line have in common."""
+    number, cause, was = heard
     stage, finding = cause.places[0]
-    if finding.fold is None:
+    if finding.fold is None or was:
         return stage, number
     return stage, finding.code, finding.fold, cause.severity, cause.state, cause.reason
 
 
-def _stages_by_cause(report: Report) -> Mapping[int, list[int]]:
+def stages_by_cause(report: Report) -> Mapping[int, list[int]]:
     """The numbers of the stages that show a cause, for those that have several places."""
     shown_in: dict[int, list[int]] = {
         number: [] for number, cause in enumerate(report.causes) if cause.count > 1
@@ -115,24 +125,29 @@ def variant_and_frames(site: Site) -> Iterator[str]:
 def elsewhere(one: Told, report: Report, every: bool) -> str:
     """Where else it shows, after `also`; empty if nowhere."""
     stages = [printable(report.stages[number].path) for number in one.others]
-    if _is_cut_off(one):
-        places = count(sum(cause.count - 1 for cause in one.causes), "other place")
-        if not stages:
-            return f"at {places} of this stage"
-        others = count(len(stages), "other")
-        return f"at {places}, in this stage and {others}: {few(stages, every)}"
-    here = _other_prims(one, every=every, named=not stages)
+    here = on_this_stage(one, every, named=not stages)
     if not stages:
         return here
     there = f"in {count(len(stages), 'other stage')}: {few(stages, every)}"
     return f"{here}, and {there}" if here else there
 
 
+def on_this_stage(one: Told, every: bool, named: bool = True) -> str:
+    """Where else it shows on the stage where it is told; empty if nowhere."""
+    if _is_cut_off(one):
+        return f"at {count(more_here(one), 'other place')} of this stage"
+    return _other_prims(one, every, named)
+
+
+def more_here(one: Told) -> int:
+    """The number of other places on the stage where it is told."""
+    return sum(cause.here - 1 for cause in one.causes)
+
+
 def _is_cut_off(one: Told) -> bool:
-    """Whether more places may be on the stage where it is told than the causes carry."""
+    """Whether there are more places on the stage where it is told than the causes carry."""
     return any(
-        cause.count > len(cause.places) and cause.places[-1].stage == one.stage
-        for cause in one.causes
+        cause.here > sum(place.stage == one.stage for place in cause.places) for cause in one.causes
     )
 
 
@@ -158,6 +173,8 @@ def remarks(one: Told) -> Iterator[tuple[str, str]]:
         from usdvol_lint.baseline.cover import exceeds  # few runs have anything that is worse
 
         yield "worse:", exceeds(cause.was, cause.cover) or ""
+    if one.was:
+        yield "raised:", f"told as {one.was.label} above"
     if cause.state == State.SUPPRESSED and cause.reason:
         others = (place.finding.ignored for place in cause.places)
         for reason in dict.fromkeys((cause.reason, *filter(None, others))):

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from itertools import groupby
 
 from usdvol_lint.model import Finding, ParticleFieldStats, Severity, Site, Status
-from usdvol_lint.report import Options, Writer
+from usdvol_lint.report import Options
 from usdvol_lint.report.figures import figures
 from usdvol_lint.report.numbers import counts
+from usdvol_lint.report.staged import Staged
 from usdvol_lint.report.style import SEVERITY_STYLES, paint
-from usdvol_lint.report.table import table
-from usdvol_lint.report.telling import (
-    Told,
-    elsewhere,
-    message,
-    remarks,
-    shown,
-    told,
-    variant_and_frames,
-)
+from usdvol_lint.report.table import Line, elsewhere, line_of, table
+from usdvol_lint.report.telling import Told, message, on_this_stage, remarks, variant_and_frames
 from usdvol_lint.report.verdict import MANY_CAUSES, advice, unpruned, verdict
 from usdvol_lint.report.width import cells, wrap
 from usdvol_lint.results import Report, StageResult
@@ -28,29 +22,52 @@ from usdvol_lint.words import printable
 _LONGEST_SUGGESTION = 400
 
 
-class Full(Writer):
-    """By stage and prim; what is told of a cause depends on all of its places."""
+class Full(Staged):
+    """By stage and prim, each stage as soon as it is known; where else it shows comes last."""
+
+    _between = ""
+
+    def __init__(self, options: Options) -> None:
+        super().__init__(options)
+        self._lines: list[Line] = []
+        self._begun: set[int] = set()
+
+    def stage(self, number: int, stage: StageResult) -> Iterator[str]:
+        heard = self.told_on(number)
+        telling = [] if self.options.summary else heard
+        here = {cause for one in heard for cause in one.numbers}
+        if telling or _is_shown(stage, self.options):
+            extras = _extras(stage, self.levels, here, self.options)
+            self._begun.add(number)
+            yield self._block(_stage(stage, telling, extras, self.options))
+        self._lines += map(line_of, telling)
 
     def end(self, report: Report) -> Iterator[str]:
-        yield "\n".join(_blocks(report, self.options))
+        late = {} if self.options.summary else self.told_late()
+        for number, telling in late.items():
+            stage = report.stages[number]._replace(particle_fields=None)
+            again = number in self._begun
+            yield self._block(_stage(stage, telling, (), self.options, again))
+            self._lines += map(line_of, telling)
+        for block in _closing(report, self._lines, self.options):
+            yield self._block(block)
+
+    def _block(self, text: str) -> str:
+        between, self._between = self._between, "\n"
+        return between + text
 
 
-def _blocks(report: Report, options: Options) -> list[str]:
-    by_stage = {} if options.summary else told(report, options)
-    blocks = [
-        _stage(number, by_stage.get(number, ()), report, options)
-        for number, stage in enumerate(report.stages)
-        if number in by_stage or _is_shown(stage, options)
-    ]
-    blocks += _table(report, options)
+def _closing(report: Report, lines: Sequence[Line], options: Options) -> Iterator[str]:
+    """What is known once the run is over."""
+    if text := "".join(f"{line}\n" for line in elsewhere(report, lines, options)):
+        yield text
+    yield from _table(report, options)
     if not options.quiet:
         style = _verdict_style(report, options)
         last = paint(verdict(report, options), style, options.color)
-        lines = (last, *advice(report, options))
-        blocks.append("".join(f"{line}\n" for line in lines))
+        yield "".join(f"{line}\n" for line in (last, *advice(report, options)))
     elif gone := unpruned(report, options):
-        blocks.append(f"{gone}\n")
-    return blocks
+        yield f"{gone}\n"
 
 
 def _table(report: Report, options: Options) -> Iterator[str]:
@@ -77,18 +94,22 @@ def _is_shown(stage: StageResult, options: Options) -> bool:
     return (options.verbose or bool(stage.particle_fields)) and not options.quiet
 
 
-def _stage(number: int, telling: Sequence[Told], report: Report, options: Options) -> str:
-    stage = report.stages[number]
+def _stage(
+    stage: StageResult,
+    telling: Sequence[Told],
+    extras: Iterable[str],
+    options: Options,
+    is_continued: bool = False,
+) -> str:
     found = {prim: list(lines) for prim, lines in groupby(telling, key=_prim_of)}
     held = {} if options.quiet else {one.prim: one for one in stage.particle_fields or ()}
-    groups = [
-        _prim(prim, held.get(prim), found.get(prim, ()), report, options)
+    groups: list[Iterable[str]] = [
+        _prim(prim, held.get(prim), found.get(prim, ()), options)
         for prim in sorted({*found, *held})
     ]
-    if options.verbose:
-        groups.append(_extras(number, report, options))
-    blocks = ("".join(f"{line}\n" for line in group) for group in groups)
-    return _heading(stage, options) + "\n" + "\n".join(filter(None, blocks))
+    blocks = ("".join(f"{line}\n" for line in group) for group in (*groups, extras))
+    heading = _heading(stage, options) + " (continued)" * is_continued
+    return heading + "\n" + "\n".join(filter(None, blocks))
 
 
 def _heading(stage: StageResult, options: Options) -> str:
@@ -107,7 +128,6 @@ def _prim(
     prim: str,
     holds: ParticleFieldStats | None,
     telling: Iterable[Told],
-    report: Report,
     options: Options,
 ) -> Iterator[str]:
     """What one prim holds and what is told at it; what is told of the stage has no heading."""
@@ -117,10 +137,10 @@ def _prim(
         for label, figure in figures(holds):
             yield _labelled(label, figure, "dim", "    ", options)
     for one in telling:
-        yield from _told(one, report, "    " if prim else "  ", options)
+        yield from _told(one, "    " if prim else "  ", options)
 
 
-def _told(one: Told, report: Report, indent: str, options: Options) -> Iterator[str]:
+def _told(one: Told, indent: str, options: Options) -> Iterator[str]:
     finding, cause = one.finding, one.first
     state = "" if cause.state.counts else f" ({cause.state})"
     label = f"{printable(finding.code)} {cause.severity.label}{state}:"
@@ -132,7 +152,7 @@ def _told(one: Told, report: Report, indent: str, options: Options) -> Iterator[
         yield from _excerpt(finding.site, indent, style, options)
     if place := ", ".join(where(finding.site)):
         yield _labelled("at", place, "blue", indent, options)
-    if others := elsewhere(one, report, options.verbose):
+    if others := on_this_stage(one, options.verbose):
         yield _labelled("also", others, "blue", indent, options)
     for name, said in remarks(one):
         yield _labelled(name, said, style, indent, options)
@@ -191,12 +211,15 @@ def _rule(finding: Finding) -> str:
     return ", ".join(printable(part) for part in (finding.name, finding.help) if part)
 
 
-def _extras(number: int, report: Report, options: Options) -> Iterator[str]:
-    """What `--verbose` adds to a stage."""
-    stage = report.stages[number]
+def _extras(
+    stage: StageResult, levels: Mapping[int, Severity], here: AbstractSet[int], options: Options
+) -> Iterator[str]:
+    """What `--verbose` adds to a stage; `levels` are those of what is told so far."""
+    if not options.verbose:
+        return
     stats = ", ".join(f"{printable(name)} {count:,}" for name, count in stage.stats.items())
     seconds = ", ".join(f"{printable(name)} {time:.3f}" for name, time in stage.seconds.items())
-    if above := _told_above(number, report, options):
+    if above := _told_above(stage, levels, here):
         yield _labelled("told above:", above, "dim", "  ", options)
     if stats:
         yield _labelled("stats:", stats, "dim", "  ", options)
@@ -204,15 +227,12 @@ def _extras(number: int, report: Report, options: Options) -> Iterator[str]:
         yield _labelled("seconds:", seconds, "dim", "  ", options)
 
 
-def _told_above(number: int, report: Report, options: Options) -> str:
+def _told_above(stage: StageResult, levels: Mapping[int, Severity], here: AbstractSet[int]) -> str:
     """The number of causes that this stage shows, and that are told under another one."""
-    causes = [report.causes[cause] for cause in shown(report.stages[number], report)]
-    levels = [
-        cause.severity
-        for cause in causes
-        if cause.places[0].stage != number and options.shows(cause)
-    ]
-    return counts(*((levels.count(level), level.label) for level in reversed(Severity)))
+    shown = zip(stage.causes, stage.worst, strict=True)
+    told = [cause for cause, worst in shown if worst and cause in levels and cause not in here]
+    above = [levels[cause] for cause in told]
+    return counts(*((above.count(level), level.label) for level in reversed(Severity)))
 
 
 def _labelled(label: str, text: str, style: str, indent: str, options: Options) -> str:

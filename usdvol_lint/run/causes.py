@@ -3,36 +3,40 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
-from typing import TypeAlias
+from operator import itemgetter
+from typing import NamedTuple, TypeAlias, TypedDict, TypeVar, cast
 
 from usdvol_lint.baseline.cover import join
 from usdvol_lint.baseline.fingerprint import fingerprint
 from usdvol_lint.model import Completion, Finding, Severity, Source, StageReport
 from usdvol_lint.paths import below, canonical
 from usdvol_lint.results import Cause, Place, StageResult, State
+from usdvol_lint.run.teller import Teller
 
 MAX_PLACES = 20
 
 
 _Key: TypeAlias = tuple[str, str | None, str | None, str | None, str]
 """What makes a cause: the code, and its source with the layer as fingerprints have it."""
+_Same = TypeVar("_Same")
 
 
 class _Places:
     """Some places of a cause: the first ones, the number of all, and what they come to."""
 
-    __slots__ = ("count", "cover", "first", "severity")
+    __slots__ = ("count", "cover", "first", "here", "severity")
 
     def __init__(self, first: Place) -> None:
         self.first = [first]
-        self.count = 1
+        self.count = self.here = 1
         self.severity = first.finding.severity
         self.cover = first.finding.cover
 
     def add(self, place: Place, most: int) -> None:
         self.count += 1
+        self.here += place.stage == self.first[0].stage
         self.severity = max(self.severity, place.finding.severity)
         if self.cover != place.finding.cover:
             self.cover = join(self.cover, place.finding.cover)
@@ -41,12 +45,17 @@ class _Places:
 
 
 class _Gathered:
-    """What is known of one cause so far: its number, the places left, and those suppressed."""
+    """What is known of one cause so far: the places left, those suppressed, and its number.
 
-    __slots__ = ("left", "number", "suppressed")
+    It has a number once it is told: what is suppressed so far may yet be no cause to tell of.
+    """
 
-    def __init__(self, number: int) -> None:
-        self.number = number
+    __slots__ = ("is_told", "key", "left", "number", "suppressed")
+
+    def __init__(self, key: _Key) -> None:
+        self.key = key
+        self.number: int | None = None
+        self.is_told = False
         self.left: _Places | None = None
         self.suppressed: _Places | None = None
 
@@ -62,8 +71,27 @@ class _Gathered:
             self.left = _Places(place)
 
 
+class _Again(NamedTuple):
+    """Another place of a cause that was told before, and how bad it was until then."""
+
+    gathered: _Gathered
+    place: Place
+    before: Severity
+
+
+class _Numbers(TypedDict):
+    """The causes that a stage shows, as its result has them."""
+
+    causes: tuple[int, ...]
+    worst: tuple[Severity | None, ...]
+
+
+_Shown: TypeAlias = dict[_Gathered, Severity | None]
+"""How bad each cause is on a stage; None where a suppression takes it out."""
+
+
 class Causes:
-    """The causes of a run, whatever stages show them, numbered in the order in which they are met.
+    """The causes of a run, whatever stages show them, numbered in the order in which they are told.
 
     `root` is the folder that layers go by, `versions` a pattern for what is folded in their paths,
     and `reason_for` says why a finding on a stage is suppressed, or None.
@@ -83,7 +111,11 @@ class Causes:
         self._reason_for = reason_for
         self._verdict_on = verdict_on
         self._found: dict[_Key, _Gathered] = {}
-        self._shown: dict[int, dict[int, Severity | None]] = {}
+        self._numbered: list[_Gathered] = []
+        self._shown: dict[int, _Shown] = {}
+        self._new: list[_Gathered] = []
+        self._again: list[_Again] = []
+        self._equal: dict[object, object] = {}
 
         @cache
         def name_of(layer: str) -> str:
@@ -107,13 +139,48 @@ class Causes:
             key = finding.code, layer and name_of(layer), path, name, subject
             gathered = found.get(key)
             if gathered is None:
-                gathered = found[key] = _Gathered(len(found))
+                gathered = found[key] = _Gathered(key)
             if is_judged:
                 finding = self._judged(stage_path, finding, Source(*key[1:]))
-            gathered.add(Place(stage, finding), most)
-            worst = shown.setdefault(gathered.number, None)
+            place = Place(stage, finding)
+            worst = shown.setdefault(gathered, None)
             if finding.ignored is None:
-                shown[gathered.number] = max(worst or finding.severity, finding.severity)
+                shown[gathered] = max(worst or finding.severity, finding.severity)
+                self._note(gathered, place)
+            gathered.add(place, most)
+
+    def _note(self, gathered: _Gathered, place: Place) -> None:
+        """Keeps what is to be told of a place that is left, before it is added."""
+        if gathered.number is None:
+            self._number(gathered)
+        elif gathered.is_told and gathered.left:
+            self._again.append(_Again(gathered, place, gathered.left.severity))
+
+    def _number(self, gathered: _Gathered) -> None:
+        gathered.number = len(self._numbered)
+        self._numbered.append(gathered)
+        self._new.append(gathered)
+
+    def tell(self, teller: Teller) -> None:
+        """Tells what was added since the last time."""
+        for gathered in self._new:
+            number, cause = _number_of(gathered), _cause(gathered)
+            gathered.is_told = True
+            teller.cause(number, cause)
+            for place in cause.places[1:]:
+                teller.place(number, place)
+        self._new.clear()
+        before: dict[_Gathered, Severity] = {}
+        for gathered, place, was in self._again:
+            assert gathered.left
+            if any(place is kept for kept in gathered.left.first):
+                teller.place(_number_of(gathered), place)
+            worst = before.setdefault(gathered, was)
+            if worst < gathered.left.severity == place.finding.severity:
+                raised = _cause(gathered)._replace(places=(place,), here=1)
+                teller.raised(_number_of(gathered), raised, worst)
+                before[gathered] = gathered.left.severity
+        self._again.clear()
 
     def _judged(self, path: str, finding: Finding, source: Source) -> Finding:
         """A finding on a stage as the configuration takes it."""
@@ -128,23 +195,52 @@ class Causes:
         return finding if reason is None else finding._replace(ignored=reason)
 
     def result(self) -> tuple[Cause, ...]:
-        """The causes in the order in which they were met."""
-        return tuple(_cause(key, gathered) for key, gathered in self._found.items())
+        """The causes in the order in which they were told, those that are suppressed last."""
+        for gathered in self._found.values():
+            if gathered.number is None:
+                self._number(gathered)
+        return tuple(map(_cause, self._numbered))
 
-    def stage(self, number: int, report: StageReport, is_part: bool = False) -> StageResult:
-        """What came of a stage, asked for once all of its findings were added."""
-        shown = sorted(self._shown.pop(number, {}).items())
+    def stage(
+        self, number: int, report: StageReport, is_part: bool = False, waits: bool = False
+    ) -> StageResult:
+        """What came of a stage; asked for once all of its findings were added, unless it `waits`.
+
+        It is whole after `completed` only.
+        """
+        shown = self._shown[number] if waits else self._shown.pop(number, {})
+        if any(each.number is None for each in shown):
+            self._shown[number] = shown
         return StageResult(
             path=report.path,
             status=report.status,
-            stats=report.stats,
+            stats=self._once(("stats", *report.stats.items()), report.stats),
             seconds=report.seconds,
             particle_fields=report.particle_fields,
             completes=report.completes and self._named(report.completes),
-            causes=tuple(number for number, _ in shown),
-            worst=tuple(worst for _, worst in shown),
             part=is_part,
+            **self._causes_of(shown),
         )
+
+    def completed(self, stages: Sequence[StageResult]) -> tuple[StageResult, ...]:
+        """The stages, with the causes that had no number yet, or waited; after `result`."""
+        whole = list(stages)
+        for number, shown in self._shown.items():
+            whole[number] = whole[number]._replace(**self._causes_of(shown))
+        return tuple(whole)
+
+    def _causes_of(self, shown: _Shown) -> _Numbers:
+        pairs = ((each.number, worst) for each, worst in shown.items() if each.number is not None)
+        found = sorted(pairs, key=itemgetter(0))
+        causes, worst = tuple(each for each, _ in found), tuple(level for _, level in found)
+        return {
+            "causes": self._once(("causes", *causes), causes),
+            "worst": self._once(("worst", *worst), worst),
+        }
+
+    def _once(self, key: object, value: _Same) -> _Same:
+        """What equals a value that was kept before: many stages have it in common."""
+        return cast("_Same", self._equal.setdefault(key, value))
 
     def _named(self, completion: Completion) -> Completion:
         """The same with layers as fingerprints have them, of each version its own."""
@@ -157,8 +253,13 @@ class Causes:
         )
 
 
-def _cause(key: _Key, gathered: _Gathered) -> Cause:
-    code, source = key[0], Source(*key[1:])
+def _number_of(gathered: _Gathered) -> int:
+    assert gathered.number is not None
+    return gathered.number
+
+
+def _cause(gathered: _Gathered) -> Cause:
+    code, source = gathered.key[0], Source(*gathered.key[1:])
     places = gathered.left or gathered.suppressed
     assert places
     reason = places.first[0].finding.ignored
@@ -171,6 +272,7 @@ def _cause(key: _Key, gathered: _Gathered) -> Cause:
         count=places.count,
         state=State.NEW if reason is None else State.SUPPRESSED,
         reason=reason,
+        here=places.here,
     )
 
 

@@ -29,13 +29,13 @@ class Chosen(NamedTuple):
         return self.changed.paths if self.changed and not self.changed.everything else None
 
     def looked_at(self, stages: Sequence[StageResult], root: str | None) -> tuple[str, ...]:
-        """The arguments, named as layers are; of a run over what changed, the stages checked.
+        """The arguments, named as layers are and sorted; of a run over what changed, the stages.
 
         Whoever compares runs must not take the other ones for checked.
         """
         is_part = self.changed_files is not None
         named = [stage.path for stage in stages] if is_part else self.arguments
-        return tuple(below(canonical(path), root) for path in named)
+        return tuple(sorted(below(canonical(path), root) for path in named))
 
     def left_out(self, stages: Sequence[StageResult]) -> tuple[str, str]:
         """In words which stages use nothing that changed, or why there is none to check at all."""

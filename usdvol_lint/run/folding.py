@@ -8,17 +8,23 @@ from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.results import Cause, StageResult
 from usdvol_lint.run.causes import Causes
 from usdvol_lint.run.parts import completed_by
+from usdvol_lint.run.teller import Silent, Teller
 
 
 def folded(
-    causes: Causes, judged: Iterable[tuple[StageReport, bool]], are_declared: bool
+    causes: Causes,
+    judged: Iterable[tuple[StageReport, bool]],
+    are_declared: bool,
+    teller: Teller | None = None,
 ) -> tuple[tuple[StageResult, ...], tuple[Cause, ...]]:
-    """The stages and the causes, each as soon as it is known that it is one.
+    """The stages and the causes, each told as soon as it is known that it is one.
 
-    What is absent is told last, for any stage of the run may complete it; where wholes and parts
-    are declared, nothing completes a whole, and a part lacks nothing.
+    Of a report nothing is kept but what may be completed, or complete, and the first places of
+    causes.  What is absent is told last, for any stage of the run may complete it; where wholes and
+    parts are declared, nothing completes a whole, and a part lacks nothing.
     """
-    stages: dict[int, StageResult] = {}
+    told = Silent() if teller is None else teller
+    stages: list[StageResult] = []
     lacking: dict[int, StageReport] = {}
     kept: list[StageReport] = []
     for stage, (report, is_part) in enumerate(judged):
@@ -28,16 +34,18 @@ def folded(
         report = report._replace(findings=() if is_part else absent)
         if report.findings:
             lacking[stage] = report
-        else:
-            stages[stage] = causes.stage(stage, report, is_part)
         if report.findings or report.completes:
             kept.append(report)
+        stages.append(causes.stage(stage, report, is_part, waits=bool(report.findings)))
+        causes.tell(told)
+        told.stage(stage, stages[-1])
     is_completed = completed_by(kept if lacking else ())
     for stage, report in lacking.items():
         left = (each for each in report.findings if not is_completed(report, each))
         causes.add(stage, report.path, left)
-        stages[stage] = causes.stage(stage, report)
-    return tuple(stages[number] for number in sorted(stages)), causes.result()
+    found = causes.result()
+    causes.tell(told)
+    return causes.completed(stages), found
 
 
 def _present(findings: Iterable[Finding]) -> Iterator[Finding]:

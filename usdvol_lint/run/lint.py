@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 import time
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from usdvol_lint import __version__
 from usdvol_lint.config import Config
@@ -15,7 +14,8 @@ from usdvol_lint.model import StageReport
 from usdvol_lint.packs.activation import ActiveRules, activate
 from usdvol_lint.packs.catalog import Catalog, load_for
 from usdvol_lint.paths import below, canonical
-from usdvol_lint.results import Report, RunInfo
+from usdvol_lint.results import Report, RunInfo, StageResult
+from usdvol_lint.run.ahead import Ahead
 from usdvol_lint.run.causes import Causes
 from usdvol_lint.run.chosen import Chosen, choose
 from usdvol_lint.run.folding import folded
@@ -24,6 +24,7 @@ from usdvol_lint.run.pool import InterruptedRunError, Pool
 from usdvol_lint.run.processors import owned
 from usdvol_lint.run.protocol import Setup
 from usdvol_lint.run.suppressing import in_stages, reasons
+from usdvol_lint.run.teller import Teller
 from usdvol_lint.words import format_time
 
 if TYPE_CHECKING:
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
     from usdvol_lint.packs.catalog import Catalog
     from usdvol_lint.run.layer_levels import VerdictOn
 
+
+_Judged: TypeAlias = tuple[StageReport, bool]
+"""The report on a stage, and whether this is a part."""
 
 _SHAPING = (
     *("options", "packs", "fail_on", "fail_on_unchecked", "show", "rules_as_of"),
@@ -54,12 +58,14 @@ class Progress(Protocol):
     def begin(self, stages: int) -> None: ...
     def advance(self, samples: int) -> None: ...
     def stage_done(self) -> None: ...
+    def awaits(self, path: str, number: int) -> None: ...
 
 
 class _Silent:
     def begin(self, stages: int) -> None: ...
     def advance(self, samples: int) -> None: ...
     def stage_done(self) -> None: ...
+    def awaits(self, path: str, number: int) -> None: ...
 
 
 class Naming(NamedTuple):
@@ -78,6 +84,7 @@ def lint(
     naming: Callable[[Config], Naming] | None = None,
     changes: Callable[[Config], Changes | None] = lambda config: None,
     interruption: Interruption | None = None,
+    teller: Teller | None = None,
 ) -> Report:
     """Checks the stages at `paths`: files, folders or patterns.
 
@@ -85,6 +92,7 @@ def lint(
     `child` is that process, if it was started already.
     Where there are `changes`, only stages that use one of the files are checked.
     After an `interruption` the report is on the stages that were done until then.
+    The `teller` hears of each stage as soon as all before it are done.
     Raises UsageError for mistakes in the configuration and the arguments; whatever is wrong with a
     stage is in the report.
     """
@@ -93,7 +101,7 @@ def lint(
     try:
         settled = config() if callable(config) else _given(config or Config())
         named = naming(settled) if naming else Naming()
-        run = _Run(pool, settled, named, progress, interruption or Interruption())
+        run = _Run(pool, settled, named, progress, interruption or Interruption(), teller)
         return run.report(tuple(paths), changes(settled), began)
     finally:
         pool.close()
@@ -107,35 +115,53 @@ class _Run(NamedTuple):
     naming: Naming
     progress: Progress | None
     interruption: Interruption
+    teller: Teller | None
 
     def report(self, paths: tuple[str, ...], changed: Changes | None, began: float) -> Report:
         """The report on the stages at these paths."""
-        config, (root, versions, _) = self.config, self.naming
+        config, naming = self.config, self.naming
         catalog = load_for(config)
         active = activate(config, catalog)
         jobs = config.jobs or owned()
-        causes = _causes(config, catalog, root, versions)
+        causes = _causes(config, catalog, naming.root, naming.versions)
         chosen = choose(paths, config, changed)
-        judged = self._judged(chosen, active, jobs)
-        stages, found = folded(causes, judged, are_declared=bool(config.stages))
+        judged = self._begun(self._judged(chosen, active, jobs), active, chosen)
+        stages, found = folded(causes, judged, bool(config.stages), self.teller)
         left_out, nothing = chosen.left_out(stages)
-        report = Report(
-            version=__version__,
-            usd_version=self.pool.usd_version or None,
-            settings=settings_of(config, active),
-            root=root,
+        report = self._head(active, chosen, stages)._replace(
             stages=stages,
-            causes=(),
             run=RunInfo(seconds=time.perf_counter() - began, jobs=jobs, usd_said=self.pool.said),
-            arguments=chosen.looked_at(stages, root),
             left_out=left_out,
             nothing=nothing,
         )
         return self._ended(report.with_causes(found), chosen)
 
-    def _judged(
-        self, chosen: Chosen, active: ActiveRules, jobs: int
-    ) -> Iterator[tuple[StageReport, bool]]:
+    def _head(
+        self, active: ActiveRules, chosen: Chosen, stages: Sequence[StageResult] = ()
+    ) -> Report:
+        """What is known before the first stage; after a run over what changed, of these stages."""
+        root = self.naming.root
+        return Report(
+            version=__version__,
+            usd_version=self.pool.usd_version or None,
+            settings=settings_of(self.config, active),
+            root=root,
+            stages=(),
+            causes=(),
+            run=RunInfo(),
+            arguments=chosen.looked_at(stages, root),
+        )
+
+    def _begun(
+        self, judged: Iterable[_Judged], active: ActiveRules, chosen: Chosen
+    ) -> Iterator[_Judged]:
+        """The same; the teller hears that the run began once a process looks at stages."""
+        for number, each in enumerate(judged):
+            if self.teller is not None and not number:
+                self.teller.begin(self._head(active, chosen))
+            yield each
+
+    def _judged(self, chosen: Chosen, active: ActiveRules, jobs: int) -> Iterator[_Judged]:
         """The reports on the stages that use what changed, each with whether it is on a part."""
         stages = chosen.listing.stages
         reports = stage_reports(
@@ -182,24 +208,25 @@ def stage_reports(
 ) -> Iterator[StageReport | None]:
     """The reports on stages, in their order, each as soon as it is there.
 
-    None stands for a stage that an interruption left out.
+    None stands for a stage that an interruption left out.  So many at most as
+    `ahead.MOST_AHEAD` says are looked at before that.
     """
     shown = progress or _Silent()
-    futures = deque(pool.submit(path) for path in paths)
-    if not futures:
+    every = tuple(paths)
+    if not every:
         return
-    for future in futures:
-        future.add_done_callback(lambda _: shown.stage_done())
-    shown.begin(len(futures))
-    is_alone = len(futures) == 1 and not config.stages
+    ahead = Ahead(pool, every, shown.stage_done)
+    shown.begin(len(every))
+    is_alone = len(every) == 1 and not config.stages
     stages = in_stages(config)
     setup = Setup(active, config.packs, config.depth, stages, is_alone, repository, changed)
     pool.run(setup, jobs, config.timeout, shown.advance, config.memory_limit)
     signals = interruption or Interruption()
     signals.stops(pool.interrupt)
-    while futures:
+    for number, path in enumerate(every):
+        shown.awaits(path, number)
         try:
-            yield futures.popleft().result()
+            yield ahead.next()
         except InterruptedRunError:
             signals.is_early = True
             yield None

@@ -29,6 +29,8 @@ _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
 _SHORT = 0.02
 """Seconds that a small stage takes at most."""
+_IDLE = 0.05
+"""Seconds after which a worker without a stage looks whether there will be any more."""
 _AHEAD = 8
 """How many small stages a worker has beside the one that it checks."""
 
@@ -53,7 +55,10 @@ class Pool:
         self._waiting: queue.SimpleQueue[_Stage] = queue.SimpleQueue()
         self._workers: list[Worker] = [self._first]
         self._closed = False
-        self._submitted: list[Future[StageReport]] = []
+        self._submitted: set[Future[StageReport]] = set()
+        self._why_not: UsageError | None = None
+        self.expects_more = False
+        """Whether more stages will be submitted, so that a worker waits for them."""
 
     @property
     def usd_version(self) -> str:
@@ -67,8 +72,13 @@ class Pool:
     def submit(self, path: str) -> Future[StageReport]:
         """Queues a stage; nothing happens to it before `run`."""
         future: Future[StageReport] = Future()
-        self._submitted.append(future)
+        self._submitted.add(future)
+        future.add_done_callback(self._submitted.discard)
         self._waiting.put((path, future))
+        if self._closed:
+            _interrupt(future)
+        if self._why_not:
+            self._refuse(self._why_not)
         return future
 
     def run(
@@ -150,12 +160,13 @@ class Pool:
         wanted = 1 + (min(_AHEAD, fair) if seconds < _SHORT else 0)
         with suppress(queue.Empty):
             while len(taken) < wanted:
-                taken.append(self._waiting.get_nowait())
+                is_idle = self.expects_more and not taken
+                taken.append(self._waiting.get(timeout=_IDLE if is_idle else 0))
 
     def _is_done(self) -> bool:
         """Whether no stage is waiting, so that a worker leaves."""
         with self._lock:
-            is_done = self._waiting.empty()
+            is_done = self._waiting.empty() and not self.expects_more
             self._able -= is_done
         return is_done
 
@@ -170,11 +181,15 @@ class Pool:
             self._able -= 1
             if self._able:
                 return
+            self._why_not = error
+        self._refuse(error)
+
+    def _refuse(self, why: UsageError) -> None:
         with suppress(queue.Empty):
             while True:
                 path, future = self._waiting.get_nowait()
                 with suppress(InvalidStateError):
-                    trouble = not_started(str(error))
+                    trouble = not_started(str(why))
                     future.set_result(report_trouble(path, trouble, Status.CRASHED))
 
     def interrupt(self) -> None:
@@ -182,9 +197,8 @@ class Pool:
         self._closed = True
         for worker in self._workers:
             worker.kill()
-        for future in self._submitted:
-            with suppress(InvalidStateError):  # of those that are done
-                future.set_exception(InterruptedRunError())
+        for future in tuple(self._submitted):
+            _interrupt(future)
 
     def close(self) -> None:
         """Ends all workers."""
@@ -193,6 +207,11 @@ class Pool:
             worker.kill()
         for worker in self._workers:
             worker.stop()
+
+
+def _interrupt(future: Future[StageReport]) -> None:
+    with suppress(InvalidStateError):  # it is done
+        future.set_exception(InterruptedRunError())
 
 
 def _in_a_thread(call: Callable[..., None], *arguments: object) -> None:

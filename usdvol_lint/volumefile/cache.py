@@ -12,6 +12,8 @@ from usdvol_lint.volumefile.recall import Recall
 from usdvol_lint.volumefile.window import Window, open_window
 
 _NUMBER = r"\d+"
+_SIZE = 512
+"""Bytes that a reading takes at least, and as many for each of its grids."""
 
 
 class Reading(NamedTuple):
@@ -27,9 +29,17 @@ class Reading(NamedTuple):
 
 
 class VolumeFiles:
-    """A cache of readings; a file is read anew if its size or time of change is another."""
+    """A cache of readings; a file is read anew if its size or time of change is another.
+
+    `size` is about how many bytes they take.
+    """
 
     def __init__(self) -> None:
+        self.forget()
+
+    def forget(self) -> None:
+        """Reads every file anew from now on; the numbers of layouts then mean others."""
+        self.size = 0
         self._readings: dict[tuple[int | None, ...], Reading] = {}
         self._layouts: dict[Hashable, int] = {}
         self._recall = Recall()
@@ -44,6 +54,8 @@ class VolumeFiles:
                 reading = self._readings.get(key)
                 if reading is None:
                     reading = self._readings[key] = self._read(window)
+                    grids = reading.file.grids if reading.file else ()
+                    self.size += _SIZE * (1 + len(grids)) + window.text
                 return reading
         except VolumeFileError as error:
             return self._failed(error)

@@ -135,12 +135,12 @@ def test_a_moved_cache_is_looked_for_once(tmp_path: Path, monkeypatch: pytest.Mo
 
 def test_no_end_of_folders_is_searched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path, "moved/0.vdb", "other/1.vdb")
-    monkeypatch.setattr("usdvol_lint.facts.files.folders._NAMES_TRIED", 3)
+    monkeypatch.setattr("usdvol_lint.facts.files.disk._NAMES_TRIED", 3)
     folders = Folders()
-    disk = Disk(folders)
-    assert disk.siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
-    assert disk.siblings_with(f"{tmp_path}/b", "/1.vdb") == []
-    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == []  # of the next stage
+    for disk in (Disk(folders), Disk(folders)):  # of a stage each
+        assert disk.siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
+        assert disk.siblings_with(f"{tmp_path}/b", "/1.vdb") == []
+    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == ["other"]
 
 
 def test_a_file_that_is_not_meant(tmp_path: Path) -> None:

@@ -96,17 +96,14 @@ def test_what_is_kept_has_an_end(
     assert listed == [a, b, c, a]
 
 
-def test_a_search_is_made_once_for_all_stages(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(module, "_NAMES_TRIED", 4)
+def test_a_search_is_made_once_for_all_stages(tmp_path: Path) -> None:
     write(tmp_path, "moved/0.vdb", "other/1.vdb")
     settle(tmp_path)
     folders = Folders()
     for _ in range(3):
         assert Disk(folders).siblings_with(f"{tmp_path}/a", "/0.vdb") == ["moved"]
-    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/1.vdb") == ["other"]
-    assert Disk(folders).siblings_with(f"{tmp_path}/b", "/2.vdb") == []
+    searched = folders.listing(str(tmp_path)).with_file["/0.vdb"]
+    assert folders.with_file(str(tmp_path), "/0.vdb") is searched
 
 
 def test_a_second_lint_sees_what_the_disk_holds_by_then(

@@ -74,7 +74,7 @@ def test_the_extension_that_counts_is_that_of_what_a_resolver_answers(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     answer = str(shutil.copyfile(assets / "cloud.vdb", tmp_path / resolved))
-    monkeypatch.setattr(classify, "_resolved_without_arguments", lambda *asked: answer)
+    monkeypatch.setattr(classify, "_resolved_anew", lambda *asked: answer)
     report = lint_text(volume(f"asset filePath = @{path}:SDF_FORMAT_ARGS:a=b.vdb@"))
     assert [each.code for each in report.findings] == expected
 

@@ -157,3 +157,52 @@ def test_samples_of_their_own_beside_a_clip_that_can_not_be_read(
         "AST002 no file at './gone.vdb' (1 of 1 samples) -> write or copy it there, or name a file "
         "that is there",
     ]
+
+
+RETIMED = """#usda 1.0
+def "cloud" (
+    clips = {
+        dictionary default = {
+            string primPath = "/cloud"
+            asset[] assetPaths = [@./a/clip.usda@, @./b/clip.usda@]
+            double2[] active = [(1, 0), (3, 1)]
+        }
+    }
+)
+{
+    def OpenVDBAsset "density"
+    {
+    }
+}
+"""
+
+
+@pytest.mark.parametrize(("offset", "frame"), [(10, "13"), (-1, "2")])
+def test_paths_in_retimed_clips_are_those_of_the_clip_with_the_value(
+    offset: int, frame: str, lint_text: Lint, tmp_path: Path
+) -> None:
+    """USD anchors them at the clip of another time, and finds no file."""
+    (tmp_path / "asset.usda").write_text(RETIMED)
+    over = '#usda 1.0\nover "cloud"\n{{\nover "density"\n{{\n{}\n}}\n}}\n'
+    for folder, first in (("a", 1), ("b", 3)):
+        samples = f"{first}: @./{first}.vdb@, {first + 1}: @./{first + 1}.vdb@"
+        text = over.format(f"asset filePath.timeSamples = {{{samples}}}")
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "clip.usda").write_text(text)
+    write(tmp_path, "a/1.vdb", "a/2.vdb", "b/4.vdb")
+    stage = f"#usda 1.0\n(\nsubLayers = [@./asset.usda@ (offset = {offset})]\n)\n"
+    missing = [each for each in lint_text(stage).findings if each.code == "AST002"]
+    assert [(each.site.frames, each.site.column) for each in missing] == [(frame, 52)]
+
+
+def test_the_clip_of_a_hole_is_the_one_in_the_time_of_its_layer(
+    lint_text: Lint, tmp_path: Path
+) -> None:
+    paths = "@./clip.0.usda@, @./clip.1.usda@, @./clip.2.usda@"
+    write_clips(tmp_path)
+    write(tmp_path, *(f"{number}.{time}.vdb" for number, time in ((0, 1), (0, 2), (2, 5), (2, 6))))
+    (tmp_path / "clip.1.usda").write_text("#usda 1.0\n")
+    (tmp_path / "asset.usda").write_text("#usda 1.0\n" + CLIPS % f"asset[] assetPaths = [{paths}]")
+    stage = "#usda 1.0\n(\nsubLayers = [@./asset.usda@ (offset = 2)]\n)\n"
+    (hole,) = (each for each in lint_text(stage).findings if each.code == "AST018")
+    assert (hole.site.layer, hole.site.column) == ("asset.usda", 52)

@@ -15,7 +15,7 @@ from usdvol_lint.facts.files.patterns import find_pattern
 from usdvol_lint.facts.files.states import AssetState, FileFault
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.clips import authored_path
-from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.facts.usd.opinions import is_of_retimed_clip, strongest_opinion
 from usdvol_lint.facts.usd.values import read_values
 from usdvol_lint.paths import FORMAT_ARGUMENTS
 
@@ -82,8 +82,8 @@ def _classify(attribute: Any, time: float | None, value: Any, disk: Disk) -> Ass
             return AssetSample(time, authored_path(value) or path, path, "", AssetState.ASSUMED)
         found = _file_at(led_to)
         resolved, led_to = found or resolved, led_to if found or not resolved else ""
-    if FORMAT_ARGUMENTS in path and not led_to:
-        resolved = _resolved_without_arguments(attribute, time, path)
+    if not led_to and (FORMAT_ARGUMENTS in path or (not resolved and _is_retimed(attribute, time))):
+        resolved = _resolved_anew(attribute, time, path)
     fault = disk.fault(resolved) if resolved else None
     if fault is FileFault.BROKEN_LINK:
         resolved, fault = "", None  # USD resolves a link without asking where it leads
@@ -125,8 +125,15 @@ def _authored_in_layer(attribute: Any, time: float | None) -> str | None:
     return str(value.path) if isinstance(value, Sdf.AssetPath) else None
 
 
-def _resolved_without_arguments(attribute: Any, time: float | None, path: str) -> str:
-    """The file that a path with file format arguments names: USD versions differ in how."""
+def _is_retimed(attribute: Any, time: float | None) -> bool:
+    """Whether a value is one of retimed clips, whose paths USD anchors at another clip (26.11)."""
+    if time is None or not (found := strongest_opinion(attribute, time)):
+        return False
+    return is_of_retimed_clip(attribute, time, found)
+
+
+def _resolved_anew(attribute: Any, time: float | None, path: str) -> str:
+    """The file that a path names, without arguments, where USD may give none or another one."""
     with Ar.ResolverContextBinder(attribute.GetStage().GetPathResolverContext()):
         return str(Ar.GetResolver().Resolve(anchored(attribute, time, path)))
 

@@ -18,6 +18,11 @@ from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.volumefile.signatures import LFS_POINTER
 
 _LFS_POINTER_LIMIT = 1024
+_NAMES_TRIED = 2_000
+"""In so many folders, for all paths of a stage, a file is looked for that may have moved.
+
+Not of a run: then it would depend on the stages before what is said of one.
+"""
 
 
 class Disk:
@@ -36,6 +41,8 @@ class Disk:
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._ignores_case: dict[str, bool] = {}
         self._siblings: dict[str, tuple[str, ...]] = {}
+        self._tried: set[tuple[str, str]] = set()
+        self._names_left = _NAMES_TRIED
 
     @property
     def checked(self) -> int:
@@ -74,7 +81,7 @@ class Disk:
         parent = os.path.dirname(folder)
         if folder not in self._siblings:
             is_top = os.path.dirname(parent) == parent
-            self._siblings[folder] = () if is_top else self._all_folders.with_file(parent, below)
+            self._siblings[folder] = () if is_top else self._with_file(parent, below)
         return [
             name for name in self._siblings[folder] if os.path.isfile(f"{parent}/{name}{below}")
         ]
@@ -82,7 +89,17 @@ class Disk:
     def folders_with(self, folder: str, below: str) -> tuple[str, ...]:
         """The names of the folders in one that have a file at the path `below`, `/a.vdb`."""
         is_top = os.path.dirname(folder) == folder
-        return () if is_top else self._all_folders.with_file(folder, below)
+        return () if is_top else self._with_file(folder, below)
+
+    def _with_file(self, folder: str, below: str) -> tuple[str, ...]:
+        """The same of any folder; none of them once too many names were tried."""
+        if (folder, below) not in self._tried:
+            names = len(self.listing(folder).names)
+            if names > self._names_left:
+                return ()
+            self._names_left -= names
+            self._tried.add((folder, below))
+        return self._all_folders.with_file(folder, below)
 
     def in_case(self, path: str, count: int) -> str | None:
         """An absolute path with its last `count` names as the folders on disk spell them.

@@ -16,8 +16,6 @@ from usdvol_lint.facts.files.places import folders_above, names_listed
 _NUMBER = re.compile(r"[0-9]+")
 _NAMES_KEPT = 200_000
 """So many names take some 20 MB."""
-_NAMES_TRIED = 10_000
-"""In so many folders, for all paths of a run, a file is looked for that may have moved."""
 _SETTLED = 2_000_000_000
 """In so many nanoseconds a folder may change twice, and its time of change once."""
 
@@ -72,12 +70,11 @@ class Listing:
 
 
 class Folders:
-    """The listings of folders and packages, and a search in them that ends, for a whole run."""
+    """The listings of folders and packages, and what was searched in them, for a whole run."""
 
     def __init__(self) -> None:
         self._listings: dict[str, tuple[_State, Listing]] = {}
         self._names_kept = 0
-        self._names_left = _NAMES_TRIED
 
     def listing(self, folder: str) -> Listing:
         """What is in a folder or package now; nothing if it can't be read."""
@@ -91,15 +88,11 @@ class Folders:
         return listing
 
     def with_file(self, folder: str, below: str) -> tuple[str, ...]:
-        """The folders in a folder that have a file at the path `below`, such as `/a.vdb`.
-
-        None of them once too many names were tried.
-        """
+        """The folders in a folder that have a file at the path `below`, such as `/a.vdb`."""
         listing = self.listing(folder)
-        if below not in listing.with_file and len(listing.names) <= self._names_left:
-            self._names_left -= len(listing.names)
+        if below not in listing.with_file:
             listing.with_file[below] = tuple(_with_file(folder, listing.names, below))
-        return listing.with_file.get(below, ())
+        return listing.with_file[below]
 
     def _keep(self, folder: str, state: _State, listing: Listing) -> None:
         _, before = self._listings.pop(folder, (None, Listing(())))

@@ -116,4 +116,5 @@ class ClaimReader:
     def _claim(self, values: dict[str, Any]) -> Claim:
         """The claim with these values, always the same object; those of other types are dropped."""
         typed: Any = {name: value for name, value in values.items() if type(value) is _TYPES[name]}
-        return self._claims.setdefault(tuple(typed.items()), Claim(**typed))
+        key = tuple(sorted(typed.items()))  # constant values come before animated ones
+        return self._claims.setdefault(key, Claim(**typed))

@@ -11,7 +11,7 @@ from pxr import Sdf, Usd
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.clips import Clips
-from usdvol_lint.facts.usd.instances import instances_of, path_in_prototype, prototype_of
+from usdvol_lint.facts.usd.instances import instances_of, path_in_prototype, prototype_of, tell_cut
 from usdvol_lint.facts.usd.settled import settle
 
 _Places: TypeAlias = dict[tuple[Any, ...], str]
@@ -89,6 +89,7 @@ def _first_paths(prototype: Any) -> Iterable[str]:
 
     def find(prototype: Any) -> Generator[Any, None, _Places]:
         first: _Places = {}
+        left_out: set[tuple[Any, ...]] = set()
         for instance in instances_of(prototype):
             own, around = _bearers(instance), {(): ""}
             if instance.IsInPrototype():
@@ -98,12 +99,24 @@ def _first_paths(prototype: Any) -> Iterable[str]:
                 around = known[outer]
             below = path_in_prototype(instance)
             for above, path in around.items():
-                if len(first) < _MOST_PLACES or own + above in first:
-                    group, place = own + above, path + below
+                group, place = own + above, path + below
+                if len(first) < _MOST_PLACES or group in first:
                     first[group] = min(place, first.get(group, place))
+                else:
+                    left_out.add(group)
+        if left_out:
+            _tell_left_out(prototype, len(first), len(left_out))
         return first
 
     return sorted(path for above, path in settle(prototype, find, known).items() if above)
+
+
+def _tell_left_out(prototype: Any, kept: int, left_out: int) -> None:
+    tell_cut(
+        prototype,
+        f"whether value clips reach it was looked at below {kept:,} of {kept + left_out:,} groups "
+        "of prims with clips that it stands below",
+    )
 
 
 def _is_undecided(prim: Any) -> bool:

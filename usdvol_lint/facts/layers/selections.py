@@ -62,27 +62,44 @@ def wrong_selections(
 
 
 def _wrong(prim: Any, kinds: PrimKinds) -> Iterator[WrongSelection]:
-    sets = prim.GetVariantSets()
-    names = sets.GetNames()
-    selected = sets.GetAllVariantSelections()
+    names = dict.fromkeys(prim.GetVariantSets().GetNames())
+    selected = prim.GetVariantSets().GetAllVariantSelections()
+    authored, sets = _authored(prim), _variant_sets(prim)
     for set_name, variant in selected.items():
-        known: list[str] = []
+        known: tuple[str, ...] = ()
         if set_name in names:
-            known = sets.GetVariantSet(set_name).GetVariantNames()
+            known = _variants(sets.get(set_name, ()))
             similar, concerned = _near(variant, known), set_name
         else:
             unselected = (each for each in names if not selected.get(each))
             similar = _near(set_name, unselected)
             concerned = similar or ""
-        spec = _authoring(prim, set_name, variant)
+        spec = authored.get((set_name, variant))
         if (
             variant
             and variant not in known
             and spec
             and concerned
-            and _has_ours(prim, concerned, kinds)
+            and _has_ours(sets.get(concerned, ()), kinds)
         ):
-            yield WrongSelection(prim, spec, set_name, variant, tuple(known), similar, 1)
+            yield WrongSelection(prim, spec, set_name, variant, known, similar, 1)
+
+
+def _variant_sets(prim: Any) -> dict[str, list[Any]]:
+    """The specs of each variant set of a prim, strongest first.
+
+    USD looks through all sets for the variants of each.
+    """
+    found: dict[str, list[Any]] = defaultdict(list)
+    for spec in get_prim_stack(prim):
+        for name, variant_set in spec.variantSets.items():
+            found[name].append(variant_set)
+    return dict(found)
+
+
+def _variants(sets: Iterable[Any]) -> tuple[str, ...]:
+    """The names of the variants of a set, as each of several specs has it."""
+    return tuple(sorted(set(chain.from_iterable(each.variants.keys() for each in sets))))
 
 
 def _near(name: str, others: Iterable[str]) -> str | None:
@@ -90,21 +107,24 @@ def _near(name: str, others: Iterable[str]) -> str | None:
     return near[0] if len(near) == 1 else None
 
 
-def _authoring(prim: Any, set_name: str, variant: str) -> Any | None:
-    """The strongest spec with the selection; None where no layer says it."""
-    specs = (spec for spec in get_prim_stack(prim) if spec.HasInfo(_SELECTION))
-    return next((each for each in specs if each.variantSelections.get(set_name) == variant), None)
+def _authored(prim: Any) -> dict[tuple[str, str], Any]:
+    """The strongest spec with each selection, by set and variant; what no layer says has none."""
+    found: dict[tuple[str, str], Any] = {}
+    for spec in get_prim_stack(prim):
+        if spec.HasInfo(_SELECTION):
+            for selection in spec.GetInfo(_SELECTION).items():
+                found.setdefault(selection, spec)
+    return found
 
 
-def _has_ours(prim: Any, set_name: str, kinds: PrimKinds) -> bool:
+def _has_ours(sets: Iterable[Any], kinds: PrimKinds) -> bool:
     """Whether a variant of a set has prims or properties of ours, or names that speak of them."""
-    return any(_is_ours(spec, kinds) for spec in islice(_specs(prim, set_name), _MOST_SPECS))
+    return any(_is_ours(spec, kinds) for spec in islice(_specs(sets), _MOST_SPECS))
 
 
-def _specs(prim: Any, set_name: str) -> Iterator[Any]:
-    """The specs in the variants of a set."""
-    sets = (spec.variantSets.get(set_name) for spec in get_prim_stack(prim))
-    variants = chain.from_iterable(each.variants.values() for each in sets if each)
+def _specs(sets: Iterable[Any]) -> Iterator[Any]:
+    """The specs in the variants of a set, as each of several specs has it."""
+    variants = chain.from_iterable(each.variants.values() for each in sets)
     waiting = [each.primSpec for each in variants]
     while waiting:
         spec = waiting.pop()

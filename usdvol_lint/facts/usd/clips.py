@@ -72,6 +72,8 @@ class ClipSet(NamedTuple):
     def clip_at(self, time: float) -> str | None:
         """The authored path of the clip that is active at a time of the stage."""
         api = Usd.ClipsAPI(self.prim)
+        _, offset = self.opinion_with(self.key if self.template else "active")
+        time = offset.GetInverse() * time
         if self.template:
             start, stride = (
                 api.GetClipTemplateStartTime(self.name),

@@ -45,7 +45,7 @@ class _Prototypes:
         self.standings: dict[Any, Standing] = {}
         self.instances: dict[Any, list[Any]] = {}
         self.shown: dict[Any, Shown] = {}
-        self.cut: dict[Any, int] = {}
+        self.cut: dict[Any, str] = {}
 
 
 _PROTOTYPES: WeakKeyDictionary[Any, _Prototypes] = WeakKeyDictionary()
@@ -114,12 +114,21 @@ def shown_paths(prim: Any) -> list[str]:
             found.append(f"{each.GetPath()}{below}")
             left -= found[-1].count("/") ** 2
     if waiting:
-        _known(prim).cut[prim] = len(found)
+        tell_cut(
+            prim,
+            f"where it is and when it is visible was looked at for the first {len(found):,} of the "
+            "instances that show it",
+        )
     return sorted(found)
 
 
-def cut_short(stage: Any) -> list[tuple[Any, int]]:
-    """The prims that are shown more often than their `shown_paths` were, and how many these are."""
+def tell_cut(prim: Any, words: str) -> None:
+    """Says of a prim that not all of what shows it was looked at."""
+    _known(prim).cut[prim] = words
+
+
+def cut_short(stage: Any) -> list[tuple[Any, str]]:
+    """The prims that are shown more often than what was looked at, and what that was."""
     return list(_PROTOTYPES[stage].cut.items()) if stage in _PROTOTYPES else []
 
 

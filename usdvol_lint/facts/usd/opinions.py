@@ -25,6 +25,14 @@ def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
 
     Stronger specs are skipped if they hold only metadata, or at the default time only time samples.
     """
+    found = _strongest(attribute, time)
+    if found is None or not (time is not None and is_of_retimed_clip(attribute, time, found)):
+        return found
+    # Of retimed clips USD lists the one at that time of the layer with the clips (26.11).
+    return _strongest(attribute, found.offset.GetInverse() * time) or found
+
+
+def _strongest(attribute: Any, time: float | None) -> Opinion | None:
     code = Usd.TimeCode.Default() if time is None else time
     keys = ("default",) if time is None else ("timeSamples", "default", "spline")
     for spec, offset in _stack(attribute, code):
@@ -39,6 +47,11 @@ def _stack(attribute: Any, code: Any) -> Any:
         return attribute.GetPropertyStackWithLayerOffsets(code)
     except UNREADABLE:
         return attribute.GetPropertyStackWithLayerOffsets(Usd.TimeCode.Default())
+
+
+def is_of_retimed_clip(attribute: Any, time: float, opinion: Opinion) -> bool:
+    """Whether an opinion is that of a value clip in a layer whose times are not the stage's."""
+    return not opinion.offset.IsIdentity() and is_from_clips(attribute, time)
 
 
 def is_from_clips(attribute: Any, time: float | None) -> bool:
