@@ -33,13 +33,17 @@ main()
 REPORT = ("--output-format", "json", "--output", "report.json")
 
 
+def command(number: int, where: str, *arguments: str) -> list[str]:
+    program = PROGRAM.format(number=int(number), where=where)
+    return [sys.executable, "-P", "-c", program, *map(str, ONLY_STUDIO), *REPORT, *arguments, "."]
+
+
 def signalled(
     number: int, where: str, *arguments: str, cwd: Path
 ) -> subprocess.CompletedProcess[str]:
     """A run that is sent a signal whenever something was called."""
-    program = PROGRAM.format(number=int(number), where=where)
     return subprocess.run(
-        [sys.executable, "-P", "-c", program, *map(str, ONLY_STUDIO), *REPORT, *arguments, "."],
+        command(number, where, *arguments),
         cwd=cwd,
         env=environment(),
         capture_output=True,
@@ -73,3 +77,16 @@ def test_what_is_begun_to_be_written_is_finished(where: str, tmp_path: Path) -> 
     assert sorted(os.listdir(tmp_path)) == ["known.jsonl", "report.json", "smoke.usda"]
     report = json.loads((tmp_path / "report.json").read_text())
     assert (report["partial"], report["failure"], len(report["stages"])) == (False, None, 1)
+
+
+def test_a_closed_terminal_takes_no_text_and_a_file_its_report(tmp_path: Path) -> None:
+    write(tmp_path, smoke=volume("smoke"))
+    ours, theirs = os.openpty()
+    asked = command(signal.SIGHUP, "child.start_child", "--output-format", "json")
+    with subprocess.Popen(
+        asked, cwd=tmp_path, env=environment(), stdout=theirs, stderr=theirs
+    ) as process:
+        os.close(theirs)
+        os.close(ours)
+    assert process.returncode == 128 + signal.SIGHUP
+    assert json.loads((tmp_path / "report.json").read_text())["partial"] is True

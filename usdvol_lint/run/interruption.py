@@ -6,6 +6,8 @@ import os
 import signal
 import time
 from collections.abc import Callable
+from contextlib import suppress
+from stat import S_ISCHR
 from types import FrameType
 
 _ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
@@ -65,6 +67,8 @@ class Interruption:
 
     def _hear_first(self, number: int) -> None:
         self.number, self._first_at = number, time.monotonic()
+        if name_of(number) == "SIGHUP":
+            _leave_terminal()
         if self._stop:
             self._stop()
         elif not self._is_held:
@@ -74,3 +78,11 @@ class Interruption:
 def name_of(number: int) -> str:
     """What a signal is called."""
     return signal.Signals(number).name
+
+
+def _leave_terminal() -> None:
+    """Puts the null device in the place of a terminal that is closed, which takes no more text."""
+    for number in (1, 2):
+        with suppress(OSError):
+            if S_ISCHR(os.fstat(number).st_mode) and not os.isatty(number):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), number)
