@@ -165,3 +165,40 @@ def test_no_rule_fails_on_strange_relationships(
     (tmp_path / "stage.usda").write_text(text, encoding="utf-8")
     report = everything.lint("stage.usda")
     assert (report.status, failures(report.findings)) == ("checked", [])
+
+
+CLIPPED = """
+def Xform "A" (
+    clips = {
+        dictionary default = {
+            double2[] active = [(0, 0), (1, inf), (2, nan)]
+            asset[] assetPaths = [@./clip.usda@]
+            asset manifestAssetPath = @./clip.usda@
+            string primPath = "/A"
+        }
+    }
+)
+{
+    def OpenVDBAsset "d"
+    {
+        asset filePath
+    }
+}
+"""
+UNMEASURED = """
+def ParticleField3DGaussianSplat "S"
+{
+    point3f[] positions = [(nan, nan, nan)]
+    float3[] scales = [(-0.1, -0.2, -0.1)]
+    float[] opacities = [1]
+}
+"""
+
+
+@pytest.mark.parametrize("text", [CLIPPED, UNMEASURED])
+def test_numbers_that_are_not_finite(text: str, everything: Engine, tmp_path: Path) -> None:
+    clip = 'over "A"\n{\nover "d"\n{\nasset filePath.timeSamples = {1: @./a.vdb@}\n}\n}\n'
+    (tmp_path / "clip.usda").write_text(f"#usda 1.0\n{clip}", encoding="utf-8")
+    stage = tmp_path / "stage.usda"
+    stage.write_text(f"#usda 1.0\n{text}", encoding="utf-8")
+    assert failures(everything.lint(str(stage)).findings) == []

@@ -129,7 +129,9 @@ class _RulesByKey:
         for rule, error in failures:
             failed([rule], error)
         # What fails is told on each stage, and a key that is of one stage would keep it in memory.
-        if not failures and len(self._chosen) < _MOST_KEYS and _lasts(key):
+        if not failures and _lasts(key):
+            if len(self._chosen) >= _MOST_KEYS:
+                self._chosen.clear()  # what is known of contents was forgotten meanwhile
             self._chosen[key] = found
         return found
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf
 from operator import add
 from typing import Any, NamedTuple
 
@@ -108,7 +109,7 @@ def _counted(
         for sample, measured in positions.ranges
         if measured.low and measured.high
     }
-    for sample, rows in positions.read(lambda sample: steps.get(sample.time, 0.0) > least):
+    for sample, rows in positions.read(lambda sample: steps.get(sample.time, -inf) > least):
         sizes, shown = (rows_at(array, sample, len(rows)) for array in (scales, opacities))
         yield sample, _count(rows, sizes, shown, steps[sample.time], factor)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from math import isfinite
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd, Vt
@@ -143,11 +144,16 @@ def _explicit_faults(keys: Keys) -> Iterator[ClipFault]:
         advice = "author it as pairs of a frame and a clip's index"
         yield ClipFault("active", "has an empty active", advice, is_block=True)
     else:
-        yield from _active_faults([(time, int(index)) for time, index in active], len(clips))
+        yield from _active_faults([(time, _index(value)) for time, value in active], len(clips))
     yield from _times_faults(keys)
 
 
-def _active_faults(active: list[tuple[float, int]], count: int) -> Iterator[ClipFault]:
+def _index(value: float) -> float:
+    """The index that a number in active is, as USD takes it; what is not finite stays so."""
+    return int(value) if isfinite(value) else value
+
+
+def _active_faults(active: list[tuple[float, float]], count: int) -> Iterator[ClipFault]:
     outside = [index for _, index in active if not 0 <= index < count]
     if outside:
         counted = "1 clip" if count == 1 else f"{count} clips"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Iterator
 from itertools import chain
@@ -79,11 +80,16 @@ class ClipSet(NamedTuple):
                 api.GetClipTemplateStartTime(self.name),
                 api.GetClipTemplateStride(self.name),
             )
-            number = int(start + max(time - start, 0) // stride * stride)
+            frame = start + max(time - start, 0) // stride * stride
+            if not math.isfinite(frame):
+                return None
+            number = int(frame)
             return re.sub("#+", lambda marks: f"{number:0{len(marks[0])}}", self.template, count=1)
         active = sorted(map(tuple, api.GetClipActive(self.name) or ()))
         before = [index for start, index in active if start <= time]
-        return self.named(self.clips[int(before[-1])]) if before else None
+        if not before or not 0 <= before[-1] < len(self.clips):
+            return None
+        return self.named(self.clips[int(before[-1])])
 
     def named(self, clip: Any) -> str:
         """The path of one of the clips as the set, or its template, names it."""
