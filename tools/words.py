@@ -86,6 +86,7 @@ def _of_bad_input(data: Mapping[str, Any]) -> Iterator[str]:
         yield _paragraph("A configuration file that was found", map(_said_of_found, data["found"]))
         yield _paragraph("A pyproject.toml", map(_said_of_project, data["projects"]))
         yield _paragraph("A file by another name", map(_said_of_name, data["misnamed"]))
+        yield _paragraph("A folder in its place", map(_said_of_folder, data["folders"]))
         yield _paragraph("A baseline", map(_said_of_baseline, data["baselines"]))
         packs = (_said_of_pack(name, modules) for name, modules in data["packs"].items())
         yield _paragraph("A pack of rules", packs)
@@ -132,6 +133,13 @@ def _said_of_name(name: str) -> str:
     Path(name).touch()
     said = _said_to("--show-settings", name)
     Path(name).unlink()
+    return said
+
+
+def _said_of_folder(name: str) -> str:
+    Path(name).mkdir()
+    said = _said_to("--show-settings", name)
+    Path(name).rmdir()
     return said
 
 

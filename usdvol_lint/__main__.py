@@ -15,6 +15,12 @@ if __name__ == "__main__" and not sys.flags.safe_path:
 
 from usdvol_lint import __version__
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import NoReturn
+
+    from usdvol_lint.run.interruption import Interruption
+
 _STARTS_NO_CHILD = {
     *("--version", "-h", "--help", "--explain", "--list-rules", "--show-settings"),
     "--show-files",
@@ -30,7 +36,7 @@ def main() -> None:
     try:
         _main()
     except KeyboardInterrupt as signal:
-        _fail("interrupted", 128 + (signal.args[0] if signal.args else 2))
+        _fail_interrupted(signal.args[0] if signal.args else 2)
     except Exception as error:  # such as a module that no memory or file handle is left for
         words = " ".join(f"{type(error).__name__}: {error}".split())
         _fail(f"error: it can't be started ({words.removesuffix(': ')}); look at `ulimit -a`", 2)
@@ -45,12 +51,21 @@ def _main() -> None:
     elif arguments in (["-h"], ["--help"]):
         with open(os.path.join(os.path.dirname(__file__), "help.txt"), encoding="utf-8") as file:
             _print(file.read())
-    elif not arguments or not _STARTS_NO_CHILD.isdisjoint(arguments):
-        from usdvol_lint.command.cli import main as run_command
-
-        sys.exit(run_command(arguments))
     else:
-        _lint(arguments)
+        _run(arguments)
+
+
+def _run(arguments: list[str]) -> None:
+    from usdvol_lint.run.interruption import Interruption
+
+    signals = Interruption()
+    signals.listen()
+    if arguments and _STARTS_NO_CHILD.isdisjoint(each.partition("=")[0] for each in arguments):
+        _lint(arguments, signals)
+    signals.release()
+    from usdvol_lint.command.cli import main as run_command
+
+    sys.exit(run_command(arguments, None, signals))
 
 
 def _open_standard_streams() -> None:
@@ -85,7 +100,13 @@ def _fail(words: str, code: int) -> None:
     os._exit(code)
 
 
-def _lint(arguments: list[str]) -> None:
+def _fail_interrupted(number: int) -> None:
+    from usdvol_lint.run.interruption import name_of
+
+    _fail(f"interrupted by {name_of(number)}", 128 + number)
+
+
+def _lint(arguments: list[str], signals: Interruption) -> NoReturn:
     """Starts the process that imports USD, and imports the command line meanwhile."""
     from usdvol_lint.child import kill_child, start_child
 
@@ -93,28 +114,21 @@ def _lint(arguments: list[str]) -> None:
     with suppress(OSError):  # no file handles or processes left: it is tried again, and then said
         child = start_child()
     import gc
-    import signal
 
     # What is found is plain data without cycles: looking for them among 100,000 causes takes longer
     # than making these.
     gc.disable()
-    # A signal that ends this process, as a CI host sends it, has to end the workers too.
-    signal.signal(signal.SIGTERM, _terminate)
     try:
         from usdvol_lint.command.cli import main as run_command
 
-        code = run_command(arguments, child)
+        code = run_command(arguments, child, signals)
     finally:
         if child:
             kill_child(child)
     _leave(code)
 
 
-def _terminate(number: int, frame: object) -> None:
-    raise KeyboardInterrupt(number)
-
-
-def _leave(code: int) -> None:
+def _leave(code: int) -> NoReturn:
     """Ends the process at once: tearing down all that was imported would only cost time."""
     try:
         for stream in (sys.stdout, sys.stderr):

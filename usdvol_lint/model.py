@@ -37,6 +37,7 @@ class Status(StrEnum):
     UNREADABLE = "unreadable"
     CRASHED = "crashed"
     TIMED_OUT = "timed_out"
+    UNCHECKED = "unchecked"
 
 
 class Excerpt(NamedTuple):

@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterable
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 """The suffixes of USD's own file formats."""
+_INPUTS = (*SUFFIXES, ".vdb", ".nvdb", ".f3d", ".toml", ".py")
+"""What stages, volume files, configurations and rules end with."""
 FORMAT_ARGUMENTS = ":SDF_FORMAT_ARGS:"
 """Stands between a path and the arguments for the file format plugin that reads it."""
 _IN_PACKAGE = r"(?is)(?P<package>.+?\.usdz)(?P<inside>\[.+\])"
@@ -49,6 +51,11 @@ def as_spelt(path: str, names_in: Callable[[str], Iterable[str]] = os.listdir) -
 
 def _folded(name: str) -> str:
     return composed(name).casefold()
+
+
+def is_called_like_input(file: str) -> bool:
+    """Whether a file, or what it is a link to, may be what runs read, which none must destroy."""
+    return any(name.lower().endswith(_INPUTS) for name in (file, os.path.realpath(file)))
 
 
 def composed(text: str) -> str:

@@ -222,6 +222,32 @@ def test_a_file_that_is_no_configuration(
     assert ran.err.count("\n") == 1
 
 
+@pytest.mark.skipif(os.name != "posix", reason="needs links, pipes and devices of POSIX")
+@pytest.mark.parametrize("name", ["usdvol-lint.toml", "pyproject.toml"])
+def test_what_is_no_file_is_not_passed_over(
+    name: str, tool: Callable[..., Ran], tmp_path: Path
+) -> None:
+    file = tmp_path / name
+    for kind, make in {
+        "a link that leads nowhere": lambda: file.symlink_to("gone.toml"),
+        "a pipe or a device": lambda: os.mkfifo(file),
+    }.items():
+        make()
+        said = f"'{file}' is {kind} and no file: take it away, or write it anew"
+        done = tool("--show-settings")
+        assert (done.code, done.out, done.err) == (2, "", f"usdvol-lint: error: {said}\n")
+        file.unlink()
+
+
+def test_a_folder_with_the_name_of_our_file(tool: Callable[..., Ran], tmp_path: Path) -> None:
+    """One that is called like the file of a project has no table of ours, and means nothing."""
+    (tmp_path / "pyproject.toml").mkdir()
+    assert tool("--show-settings").code == 0
+    (tmp_path / "usdvol-lint.toml").mkdir()
+    done = tool("--show-settings")
+    assert (done.code, "is a folder and no file" in done.err) == (2, True)
+
+
 def test_a_project_without_our_table(tool: Callable[..., Ran], tmp_path: Path) -> None:
     (tmp_path / "pyproject.toml").write_text("tool = 3\n", encoding="utf-8")
     assert settings(tool(*AS_JSON))["config_file"] is None

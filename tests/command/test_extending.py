@@ -175,7 +175,7 @@ def test_a_circle_is_named(show: Path, tool: Callable[..., Ran]) -> None:
     ("own", "said"),
     [
         ("'../gone.toml'", "extend: there is no file '{show}/../gone.toml'"),
-        ("'../studio'", "extend: there is no file '{show}/../studio'"),
+        ("'../studio'", "extend: '{show}/../studio' is a folder and no file"),
         ("'pyproject.toml'", "extend: {show}/pyproject.toml has no table [tool.usdvol-lint]"),
         ("''", "extend must not be empty: leave it out"),
         ("['a.toml']", "extend must be a text, not ['a.toml']"),

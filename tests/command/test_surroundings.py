@@ -74,6 +74,22 @@ def test_no_report_goes_over_an_input(output: str, said: str, tmp_path: Path) ->
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
+@POSIX
+def test_no_link_leads_to_an_input(tmp_path: Path) -> None:
+    """Neither a report nor a baseline, whoever put the link there."""
+    write(tmp_path, a=volume("fog"))
+    for name, target in {"r.json": "cache.vdb", "k.jsonl": "empty.usda"}.items():
+        (tmp_path / target).write_text("" if name == "k.jsonl" else "voxels")
+        (tmp_path / name).symlink_to(target)
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    report = ("--output-format", "json", "--output", "r.json")
+    for asked in (report, ("--root", ".", "--write-baseline", "k.jsonl")):
+        ran = run(*ONLY, *asked, "a.usda", cwd=tmp_path)
+        assert (ran.code, ran.out) == (2, "")
+        assert ran.err.endswith("a file that is called like an input: name another one\n")
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
 def test_modules_of_a_checkout_are_not_imported(tmp_path: Path) -> None:
     for name in ("click", "pxr", "numpy", "gc"):
         (tmp_path / f"{name}.py").write_text(f"raise SystemExit('imported {name}')")

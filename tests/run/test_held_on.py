@@ -258,6 +258,7 @@ def test_what_was_checked_is_reported_where_no_process_starts_any_more(
     assert (said.pop("a.usda"), said.pop("killed.usda")) == (["behaved"], [ended])
     not_started = f"not checked: {KILLED}{MORE}"
     assert said == {"y.usda": [not_started], "z.usda": [not_started]}
+    assert ran.json["summary"]["by_status"] == {"checked": 1, "crashed": 1, "unchecked": 2}
     (cause,) = (each for each in ran.json["causes"] if each["source"]["layer"] is None)
     assert cause["count"] == 2
 

@@ -21,7 +21,7 @@ from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
 from usdvol_lint.baseline.scope import Scope, arguments_from_json, scope_as_json, scope_from_json
 from usdvol_lint.baseline.values import line_of, string, table_of, value_of
 from usdvol_lint.model import UsageError
-from usdvol_lint.paths import canonical
+from usdvol_lint.paths import canonical, is_called_like_input
 from usdvol_lint.replacing import replacing
 from usdvol_lint.words import quoted
 
@@ -174,6 +174,9 @@ def check_writable(option: str, file: Path, replaces: bool = True) -> None:
         raise UsageError(f"{option}: this is no file, name one")
     if replaces and target.exists() and not _may_be_replaced(target):
         raise UsageError(f"{option}: the file that is there is no baseline: name another")
+    if replaces and is_called_like_input(str(file)):
+        said = "a baseline is not written to a file that is called like an input"
+        raise UsageError(f"{option}: {said}: name another one")
     if not target.parent.is_dir():
         raise UsageError(f"{option}: there is no folder {file.parent}")
     if not os.access(target.parent, os.W_OK):

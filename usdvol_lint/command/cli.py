@@ -12,6 +12,7 @@ from usdvol_lint import __version__
 from usdvol_lint.command.arguments import OUTPUTS, Arguments
 from usdvol_lint.command.codes import CLEAN, FAILED, FINDINGS, ended_by, signal_of
 from usdvol_lint.model import UsageError
+from usdvol_lint.run.interruption import name_of
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.words import printable
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from subprocess import Popen
 
     from usdvol_lint.packs.catalog import Catalog
+    from usdvol_lint.run.interruption import Interruption
 
 
 def _complete_code(context: click.Context, parameter: click.Parameter, typed: str) -> list[str]:
@@ -166,22 +168,19 @@ def command(context: click.Context, /, paths: tuple[str, ...], **given: Any) -> 
         return _show_files(paths, given)
     from usdvol_lint.command.linting import lint_stages
 
-    return lint_stages(paths, given, context.obj)
+    return lint_stages(paths, given, *context.obj)
 
 
 # fmt: on
 
 
-def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) -> int:
+def main(arguments: list[str] | None = None, *started: Popen[bytes] | Interruption | None) -> int:
     """Runs the command and returns its exit code; any failure is one line on standard error.
 
-    `child` is the first worker process, if it was started already.
+    `started` are the first worker process and what hears signals, if they are there already.
     """
     try:
-        code: int = command.main(
-            arguments, prog_name="usdvol-lint", standalone_mode=False, obj=child
-        )
-        return code
+        return int(command.main(arguments, "usdvol-lint", standalone_mode=False, obj=started))
     except click.ClickException as error:
         _report(error, arguments)
         context = error.ctx if isinstance(error, click.UsageError) else None
@@ -191,8 +190,8 @@ def main(arguments: list[str] | None = None, child: Popen[bytes] | None = None) 
         _report(error, arguments)
         _tell(f"error: {error}")
     except (click.Abort, KeyboardInterrupt) as error:
-        _tell("interrupted")
-        return ended_by(signal_of(error))
+        _tell(f"interrupted by {name_of(number := signal_of(error))}")
+        return ended_by(number)
     except MemoryError:
         _tell(f"error: no memory is left{narrow_limits()}")
     except Exception as error:  # a bug of ours must exit with 2 too: 1 would mean findings

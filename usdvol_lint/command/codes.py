@@ -19,9 +19,9 @@ def ended_by(number: int) -> int:
 
 
 def signal_of(error: BaseException) -> int:
-    """The number of the signal that raised a KeyboardInterrupt."""
-    number = error.args[0] if error.args else None
-    return number if isinstance(number, int) else int(signal.SIGINT)
+    """The number of the signal that raised a KeyboardInterrupt, or of which click made an Abort."""
+    said = (error.__cause__ or error).args
+    return said[0] if said and isinstance(said[0], int) else int(signal.SIGINT)
 
 
 def exit_code(report: Report, config: Config, fail_on_unpruned: bool = False) -> int:

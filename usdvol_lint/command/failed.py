@@ -15,6 +15,7 @@ from usdvol_lint.command.codes import signal_of
 from usdvol_lint.config import Config
 from usdvol_lint.model import UsageError
 from usdvol_lint.results import Report, RunInfo
+from usdvol_lint.run.interruption import name_of
 from usdvol_lint.run.roots import checkout_of
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def _words(error: BaseException) -> str:
         case click.ClickException():
             return error.format_message()
         case KeyboardInterrupt():
-            return "interrupted before any stage was checked"
+            return f"interrupted by {name_of(signal_of(error))} before any stage was checked"
         case UsageError():
             return str(error)
         case _:  # its text may have many lines

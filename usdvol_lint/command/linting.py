@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from usdvol_lint.command import output
 from usdvol_lint.command.choosing import arguments, changes
-from usdvol_lint.command.codes import CLEAN, ended_by, exit_code
+from usdvol_lint.command.codes import CLEAN, ended_by, exit_code, signal_of
 from usdvol_lint.command.failed import failed, mark_reported, run_info, write_failed
 from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.settings import read_settings
@@ -22,7 +23,7 @@ from usdvol_lint.packs.catalog import NOT_IGNORABLE, load_for
 from usdvol_lint.report import FOR_HOSTS, STREAMED
 from usdvol_lint.results import Report
 from usdvol_lint.run.causes import versions_in
-from usdvol_lint.run.interruption import Interruption
+from usdvol_lint.run.interruption import Interruption, name_of
 from usdvol_lint.run.lint import Naming, lint
 from usdvol_lint.run.processors import owned
 from usdvol_lint.run.roots import checkout_of, root_of
@@ -39,30 +40,49 @@ if TYPE_CHECKING:
 
 
 def lint_stages(
-    paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] | None = None
+    paths: tuple[str, ...],
+    given: dict[str, Any],
+    child: Popen[bytes] | None = None,
+    signals: Interruption | None = None,
 ) -> int:
     """Lints stages as the options say, writes what they ask for, and returns the exit code.
 
-    `given` are the options by their names in Python; `child` is the first worker process.
+    `given` are the options by their names in Python; `child` is the first worker process, `signals`
+    what hears them.
     """
+    signals = signals or Interruption()
     try:
-        return _linted(paths, given, child)
+        code = _linted(paths, given, child, signals)
+    except KeyboardInterrupt as error:
+        number = signal_of(error)
+        return _tell_end(number, f"interrupted by {name_of(number)}")
     except Exception as error:
         mark_reported(error)
         raise
+    if signals.number and not signals.is_early:
+        name = name_of(signals.number)
+        return _tell_end(signals.number, f"interrupted by {name} once all stages were done")
+    return code
 
 
-def _linted(paths: tuple[str, ...], given: dict[str, Any], child: Popen[bytes] | None) -> int:
+def _linted(
+    paths: tuple[str, ...],
+    given: dict[str, Any],
+    child: Popen[bytes] | None,
+    signals: Interruption,
+) -> int:
     job = _Job(paths, given)
     shows = not given["quiet"] and sys.stderr.isatty()
     with ProgressBar(enabled=shows) as progress, Streams(job.streamed, progress.aside) as streams:
         try:
+            signals.release()
             paths = job.read_list()
-            with Interruption() as signals:
-                report = lint(
-                    paths, job.settle, progress, child, job.naming, job.changes, signals, streams
-                )
+            report = lint(
+                paths, job.settle, progress, child, job.naming, job.changes, signals, streams
+            )
+            signals.hold()
         except (Exception, KeyboardInterrupt) as error:
+            signals.hold()
             job.write_failure(error, streams)
             raise
         progress.close()
@@ -174,8 +194,7 @@ class _Job:
         if self.prepared and not self.prepared.use.target:
             report, _ = self.prepared.apply(report)
         self.write(report, streams)
-        click.echo(f"usdvol-lint: {report.failure}; what was found is reported", err=True)
-        return ended_by(report.interrupted)
+        return _tell_end(report.interrupted, f"{report.failure}; what was found is reported")
 
     def write_failure(self, error: BaseException, streams: Streams) -> None:
         """Writes the reports that were asked for, and ends those that were begun."""
@@ -183,6 +202,13 @@ class _Job:
         done = streams.fail(failed(self._paths, error, self.config))
         left = [each for each in asked if each not in done]
         write_failed(left, self._paths, error, self.config, self.options())
+
+
+def _tell_end(number: int, said: str) -> int:
+    """What a run exits with that a signal ended; says so if the terminal is still there."""
+    with suppress(OSError):
+        click.echo(f"usdvol-lint: {said}", err=True)
+    return ended_by(number)
 
 
 def _more_jobs(jobs: int, most: int) -> str:

@@ -15,7 +15,7 @@ from usdvol_lint.command.hosts import add_summary, guarded, is_github, summary_f
 from usdvol_lint.command.writing import Printer, is_device, write_to
 from usdvol_lint.config import Config
 from usdvol_lint.model import Severity, UsageError
-from usdvol_lint.paths import SUFFIXES, canonical
+from usdvol_lint.paths import canonical, is_called_like_input
 from usdvol_lint.report import FORMATS, Options, written
 from usdvol_lint.results import Report
 from usdvol_lint.words import printable
@@ -26,8 +26,6 @@ TEXTS = frozenset({"full", "concise"})
 MACHINE_FORMATS = frozenset(FORMATS) - TEXTS
 
 _NO_REPORTS = ("explain", "list_rules", "test", "show_settings", "show_files")
-_INPUTS = (*SUFFIXES, ".vdb", ".nvdb", ".f3d", ".toml", ".py")
-"""What stages, volume files, configurations and rules end with: a slip must not destroy one."""
 
 
 class Destination(NamedTuple):
@@ -152,7 +150,7 @@ def check_writable(destinations: Sequence[Destination], inputs: Iterable[str | N
         if destination.file is None or destination.is_added:
             continue
         file = Path(destination.file)
-        if destination.file.lower().endswith(_INPUTS):
+        if is_called_like_input(destination.file):
             raise UsageError(
                 f"--output {destination.file}: a report is not written to a file that is called "
                 "like an input: name another one"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from os.path import isdir, isfile, join, realpath
+from os.path import exists, isdir, isfile, join, lexists, realpath
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint.config import Config, Glob
@@ -32,17 +32,35 @@ def find_config_file(start: Path) -> Path | None:
     """The configuration file of a folder, or of the nearest one above it that has one.
 
     It is a usdvol-lint.toml, or else a pyproject.toml with a table [tool.usdvol-lint].
-    Raises UsageError for one that is not read because of its name, or that of its table.
+    Raises UsageError for one that is not read because of its name, or that of its table, or that
+    is no file.
     """
     for folder in (start, *start.parents):
         check_names(folder)
         own = folder / FILE_NAME
-        if isfile(own):
+        if _is_there(own):
             return own
         project = folder / _PROJECT
-        if isfile(project) and _own_table(project) is not None:
+        # A folder holds no table for us, whatever else it is for.
+        if not isdir(project) and _is_there(project) and _own_table(project) is not None:
             return project
     return None
+
+
+def _is_there(path: Path) -> bool:
+    """Whether there is a file; raises UsageError where something else has its name."""
+    if lexists(path) and not isfile(path):
+        raise UsageError(f"{_no_file(path)}: take it away, or write it anew")
+    return isfile(path)
+
+
+def _no_file(path: Path) -> str:
+    """Says what there is in the place of a file."""
+    shown = quoted(str(path))
+    if not lexists(path):
+        return f"there is no file {shown}"
+    there = "a pipe or a device" if exists(path) else "a link that leads nowhere"
+    return f"{shown} is {'a folder' if isdir(path) else there} and no file"
 
 
 def nearer_files(start: Path, found: Path | None) -> Iterator[Path]:
@@ -84,7 +102,7 @@ def _chain(path: Path) -> Iterator[tuple[Path, Mapping[str, Any]]]:
             names = " -> ".join(map(str, (*met.values(), named)))
             raise UsageError(f"{where}the files extend each other in a circle: {names}")
         if not isfile(named):
-            raise UsageError(f"{where}there is no file {quoted(str(named))}")
+            raise UsageError(f"{where}{_no_file(named)}")
 
 
 def _read_values(path: Path, where: str) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import signal
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
@@ -20,7 +19,7 @@ from usdvol_lint.run.ahead import Ahead
 from usdvol_lint.run.causes import Causes
 from usdvol_lint.run.chosen import Chosen, choose
 from usdvol_lint.run.folding import folded
-from usdvol_lint.run.interruption import Interruption
+from usdvol_lint.run.interruption import Interruption, name_of
 from usdvol_lint.run.pool import InterruptedRunError, Pool
 from usdvol_lint.run.processors import owned
 from usdvol_lint.run.protocol import Setup
@@ -183,12 +182,12 @@ class _Run(NamedTuple):
     def _ended(self, report: Report, chosen: Chosen) -> Report:
         """The same, which says so if the run ended before its time."""
         number = self.interruption.number
-        if not number:
+        if not self.interruption.is_early:
             return report
         done, every = len(report.stages), len(chosen.listing.stages)
         return report._replace(
             interrupted=number,
-            failure=f"interrupted by {signal.Signals(number).name} after {done:,} of {every:,} "
+            failure=f"interrupted by {name_of(number)} after {done:,} of {every:,} "
             f"stage{'' if every == 1 else 's'}",
             left_out="",
             nothing="",
@@ -222,16 +221,16 @@ def stage_reports(
     stages = in_stages(config)
     setup = Setup(active, config.packs, config.depth, stages, is_alone, repository, changed)
     pool.run(setup, jobs, config.timeout, shown.advance, config.memory_limit)
-    if interruption:
-        interruption.stops(pool.interrupt)
+    signals = interruption or Interruption()
+    signals.stops(pool.interrupt)
     for number, path in enumerate(every):
         shown.awaits(path, number)
         try:
             yield ahead.next()
         except InterruptedRunError:
+            signals.is_early = True
             yield None
-    if interruption:
-        interruption.stops(None)
+    signals.hold()
 
 
 def _given(config: Config) -> Config:

@@ -190,7 +190,7 @@ class Pool:
                 path, future = self._waiting.get_nowait()
                 with suppress(InvalidStateError):
                     trouble = not_started(str(why))
-                    future.set_result(report_trouble(path, trouble, Status.CRASHED))
+                    future.set_result(report_trouble(path, trouble, Status.UNCHECKED))
 
     def interrupt(self) -> None:
         """Ends the run at once: no stage that is not done yet has a report any more."""
