@@ -91,6 +91,7 @@ def test_interrupted(end: str, tmp_path: Path) -> None:
             "--jobs",
             "1",
             *AS_JSON,
+            *("--output-format", "concise"),
             "done.usda",
             "hang.usda",
         ],
