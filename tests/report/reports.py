@@ -236,6 +236,8 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
 class Listener:
     """Keeps what a writer says of a run that goes on."""
 
+    listening = True
+
     def __init__(self, writer: Writer) -> None:
         self.writer = writer
         self.said: list[str] = []

@@ -22,6 +22,8 @@ OTHER = ASSET._replace(path="/other")
 class Told(list[str]):
     """What a teller hears, a word each."""
 
+    listening = True
+
     def begin(self, head: Report) -> None:
         self.append("begin")
 

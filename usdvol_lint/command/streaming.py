@@ -54,6 +54,11 @@ class Streams:
         for stream in self._streams:
             stream.keep(stream.writer.begin(head))
 
+    @property
+    def listening(self) -> bool:
+        """Whether any report is written while the run goes on."""
+        return bool(self._streams)
+
     def cause(self, number: int, cause: Cause) -> None:
         for stream in self._streams:
             stream.keep(stream.writer.cause(number, cause))

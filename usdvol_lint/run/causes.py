@@ -163,6 +163,9 @@ class Causes:
 
     def tell(self, teller: Teller) -> None:
         """Tells what was added since the last time."""
+        if not teller.listening:
+            self._new.clear()
+            return
         for gathered in self._new:
             number, cause = _number_of(gathered), _cause(gathered)
             gathered.is_told = True

@@ -15,8 +15,11 @@ class Teller(Protocol):
     all that is known of it so far, `place` for each other place that a cause carries, `raised`
     where a cause is worse than it `was`, with the place where it is, and `stage` for what came of
     the stage so far.  What depends on the rest of the run comes after the last stage.
+    One that is not `listening` once it was told the beginning is told no causes.
     """
 
+    @property
+    def listening(self) -> bool: ...
     def begin(self, head: Report) -> None: ...
     def cause(self, number: int, cause: Cause) -> None: ...
     def place(self, number: int, place: Place) -> None: ...
@@ -26,6 +29,8 @@ class Teller(Protocol):
 
 class Silent:
     """Tells nobody."""
+
+    listening = False
 
     def begin(self, head: Report) -> None: ...
     def cause(self, number: int, cause: Cause) -> None: ...
