@@ -1,14 +1,10 @@
-"""One report that has everything, the schema of the JSON format, and text without its styles."""
+"""Reports to write: one that has everything, clean ones, and one on a run that failed."""
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
-
-from process import ROOT
 
 from usdvol_lint.model import (
     Cover,
@@ -21,28 +17,8 @@ from usdvol_lint.model import (
     StageReport,
     Status,
 )
-from usdvol_lint.report import Options, Writer, writer
-from usdvol_lint.report.json_report import SCHEMA_VERSION
-from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, State
+from usdvol_lint.results import Report, RunInfo
 from usdvol_lint.run.causes import Causes
-from usdvol_lint.run.folding import folded
-
-SCHEMA: dict[str, Any] = json.loads(
-    (ROOT / f"usdvol_lint/report/report-{SCHEMA_VERSION}.schema.json").read_text(encoding="utf-8")
-)
-
-
-def strict(schema: Any) -> Any:
-    """The schema with every object closed: what is not described there fails."""
-    if isinstance(schema, list):
-        return list(map(strict, schema))
-    if not isinstance(schema, dict):
-        return schema
-    closed = {"additionalProperties": False} if "required" in schema else {}
-    return {**{key: strict(value) for key, value in schema.items()}, **closed}
-
-
-STRICT: dict[str, Any] = strict(SCHEMA)
 
 HELP = "https://example.org/rules"
 
@@ -233,45 +209,6 @@ def report(*stages: StageReport, most: int = 20, **states: dict[str, Any]) -> Re
     ).with_causes([cause._replace(**states.get(cause.code, {})) for cause in causes])
 
 
-class Listener:
-    """Keeps what a writer says of a run that goes on."""
-
-    listening = True
-
-    def __init__(self, writer: Writer) -> None:
-        self.writer = writer
-        self.said: list[str] = []
-
-    def begin(self, head: Report) -> None:
-        self.said += self.writer.begin(head)
-
-    def cause(self, number: int, cause: Cause) -> None:
-        self.said += self.writer.cause(number, cause)
-
-    def place(self, number: int, place: Place) -> None:
-        self.said += self.writer.place(number, place)
-
-    def raised(self, number: int, cause: Cause, was: Severity) -> None:
-        self.said += self.writer.raised(number, cause, was)
-
-    def stage(self, number: int, stage: StageResult) -> None:
-        self.said += self.writer.stage(number, stage)
-
-
-def streamed(
-    format: str, stages: Sequence[StageReport], options: Options, most: int = 20
-) -> tuple[str, Report]:
-    """What is written while a run over these stages goes on, and the report at its end."""
-    told = Listener(writer(format, options))
-    head = report()
-    told.begin(head)
-    judged = ((stage, False) for stage in stages)
-    results, causes = folded(Causes(most=most), judged, False, told)
-    whole = head._replace(stages=results).with_causes(causes)
-    told.said += told.writer.end(whole)
-    return "".join(told.said), whole
-
-
 EVERYTHING = report(SMOKE, CLEAN, HOSTILE, CRASHED, TIMED_OUT, UNREADABLE)
 NOTHING = report(CLEAN)
 FAILED = report()._replace(
@@ -306,84 +243,6 @@ UNUSED_TOO = UNUSED._replace(
     findings=tuple(each._replace(source=Source("other.usda")) for each in UNUSED.findings)
 )
 INFOS = report(UNUSED, CLEAN)
-
-
-def shown_on(stage: str, finding: Finding, *prims: str | None) -> StageReport:
-    """A stage that shows one and the same mistake at these prims."""
-    findings = (finding._replace(site=finding.site._replace(prim=prim)) for prim in prims)
-    return StageReport(f"shots/{stage}.usda", Status.CHECKED, {"volumes": 1}, tuple(findings))
-
-
-TANK = found(
-    "AST002",
-    "file-missing",
-    Severity.ERROR,
-    "no file at './tank.0003.vdb' (1 of 8 samples)",
-    Site("assets/tank.usda", "/Tank/fire", "filePath", None, 24, 20, (3.0,)),
-)
-"""A mistake in an asset; who uses it shows it."""
-NO_EXTENTS = tuple(
-    found(
-        "SCH007",
-        "extent-missing",
-        Severity.WARNING,
-        "no extent, so USD takes the bounds for empty",
-        Site("assets/tank.usda", f"/Tank/smoke{number}", line=40 + number, column=5),
-        fold="Volume",
-    )
-    for number in range(5)
-)
-NO_READER = found(
-    "LNT004",
-    "usd-too-old",
-    Severity.WARNING,
-    "OpenUSD 25.5 knows no particle fields",
-    Site("assets/tank.usda", line=1, column=1),
-)._replace(source=Source(None, subject="usd-core"))
-
-
-KNOWN = found(
-    "VOL001",
-    "target-missing",
-    Severity.ERROR,
-    "'field:density' targets </World/Old/density>, and there is no such prim",
-    Site("shots/sh010.usda", "/World/Old", "field:density", line=7, column=9),
-)
-EXCUSED = found(
-    "AST018",
-    "frame-gap",
-    Severity.WARNING,
-    "no file for frame 12, between frames that have one",
-    Site("shots/sh020.usda", "/World/Late", "filePath", line=12, column=9, times=(12.0,)),
-)
-STATES: dict[str, dict[str, Any]] = {
-    "AST002": {
-        "state": State.WORSE,
-        "was": TANK.cover,
-        "cover": Cover(Severity.ERROR, (3.0, 7.0, 8.0, 9.0)),
-    },
-    "VOL001": {"state": State.KNOWN},
-    "AST018": {"state": State.SUPPRESSED, "reason": "late frames come from the farm, JIRA-1"},
-}
-
-ASSET = StageReport(
-    "assets/tank.usda", Status.CHECKED, {"volumes": 5}, (NO_READER, TANK, *NO_EXTENTS)
-)
-SHOTS = [
-    shown_on(f"sh{number:03}", TANK, "/World/Left/fire", "/World/Right/fire")
-    for number in range(10, 60, 10)
-]
-SHOTS[0] = SHOTS[0]._replace(findings=(*SHOTS[0].findings, KNOWN))
-SHOTS[1] = SHOTS[1]._replace(findings=(*SHOTS[1].findings, EXCUSED))
-USED = BaselineUse(
-    "usdvol-lint-baseline.jsonl",
-    entries=9,
-    gone=("AST002 assets/old/tank.usda </Tank/fire>",),
-    moved=(("assets/old", "assets"),),
-)
-BY_CAUSE = report(ASSET, *SHOTS, **STATES)._replace(baseline=USED)
-"""An asset that several shots use, beside a baseline, with each state that a cause may have."""
-SHOTS_ALONE = report(*SHOTS)
 
 
 def without_styles(text: str) -> str:

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 from consumers import gitlab
-from reports import BY_CAUSE, CLEAN, EVERYTHING, FAILED, MISSING, NOTHING, UNREADABLE, report
+from reports import CLEAN, EVERYTHING, FAILED, MISSING, NOTHING, UNREADABLE, report
+from sharedcauses import BY_CAUSE
 
 from usdvol_lint.model import Site, Source, StageReport, Status
 from usdvol_lint.paths import canonical

@@ -11,7 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from process import ROOT
 from referencing import Registry, Resource
-from reports import BY_CAUSE, SCHEMA, STRICT, TANK, report, shown_on, streamed
+from reports import report
+from reportschema import SCHEMA, STRICT
+from sharedcauses import BY_CAUSE, TANK, shown_on
+from streams import streamed
 from test_report_laws import LAW, OPTIONS, REPORTS, STAGES
 
 from usdvol_lint.model import Severity, StageReport

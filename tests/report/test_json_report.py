@@ -7,7 +7,9 @@ from typing import Any
 
 import jsonschema  # type: ignore[import-untyped]
 import pytest
-from reports import BY_CAUSE, STRICT, TANK, USED, report, shown_on
+from reports import report
+from reportschema import STRICT
+from sharedcauses import BY_CAUSE, TANK, USED, shown_on
 
 from usdvol_lint.report import Options, render
 from usdvol_lint.results import BaselineUse, Report

@@ -10,20 +10,8 @@ import xmlschema
 from hypothesis import given
 from hypothesis import strategies as st
 from process import ROOT
-from reports import (
-    BY_CAUSE,
-    CLEAN,
-    CRASHED,
-    FAILED,
-    MISSING,
-    NOTHING,
-    SMOKE,
-    TANK,
-    TIMED_OUT,
-    found,
-    report,
-    shown_on,
-)
+from reports import CLEAN, CRASHED, FAILED, MISSING, NOTHING, SMOKE, TIMED_OUT, found, report
+from sharedcauses import BY_CAUSE, TANK, shown_on
 from test_report_laws import LAW, OPTIONS, REPORTS
 
 from usdvol_lint.model import Finding, Severity, Site, StageReport, Status

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from reports import (
-    BY_CAUSE,
     CLEAN,
     EVERYTHING,
     FAILED,
@@ -21,10 +20,10 @@ from reports import (
     NOTHING,
     SMOKE,
     TIMED_OUT,
-    USED,
     found,
     report,
 )
+from sharedcauses import BY_CAUSE, USED
 from test_report_laws import ANYTHING, LAW, OPTIONS, REPORTS
 
 from usdvol_lint.model import Severity, Site, StageReport, Status

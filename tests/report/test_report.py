@@ -12,7 +12,6 @@ import jsonschema  # type: ignore[import-untyped]
 import pytest
 from process import ROOT
 from reports import (
-    BY_CAUSE,
     EVERYTHING,
     FAILED,
     FIGURES,
@@ -20,14 +19,13 @@ from reports import (
     LONG_PRIM,
     MISSING,
     NOTHING,
-    SCHEMA,
-    SHOTS_ALONE,
     SMOKE,
-    STRICT,
     found,
     report,
     without_styles,
 )
+from reportschema import SCHEMA, STRICT
+from sharedcauses import BY_CAUSE, SHOTS_ALONE
 
 from usdvol_lint.model import Severity, Site, StageReport, Status
 from usdvol_lint.report import FORMATS, Options, render

@@ -8,7 +8,8 @@ import jsonschema  # type: ignore[import-untyped]
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reports import STRICT, report, without_styles
+from reports import report, without_styles
+from reportschema import STRICT
 
 from usdvol_lint.model import (
     Completed,

@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 from consumers import sarif
-from reports import BY_CAUSE, CLEAN, CRASHED, EVERYTHING, MISSING, NOTHING, found, report, shown_on
+from reports import CLEAN, CRASHED, EVERYTHING, MISSING, NOTHING, found, report
+from sharedcauses import BY_CAUSE, shown_on
 
 from usdvol_lint.model import Excerpt, Finding, Severity, Site, Source, StageReport, Status
 from usdvol_lint.packs.page import Page

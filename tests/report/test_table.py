@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from reports import BY_CAUSE, EVERYTHING, NOTHING, SMOKE, found, report, without_styles
+from reports import EVERYTHING, NOTHING, SMOKE, found, report, without_styles
+from sharedcauses import BY_CAUSE
 
 from usdvol_lint.config import SUMMARIES
 from usdvol_lint.model import Severity, Site

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import pytest
-from reports import KNOWN, NO_EXTENTS, NO_READER, TANK, found, report, shown_on, streamed
+from reports import found, report
+from sharedcauses import KNOWN, NO_EXTENTS, NO_READER, TANK, shown_on
+from streams import streamed
 
 from usdvol_lint.model import Severity, Site, StageReport, Status
 from usdvol_lint.report import Options, render

@@ -10,18 +10,16 @@ from reports import (
     CLEAN,
     EVERYTHING,
     HOSTILE,
-    KNOWN,
     NOTHING,
     SMOKE,
     TIMED_OUT,
     UNREADABLE,
     UNUSED,
     UNUSED_TOO,
-    USED,
     found,
     report,
-    shown_on,
 )
+from sharedcauses import KNOWN, USED, shown_on
 
 from usdvol_lint.model import Finding, Severity, Site, StageReport, Status
 from usdvol_lint.report import Options, render

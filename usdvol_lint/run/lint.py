@@ -30,7 +30,6 @@ from usdvol_lint.words import format_time
 if TYPE_CHECKING:
     from subprocess import Popen
 
-    from usdvol_lint.packs.catalog import Catalog
     from usdvol_lint.run.layer_levels import VerdictOn
 
 
@@ -38,17 +37,8 @@ _Judged: TypeAlias = tuple[StageReport, bool]
 """The report on a stage, and whether this is a part."""
 
 _SHAPING = (
-    *("options", "packs", "fail_on", "fail_on_unchecked", "show", "rules_as_of"),
-    *(
-        "load",
-        "content",
-        "variants",
-        "variant_limit",
-        "times",
-        "timeout",
-        "memory_limit",
-        "suppressions",
-    ),
+    *("options", "packs", "fail_on", "fail_on_unchecked", "show", "rules_as_of", "load", "content"),
+    *("variants", "variant_limit", "times", "timeout", "memory_limit", "suppressions"),
 )
 
 
