@@ -17,7 +17,10 @@ from usdvol_lint.command.output import Destination
 from usdvol_lint.command.progress import ProgressBar
 from usdvol_lint.command.streaming import Streams
 from usdvol_lint.config import Config
+from usdvol_lint.model import Cover, Finding, Severity, Site, Source, StageReport, Status
 from usdvol_lint.report import Options
+from usdvol_lint.run.causes import Causes
+from usdvol_lint.run.folding import folded
 
 SLOW = ("--isolated", "--pack", str(ROUGH), "--select", "RGH", "--jobs", "1")
 
@@ -110,6 +113,22 @@ def test_a_run_that_breaks_off_leaves_no_half_report(tmp_path: Path) -> None:
     assert told[1]["failure"] == "internal error: RuntimeError: boom"
     assert [each.name for each in tmp_path.iterdir()] == ["out.txt"]
     assert (tmp_path / "out.txt").read_text() == "before"
+
+
+def test_a_run_that_breaks_off_prints_what_was_found() -> None:
+    """Also of a few stages, of which nothing is printed before all are done."""
+    site, cover = Site("a.usda", "/fog"), Cover(Severity.ERROR)
+    found = Finding("AST002", "gone", Severity.ERROR, "gone", site, Source("a.usda"), cover)
+    stage = StageReport("a.usda", Status.CHECKED, findings=(found,))
+    broken = failed((), RuntimeError("boom"), Config())
+    printed: list[str] = []
+    with Streams(lambda: ([Destination("full", None)], Options())) as streams:
+        streams._printer.print = printed.extend  # type: ignore[method-assign, assignment]
+        streams.begin(broken)
+        folded(Causes(), [(stage, False)], False, streams)
+        assert printed == []
+        streams.fail(broken)
+    assert "    AST002 error: gone\n" in "".join(printed)
 
 
 def test_beside_a_baseline_nothing_is_told_before_it_is_compared(tmp_path: Path) -> None:

@@ -77,7 +77,8 @@ def test_what_is_worse_later_is_told_once_a_stage() -> None:
     ]
 
 
-def test_nothing_of_a_stage_is_kept_but_what_it_came_to() -> None:
+@pytest.mark.parametrize("teller", [None, Told()])
+def test_nothing_of_a_stage_is_kept_but_what_it_came_to(teller: Told | None) -> None:
     """Not its findings, but those that a cause carries; what equals that of others is theirs."""
     alive: weakref.WeakSet[Text] = weakref.WeakSet()
     most = 0
@@ -90,10 +91,18 @@ def test_nothing_of_a_stage_is_kept_but_what_it_came_to() -> None:
             yield stage(f"s{number}", finding), False
             most = max(most, len(alive))
 
-    stages, [cause] = folded(Causes("/lib", most=3), reports(), False)
+    stages, [cause] = folded(Causes("/lib", most=3), reports(), False, teller)
     assert (len(stages), cause.count, len(cause.places)) == (5000, 5000, 3)
     assert most <= 3 + 2, "the last one is in hand"
     assert len({id(part) for each in stages for part in (each.stats, each.causes, each.worst)}) == 3
+
+
+def test_who_does_not_listen_is_told_of_no_cause() -> None:
+    """To make causes of what is found so far takes time, and they are made again at the end."""
+    told = Told()
+    told.listening = False
+    folded(Causes("/lib"), [(stage("s0", found("/a")), False)] * 2, False, told)
+    assert told == ["stage 0 (0,)", "stage 1 (0,)"]
 
 
 class Text(str):

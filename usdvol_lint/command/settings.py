@@ -20,17 +20,8 @@ from usdvol_lint.paths import display
 from usdvol_lint.words import quoted
 
 _REPLACING = (
-    *(
-        "jobs",
-        "timeout",
-        "memory-limit",
-        "fail-on",
-        "load",
-        "content",
-        "variants",
-        "times",
-        "statistics",
-    ),
+    *("jobs", "timeout", "memory-limit", "fail-on"),
+    *("load", "content", "variants", "times", "statistics"),
     *("max-places", "root", "baseline", "today", "fail-on-unchecked", "frames"),
 )
 """The options that replace what the file says."""

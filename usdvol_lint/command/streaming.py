@@ -88,11 +88,12 @@ class Streams:
         self._printer.close()
 
     def fail(self, report: Report) -> frozenset[Destination]:
-        """The same after a run that broke off, for what people don't read on standard output."""
+        """The same after a run that broke off, whose end is for programs: people read why."""
         told = [each for each in self._streams if each.destination.file is None]
         for stream in told:
-            if not stream.destination.is_text_to_read:
-                stream.keep(stream.writer.end(report))
+            is_for_people = stream.destination.is_text_to_read
+            writer = stream.writer
+            stream.keep(writer.held() if is_for_people else writer.end(report))
             stream.close()
         return frozenset(each.destination for each in told)
 

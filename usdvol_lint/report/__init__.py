@@ -118,6 +118,10 @@ class Writer:
         """What came of a stage; what waits for the rest of the run is not in it."""
         return ()
 
+    def held(self) -> Iterable[str]:
+        """What was told and waits to be written, where the run breaks off and has no end."""
+        return ()
+
     def end(self, report: Report) -> Iterable[str]:
         """What stands after the last cause and the last stage."""
         return ()

@@ -43,9 +43,9 @@ class Full(Staged):
         self._waiting.append((number, stage))
         self._are_many = self._are_many or len(self._waiting) > _FEW_STAGES
         if self._are_many:
-            yield from self._told_so_far()
+            yield from self.held()
 
-    def _told_so_far(self) -> Iterator[str]:
+    def held(self) -> Iterator[str]:
         waiting, self._waiting = self._waiting, []
         for each in waiting:
             yield from self._tell(*each)
@@ -62,7 +62,7 @@ class Full(Staged):
 
     def end(self, report: Report) -> Iterator[str]:
         self._waiting = [(number, report.stages[number]) for number, _ in self._waiting]
-        yield from self._told_so_far()
+        yield from self.held()
         late = {} if self.options.summary else self.told_late()
         for number, telling in late.items():
             stage = report.stages[number]._replace(particle_fields=None)
