@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from bench.case import Case
-from bench.cases import library, particles, stages, startup, volumes
+from bench.cases import findings, library, particles, stages, startup, volumes
 
 CASES: tuple[Case, ...] = (
     *startup.CASES,
     *stages.CASES,
     *library.CASES,
+    *findings.CASES,
     *volumes.CASES,
     *particles.CASES,
 )
