@@ -22,7 +22,7 @@ ENGINE = ROOT / "usdvol_lint"
 RULES = ROOT / "rules"
 
 PACKAGES = (
-    {"words", "nearest", "replacing"},
+    {"words", "nearest", "replacing", "deferred"},
     {"model"},
     {"results", "releases"},
     {"suppressions"},

@@ -8,8 +8,8 @@ import pytest
 from blamings import Open
 from varianttexts import Lint, volume
 
+import usdvol_lint.facts.files.absences as absences
 from usdvol_lint.engine.site import Sites
-from usdvol_lint.facts.files import absences
 from usdvol_lint.layertext.lines import TextLayer
 from usdvol_lint.rule import Problem
 

@@ -190,5 +190,9 @@ def _batches(stage: Any, prototypes: Mapping[Any, Standing]) -> Iterator[list[An
     )
     for prims in (Usd.PrimRange.Stage(stage, COMPOSED), *ranges):
         iterator = iter(prims)
-        while batch := list(islice(iterator, _BATCH)):
+        batch = list(islice(iterator, _BATCH))
+        while batch:
             yield batch
+            # USD's iterator ends by an exception of C++, which is slow: it is met once.
+            is_last = len(batch) < _BATCH
+            batch = [] if is_last else list(islice(iterator, _BATCH))

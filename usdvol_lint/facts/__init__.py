@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from usdvol_lint.config import Depth
+from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.found import Wing
 from usdvol_lint.facts.grids import Grids
@@ -13,6 +14,9 @@ from usdvol_lint.facts.layers import Layers
 from usdvol_lint.facts.particles import Particles
 from usdvol_lint.facts.prims import Prims
 from usdvol_lint.facts.volumes import Volumes
+
+with deferred(globals()):
+    from usdvol_lint.facts import needing_usd as made_of
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.disk import Disk
@@ -54,8 +58,6 @@ class Context(NamedTuple):
         telling: frozenset[str] | None = None,
     ) -> Context:
         """The context of a stage with empty caches, but for `known` and `folders`."""
-        from usdvol_lint.facts import needing_usd as made_of
-
         kinds = made_of.kinds_on(stage)
         known = known or made_of.KnownContents()
         known.begin_stage()
@@ -89,12 +91,10 @@ class Facts:
     """The facts of one stage under one variant selection: read-only for rules.
 
     `stage` is the `Usd.Stage`; each wing has the facts about one subject.
-    Modules that need pxr are imported in functions, so that rules can be loaded without pxr.
+    Modules that need pxr are imported once they are needed, so that rules can be loaded without.
     """
 
     def __init__(self, context: Context, walked: Walked) -> None:
-        from usdvol_lint.facts import needing_usd as made_of
-
         stage, kinds, depth, disk, known, used, advance, telling = context
         clips = made_of.Clips(walked.clipped)
         authored = made_of.AuthoredReader(kinds, clips)

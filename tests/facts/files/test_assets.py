@@ -11,8 +11,8 @@ import pytest
 from pxr import UsdUtils
 from stages import CONTENT, only, package, said, volume, write
 
+import usdvol_lint.facts.files.classify as classify
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.facts.files import classify
 from usdvol_lint.model import StageReport
 
 Lint = Callable[..., StageReport]

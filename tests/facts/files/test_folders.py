@@ -9,8 +9,8 @@ from zipfile import ZipFile
 import pytest
 from stages import said, volume, write
 
+import usdvol_lint.facts.files.folders as module
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.facts.files import folders as module
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.folders import Folders
 

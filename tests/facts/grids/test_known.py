@@ -10,9 +10,9 @@ import vdbwriter as w
 from gridtexts import DENSITY, density, field, grid, stage
 from pxr import Usd
 
+import usdvol_lint.facts.grids.known as known_module
 from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts import Context, Facts
-from usdvol_lint.facts.grids import known as known_module
 from usdvol_lint.facts.grids.known import KnownContents
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.volumefile.cache import VolumeFiles

@@ -13,9 +13,9 @@ import pytest
 from particlefields import SH, Array, Field, codes, lint, splats, write
 from pxr import Usd
 
+import usdvol_lint.facts.particles.scales as scales_module
 from usdvol_lint.config import Config
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.facts.particles import scales as scales_module
 from usdvol_lint.facts.particles.array import ArraySample, ParticleArray
 from usdvol_lint.facts.particles.numbers import are_whole, mean_of, range_within, spacing
 from usdvol_lint.packs.activation import activate

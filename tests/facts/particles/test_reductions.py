@@ -10,7 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from particlefields import AS_IT_IS
 
-from usdvol_lint.facts.particles import chunks, matches, ranges
+import usdvol_lint.facts.particles.chunks as chunks
+import usdvol_lint.facts.particles.matches as matches
+import usdvol_lint.facts.particles.ranges as ranges
 
 
 @AS_IT_IS

@@ -14,11 +14,11 @@ import pytest
 from process import ROOT
 from pxr import Sdf, Tf
 
+import usdvol_lint.facts.prims.tables as tables
+import usdvol_lint.facts.usd.batches as batches
 from usdvol_lint.config import Config
 from usdvol_lint.engine import walk
 from usdvol_lint.engine.engine import Engine
-from usdvol_lint.facts.prims import tables
-from usdvol_lint.facts.usd import batches
 from usdvol_lint.model import Finding, StageReport
 from usdvol_lint.packs.activation import activate
 from usdvol_lint.packs.catalog import Catalog

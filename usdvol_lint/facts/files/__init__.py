@@ -8,7 +8,29 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing, column, fact, summary
+
+with deferred(globals()):
+    from usdvol_lint.facts.files import (
+        absences,
+        alike,
+        animation,
+        classify,
+        corrections,
+        families,
+        gaps,
+        holes,
+        in_variants,
+        letter_case,
+        malformed,
+        marks,
+        order,
+        origins,
+        sequences,
+        stillness,
+    )
+    from usdvol_lint.facts.usd import hidden
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files.absences import Absences
@@ -68,30 +90,22 @@ class Files(Wing):
     @fact
     def sequence(self, field: Any) -> SampleSequence | None:
         """The time samples of `filePath` as a sequence, or None if there are fewer than two."""
-        from usdvol_lint.facts.files.sequences import read_sequence
-
-        return read_sequence(self.paths(field))
+        return sequences.read_sequence(self.paths(field))
 
     def missing_samples(self, field: Any) -> Missing | None:
         """The samples that the sequence of `filePath` lacks, if it is regular otherwise."""
-        from usdvol_lint.facts.files.gaps import find_missing
-
         sequence = self.sequence(field)
-        return find_missing(sequence) if sequence else None
+        return gaps.find_missing(sequence) if sequence else None
 
     def out_of_order(self, field: Any) -> OutOfOrder | None:
         """The few samples of `filePath` whose frame numbers break the order of all others."""
-        from usdvol_lint.facts.files.order import find_out_of_order
-
         sequence = self.sequence(field)
-        return find_out_of_order(sequence) if sequence else None
+        return order.find_out_of_order(sequence) if sequence else None
 
     def holes(self, field: Any) -> Holes | None:
         """The samples of `filePath` that name nothing between others that name files."""
-        from usdvol_lint.facts.files.holes import find_holes
-
         sequence = self.sequence(field)
-        return find_holes(sequence, self._clips.reaching(field)) if sequence else None
+        return holes.find_holes(sequence, self._clips.reaching(field)) if sequence else None
 
     def absence(self, path: str, authored: str, by: Any | None = None) -> Absence:
         """Why nothing is at an absolute path; `authored` is the text that it comes from.
@@ -106,16 +120,12 @@ class Files(Wing):
 
     def what_to_write(self, field: Any) -> str:
         """What to do about missing files; where frames of a sequence are there, which ones."""
-        from usdvol_lint.facts.files.absences import what_to_write
-
-        return what_to_write(self.sequence(field))
+        return absences.what_to_write(self.sequence(field))
 
     @fact
     def missing(self, field: Any) -> Affected | None:
         """The missing files of `filePath` but those of which another rule tells why."""
-        from usdvol_lint.facts.files.absences import unexplained
-
-        return unexplained(
+        return absences.unexplained(
             self.paths(field), lambda: self.recased(field), self._has_packages, self.tables.tells
         )
 
@@ -131,93 +141,66 @@ class Files(Wing):
 
     def malformed(self, field: Any) -> Iterator[Malformed]:
         """The samples of `filePath` that not every platform reads alike."""
-        from usdvol_lint.facts.files.malformed import malformed
-
-        return malformed(self.paths(field))
+        return malformed.malformed(self.paths(field))
 
     def frames(self, found: Affected) -> list[tuple[int, str]]:
         """The frame numbers and paths of the files that a path with a placeholder stands for."""
-        from usdvol_lint.facts.files.corrections import find_frames
-
-        return find_frames(self._disk, found.anchored(), found.first.path)
+        return corrections.find_frames(self._disk, found.anchored(), found.first.path)
 
     @fact
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
-        from usdvol_lint.facts.files.letter_case import recased
-
-        return recased(self.paths(field), self._disk)
+        return letter_case.recased(self.paths(field), self._disk)
 
     def outside_package(self, field: Any) -> Affected | None:
         """The samples of `filePath` authored in a package whose files lie outside it."""
-        from usdvol_lint.facts.files.origins import outside_package
-
-        return outside_package(self.paths(field)) if self._has_packages else None
+        return origins.outside_package(self.paths(field)) if self._has_packages else None
 
     def unselected_path(self, field: Any) -> VariantPath | None:
         """A variant that is not selected, and that names a file for the field."""
-        from usdvol_lint.facts.files.in_variants import unselected_path
-
-        return unselected_path(field)
+        return in_variants.unselected_path(field)
 
     def empty_clip(self, field: Any) -> EmptyClip | None:
         """A clip that has the prim that it is asked for, but no samples of `filePath`."""
-        from usdvol_lint.facts.files.animation import empty_clip
-
-        return empty_clip(self.paths(field).attribute, self._clips.reaching(field))
+        return animation.empty_clip(self.paths(field).attribute, self._clips.reaching(field))
 
     def still(self, field: Any, time_range: tuple[float, float] | None) -> Still | None:
         """The file of a sequence on disk that `filePath` names at all times.
 
         None also where it hides its own animation, which `Prims.hidden_animation` tells.
         """
-        from usdvol_lint.facts.files.stillness import find_still
-        from usdvol_lint.facts.usd.hidden import hidden_animation
-
         sequence = self.sequence(field)
         if sequence and sequence.is_animated:
             return None  # nearly always
         clips = self._clips.reaching(field)
         paths = self.paths(field)
-        found = find_still(paths, self._families, lambda: self._packs, clips, time_range)
-        return None if found and hidden_animation(paths.attribute, clips) else found
+        found = stillness.find_still(paths, self._families, lambda: self._packs, clips, time_range)
+        return None if found and hidden.hidden_animation(paths.attribute, clips) else found
 
     @cached_property
     def _families(self) -> Families:
-        from usdvol_lint.facts.files.families import Families
-
-        return Families(self._disk)
+        return families.Families(self._disk)
 
     @cached_property
     def _packs(self) -> Packs:
         """The files that all fields show, which few stages need to know."""
-        from usdvol_lint.facts.files.stillness import Packs
-
-        return Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
+        return stillness.Packs(paths for _, paths in self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
     def _absences(self) -> Absences:
-        from usdvol_lint.facts.files.absences import Absences
-
-        return Absences(self._disk, self._stage.GetRootLayer().realPath)
+        return absences.Absences(self._disk, self._stage.GetRootLayer().realPath)
 
     @cached_property
     def _namesakes(self) -> Namesakes:
-        from usdvol_lint.facts.files.alike import Namesakes
-
-        return Namesakes(self.paths.readable(schema.FIELD_ASSET))
+        return alike.Namesakes(self.paths.readable(schema.FIELD_ASSET))
 
     @cached_property
     def _reader(self) -> AssetReader:
-        from usdvol_lint.facts.files.classify import AssetReader
-
-        return AssetReader(self._disk, self._advance)
+        return classify.AssetReader(self._disk, self._advance)
 
     @cached_property
     def _marks(self) -> PathMarks:
-        from usdvol_lint.facts.files.marks import PathMarks
-
-        return PathMarks(
+        return marks.PathMarks(
             self._disk,
             has_packages=self._has_packages,
             has_range=self._has_range or self._stage.HasAuthoredTimeCodeRange(),
@@ -226,6 +209,4 @@ class Files(Wing):
     @cached_property
     def _has_packages(self) -> bool:
         """Whether any layer lies in a package."""
-        from usdvol_lint.facts.files.origins import package_of
-
-        return any(map(package_of, self._stage.GetUsedLayers()))
+        return any(map(origins.package_of, self._stage.GetUsedLayers()))

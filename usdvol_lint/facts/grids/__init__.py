@@ -8,7 +8,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing, column, summary
+
+with deferred(globals()):
+    from usdvol_lint.facts.grids import changes, nvidia_index, reader, timelines
+    from usdvol_lint.facts.usd import instances
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files import Files
@@ -62,9 +67,7 @@ class Grids(Wing):
 
     def contents(self, field: Any) -> FieldContents:
         """The contents of a field's files."""
-        from usdvol_lint.facts.grids.timelines import FieldContents
-
-        return FieldContents(self._files.paths(field).attribute, self.timelines(field))
+        return timelines.FieldContents(self._files.paths(field).attribute, self.timelines(field))
 
     def unswapped(self, field: Any) -> FieldContents:
         """The same but those that AST006 tells: of another format, as their extension shows."""
@@ -79,11 +82,12 @@ class Grids(Wing):
         timeline = self.timelines(field)
         if len(timeline.classes) < 2:
             return None
-        from usdvol_lint.facts.grids.changes import find_grid_changes
-        from usdvol_lint.facts.usd.instances import as_shown
-
-        sharing = as_shown(self._sharing[tuple(timeline.files)])
-        return find_grid_changes(list(map(self.contents, sharing))) if sharing[0] == field else None
+        sharing = instances.as_shown(self._sharing[tuple(timeline.files)])
+        return (
+            changes.find_grid_changes(list(map(self.contents, sharing)))
+            if sharing[0] == field
+            else None
+        )
 
     @cached_property
     def _sharing(self) -> Mapping[Hashable, list[Any]]:
@@ -95,12 +99,8 @@ class Grids(Wing):
 
     @cached_property
     def _content_reader(self) -> ContentReader:
-        from usdvol_lint.facts.grids.reader import ContentReader
-
-        return ContentReader(self._known, self._content, self._advance)
+        return reader.ContentReader(self._known, self._content, self._advance)
 
     def is_for_index(self, field: Any) -> bool:
         """Whether a field or the prim above it has settings of NVIDIA IndeX."""
-        from usdvol_lint.facts.grids.nvidia_index import is_for_index
-
-        return is_for_index(field)
+        return nvidia_index.is_for_index(field)

@@ -8,7 +8,24 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing
+
+with deferred(globals()):
+    from usdvol_lint.facts.layers import (
+        clip_losses,
+        composition,
+        errors,
+        instancing,
+        prototypes,
+        ranges,
+        rates,
+        retyping,
+        selections,
+        units,
+        words,
+    )
+    from usdvol_lint.facts.usd import arcs, instances
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.layers.clip_losses import ClipLosses
@@ -64,9 +81,7 @@ class Layers(Wing):
 
     def may_bring_ours(self, *names: str) -> bool:
         """Whether Volumes, fields or particle fields are on the stage, or names speak of them."""
-        from usdvol_lint.facts.layers.words import speak_of_ours
-
-        return self._has_ours or speak_of_ours(names)
+        return self._has_ours or words.speak_of_ours(names)
 
     @cached_property
     def _has_ours(self) -> bool:
@@ -96,9 +111,9 @@ class Layers(Wing):
     @cached_property
     def clip_losses(self) -> ClipLosses:
         """The value clips that do not arrive at prims of ours."""
-        from usdvol_lint.facts.layers.clip_losses import ClipLosses
-
-        return ClipLosses(self._stage, self.tables, self._clips, self._arcs, self.composition)
+        return clip_losses.ClipLosses(
+            self._stage, self.tables, self._clips, self._arcs, self.composition
+        )
 
     @property
     def are_several(self) -> bool:
@@ -122,26 +137,24 @@ class Layers(Wing):
 
     def hides_ours(self, prim: Any) -> bool:
         """Whether SCH012 tells that a prim's type hides a Volume, field or particle field."""
-        from usdvol_lint.facts.usd.instances import in_prototype
-
-        return self.tables.tells("SCH012") and in_prototype(prim).GetPath() in self._retyped
+        return (
+            self.tables.tells("SCH012") and instances.in_prototype(prim).GetPath() in self._retyped
+        )
 
     @property
     def lost_overrides(self) -> Iterator[LostOverrides]:
         """The overrides below instances that USD passes over, by the paths of the instances."""
         if self._stage.GetPrototypes():
-            from usdvol_lint.facts.layers.instancing import lost_overrides
-
             layered = self._arcs.layered
-            yield from lost_overrides(self._stage, layered, self._kinds, self.tables.ours())
+            yield from instancing.lost_overrides(
+                self._stage, layered, self._kinds, self.tables.ours()
+            )
 
     @cached_property
     def _retyped(self) -> dict[Any, Retyped]:
         if not self._arcs.layered:
             return {}
-        from usdvol_lint.facts.layers.retyping import retyped_prims
-
-        return retyped_prims(self._arcs.layered, self._kinds)
+        return retyping.retyped_prims(self._arcs.layered, self._kinds)
 
     @property
     def undefined(self) -> Iterator[Undefined]:
@@ -157,17 +170,17 @@ class Layers(Wing):
     def wrong_selections(self) -> Iterator[WrongSelection]:
         """The selections of variants that are not there, in sets that have to do with us."""
         if self._arcs.prims:
-            from usdvol_lint.facts.layers.selections import wrong_selections
-
-            yield from wrong_selections(self._arcs.prims, self._drawn, self._kinds, self.may_lack)
+            yield from selections.wrong_selections(
+                self._arcs.prims, self._drawn, self._kinds, self.may_lack
+            )
 
     @property
     def lost_prototypes(self) -> Iterator[LostPrototype]:
         """The targets of PointInstancers that are not there, where they concern us."""
         if self._drawn.live_instancers:
-            from usdvol_lint.facts.layers.prototypes import lost_prototypes
-
-            yield from lost_prototypes(self._stage, self._drawn, self._kinds, self.may_lack)
+            yield from prototypes.lost_prototypes(
+                self._stage, self._drawn, self._kinds, self.may_lack
+            )
 
     @property
     def out_of_reach(self) -> Iterator[Any]:
@@ -177,9 +190,7 @@ class Layers(Wing):
     @cached_property
     def time_range(self) -> TimeRange | None:
         """The production's range, else startTimeCode to endTimeCode; None if these are not said."""
-        from usdvol_lint.facts.layers.ranges import time_range
-
-        return time_range(self.authored_time_range, self._frames)
+        return ranges.time_range(self.authored_time_range, self._frames)
 
     @cached_property
     def authored_time_range(self) -> tuple[float, float] | None:
@@ -192,9 +203,7 @@ class Layers(Wing):
         """The layers that say no rate and whose samples the stage therefore has at other times."""
         if self._arcs.is_one_layer:
             return ()
-        from usdvol_lint.facts.layers.rates import unsaid_rates
-
-        return unsaid_rates(self._stage, self.tables, self._clips, self.time_range)
+        return rates.unsaid_rates(self._stage, self.tables, self._clips, self.time_range)
 
     def rate_is_unsaid(self, attribute: Any) -> bool:
         """Whether the samples of an attribute are at other times because no rate is said."""
@@ -205,29 +214,21 @@ class Layers(Wing):
         """The layers that say another up axis or other units, and bring what nothing corrects."""
         if self._arcs.is_one_layer:
             return ()
-        from usdvol_lint.facts.layers.units import layers_unlike_stage
-
-        return layers_unlike_stage(self._stage, self.tables)
+        return units.layers_unlike_stage(self._stage, self.tables)
 
     @cached_property
     def _arcs(self) -> Arcs:
-        from usdvol_lint.facts.usd.arcs import Arcs
-
-        return Arcs(self._stage, self._drawn)
+        return arcs.Arcs(self._stage, self._drawn)
 
     @cached_property
     def composition(self) -> Composition:
         """What USD could not compose, of which the properties here are part."""
-        from usdvol_lint.facts.layers.composition import Composition, unloaded_prims
-
         clipped: list[Any] = []
         for prims, authored in self.tables.authored(*schema.OURS):
             if authored.is_clipped:
                 clipped += prims
         clip_sets = dict.fromkeys(chain.from_iterable(map(self._clips.reaching, clipped)))
-        errors = self._stage.GetCompositionErrors()
-        if not errors and not clip_sets:
-            return Composition((), (), (), unloaded_prims(self._stage))
-        from usdvol_lint.facts.layers.errors import read_composition
-
-        return read_composition(self._stage, errors, clip_sets)
+        raised = self._stage.GetCompositionErrors()
+        if not raised and not clip_sets:
+            return composition.Composition((), (), (), composition.unloaded_prims(self._stage))
+        return errors.read_composition(self._stage, raised, clip_sets)

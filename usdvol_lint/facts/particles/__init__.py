@@ -6,7 +6,27 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing, fact
+
+with deferred(globals()):
+    from usdvol_lint.facts.particles import (
+        apis,
+        coarseness,
+        colour_spaces,
+        copies,
+        extent,
+        hiding,
+        misfits,
+        numbers,
+        raw,
+        reach,
+        reading,
+        scales,
+        statistics,
+        unseen,
+    )
+    from usdvol_lint.facts.prims import retyped
 
 if TYPE_CHECKING:
     from usdvol_lint.config import Depth
@@ -54,23 +74,17 @@ class Particles(Wing):
     @fact
     def apis(self, prim: Any) -> ParticleApis:
         """The applied APIs of a prim, those that are not registered too."""
-        from usdvol_lint.facts.particles.apis import read_particle_apis
-
-        return read_particle_apis(prim, self._kinds, self._prims, self.tables.tells)
+        return apis.read_particle_apis(prim, self._kinds, self._prims, self.tables.tells)
 
     def loss(self, prim: Any, names: Iterable[str]) -> Loss:
         """What a prim lacks because APIs of these names are not applied."""
-        from usdvol_lint.facts.particles.apis import loss
-
-        return loss(prim, self.apis(prim), names)
+        return apis.loss(prim, self.apis(prim), names)
 
     def without_api(self, prim: Any) -> Iterator[tuple[str, list[Any]]]:
         """The APIs that are not applied though attributes of theirs are authored, with these."""
-        from usdvol_lint.facts.particles.apis import attributes_without_api
-
         if self._is_retyped(prim):
             return iter(())
-        return attributes_without_api(prim, self.apis(prim), self.tables.tells)
+        return apis.attributes_without_api(prim, self.apis(prim), self.tables.tells)
 
     def is_told_elsewhere(self, prim: Any, base: str) -> bool:
         """Whether PRT006, PRT009, PRT010 or SCH012 tells why a base API is missing."""
@@ -81,18 +95,14 @@ class Particles(Wing):
         authored = self._prims.authored(prim)
         if not authored.lacks_apis or not authored.is_layered or not self.tables.tells("SCH012"):
             return False
-        from usdvol_lint.facts.prims.retyped import is_bared
-
-        return is_bared(prim, self._kinds)
+        return retyped.is_bared(prim, self._kinds)
 
     @fact
     def arrays(self, prim: Any) -> ParticleArrays:
         """The arrays of a particle field: none on a prim in an older encoding (SCH011)."""
-        from usdvol_lint.facts.particles.reading import read_particle_arrays
-
         is_ours = not self._prims.encoding(prim)
         mistyped = self._prims.mistyped(prim)
-        return read_particle_arrays(
+        return reading.read_particle_arrays(
             prim,
             self._kinds.names(self._kinds.key(prim)) if is_ours else (),
             self._prims.authored(prim).declared if is_ours else (),
@@ -104,33 +114,25 @@ class Particles(Wing):
 
     def misfitting_default(self, prim: Any, array: ParticleArray) -> str | None:
         """The default that hides what would fit, in words, where an array does not fit."""
-        from usdvol_lint.facts.particles.hiding import misfitting_default
-
-        return misfitting_default(array, self.arrays(prim), self._prims.hidden_animation)
+        return hiding.misfitting_default(array, self.arrays(prim), self._prims.hidden_animation)
 
     def unseen(self, prim: Any) -> Unseen | None:
         """The particles that can't be seen at any time, if there are some."""
         arrays = self.arrays(prim)
         if not any(arrays.used("opacities", "scales")):
             return None  # and NumPy need not be imported
-        from usdvol_lint.facts.particles.unseen import unseen_particles
-
-        return unseen_particles(arrays)
+        return unseen.unseen_particles(arrays)
 
     def copies(self, prim: Any, unseen: Unseen | None) -> Copies | None:
         """The particles that equal the next one in every array at all times, but `unseen` ones."""
         arrays = self.arrays(prim)
         if not arrays.most_particles:
             return None  # and NumPy need not be imported
-        from usdvol_lint.facts.particles.copies import copied_particles
-
-        return copied_particles(prim, arrays, unseen.selected if unseen else None)
+        return copies.copied_particles(prim, arrays, unseen.selected if unseen else None)
 
     def misfits(self, prim: Any, *, are_long: bool) -> tuple[MisfitArrays, ...]:
         """The arrays that hold the elements of more particles than there are, or of fewer."""
-        from usdvol_lint.facts.particles.misfits import misfit_arrays
-
-        return misfit_arrays(self.arrays(prim), are_long)
+        return misfits.misfit_arrays(self.arrays(prim), are_long)
 
     def is_told_as_misspelt(self, prim: Any, name: str) -> bool:
         """Whether SCH004 tells what is probably the float or half array of this float name."""
@@ -140,14 +142,12 @@ class Particles(Wing):
         self, prim: Any, slack: float, half_slack: float, clamp: float
     ) -> OutsideExtent | None:
         """The positions outside the authored extent, if any; `half_slack` is that of halfs."""
-        extent = prim.GetAttribute("extent")
+        authored = prim.GetAttribute("extent")
         positions = next(self.arrays(prim).used("positions"), None)
-        if not positions or not extent.HasAuthoredValue():
+        if not positions or not authored.HasAuthoredValue():
             return None  # and NumPy need not be imported
-        from usdvol_lint.facts.particles.extent import positions_outside_extent
-
         share = half_slack if positions.is_half else slack
-        return positions_outside_extent(self.arrays(prim), extent, share, clamp)
+        return extent.positions_outside_extent(self.arrays(prim), authored, share, clamp)
 
     def kernels_outside_extent(
         self, prim: Any, share: float, clamp: float
@@ -157,19 +157,15 @@ class Particles(Wing):
         names = self.apis(prim).providers(schema.KERNEL_BASE)
         if not arrays.most_particles or len(names) != 1 or not extent.HasAuthoredValue():
             return None
-        from usdvol_lint.facts.particles.reach import KERNELS, kernels_outside
-
-        kernel = KERNELS.get(names[0])
-        return kernels_outside(arrays, extent, kernel, share, clamp) if kernel else None
+        kernel = reach.KERNELS.get(names[0])
+        return reach.kernels_outside(arrays, extent, kernel, share, clamp) if kernel else None
 
     def coarse_positions(self, prim: Any, factor: float) -> CoarsePositions | None:
         """The positions whose numbers are coarser than particles; `factor` is in `Counts.far`."""
         arrays = self.arrays(prim)
         if not arrays.most_particles:
             return None  # and NumPy need not be imported
-        from usdvol_lint.facts.particles.coarseness import coarse_positions
-
-        return coarse_positions(arrays, factor)
+        return coarseness.coarse_positions(arrays, factor)
 
     @fact
     def scales(self, prim: Any) -> Scales | None:
@@ -179,51 +175,39 @@ class Particles(Wing):
         span = array.span if array else None
         if not array or not span:
             return None
-        from usdvol_lint.facts.particles.scales import Scales
-
-        return Scales(array, *span, arrays)
+        return scales.Scales(array, *span, arrays)
 
     def range_within(self, array: ParticleArray, low: float, high: float) -> tuple[Row, Row] | None:
         """The least and greatest number in each column, if all lie within the limits."""
-        from usdvol_lint.facts.particles.numbers import range_within
-
-        return range_within(array, low, high)
+        return numbers.range_within(array, low, high)
 
     def are_whole(self, array: ParticleArray) -> bool:
         """Whether every number in an array is a whole one."""
-        from usdvol_lint.facts.particles.numbers import are_whole
-
-        return are_whole(array)
+        return numbers.are_whole(array)
 
     def are_raw(self, array: ParticleArray, outside: Elements | None) -> bool:
         """Whether opacities, some `outside` 0 to 1, look like logits; or scales like logarithms."""
-        from usdvol_lint.facts.particles.raw import are_raw
-
-        return are_raw(array, outside)
+        return raw.are_raw(array, outside)
 
     def raw_numbers(self, array: ParticleArray) -> RawNumbers | None:
         """The numbers beside infinity that look like logits in opacities, or logs in scales."""
-        from usdvol_lint.facts.particles.raw import raw_numbers
-
-        return raw_numbers(array) if array.has_infinity else None
+        return raw.raw_numbers(array) if array.has_infinity else None
 
     def colour_space(self, prim: Any) -> ColourSpace | None:
         """The colour space of the coefficients: their own, or the nearest name above them."""
-        from usdvol_lint.facts.particles.colour_spaces import colour_space
-
         used = self.arrays(prim).coefficients
-        return colour_space(prim, used.attribute if used else None, self.apis(prim).awaited)
+        return colour_spaces.colour_space(
+            prim, used.attribute if used else None, self.apis(prim).awaited
+        )
 
     def material_is_bound(self, prim: Any) -> bool:
         """Whether a material is bound to the prim, which then replaces its own radiance."""
-        from usdvol_lint.facts.particles.apis import material_is_bound
-
-        return material_is_bound(prim)
+        return apis.material_is_bound(prim)
 
     def statistics(self) -> tuple[ParticleFieldStats, ...]:
         """The statistics of all particle fields, sorted by path."""
-        from usdvol_lint.facts.particles.statistics import stats_of
-
         fields = self._prims.of(schema.PARTICLE_FIELD)
-        stats = (stats_of(self._prims.shown_path(prim), self.arrays(prim)) for prim in fields)
+        stats = (
+            statistics.stats_of(self._prims.shown_path(prim), self.arrays(prim)) for prim in fields
+        )
         return tuple(sorted(stats, key=lambda of_prim: of_prim.prim))

@@ -8,7 +8,24 @@ from itertools import filterfalse
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing, column, fact, summary
+
+with deferred(globals()):
+    from usdvol_lint.facts.prims import (
+        ancestors,
+        animated,
+        bounds,
+        contradictions,
+        data,
+        encodings,
+        extents,
+        handed_down,
+        nesting,
+        transforms,
+    )
+    from usdvol_lint.facts.usd import dropped, hidden, instancers, instances, values
+    from usdvol_lint.layertext import source
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.prims.attributes import Authored
@@ -46,37 +63,27 @@ class Prims(Wing):
 
     def shown_path(self, prim: Any) -> str:
         """The path of a prim; for one in a prototype, the first at which an instance has it."""
-        from usdvol_lint.facts.usd.instances import shown
-
-        return shown(prim).path
+        return instances.shown(prim).path
 
     def values(self, prim: Any, name: str) -> Values:
         """All values of an attribute, the default first."""
-        from usdvol_lint.facts.usd.values import values_of
-
-        return values_of(prim.GetAttribute(name))
+        return values.values_of(prim.GetAttribute(name))
 
     def hidden_animation(self, attribute: Any) -> HiddenAnimation | None:
         """The time samples or clips of an attribute that a stronger default hides."""
-        from usdvol_lint.facts.usd.hidden import hidden_animation
-
-        return hidden_animation(attribute, self._clips.reaching(attribute.GetPrim()))
+        return hidden.hidden_animation(attribute, self._clips.reaching(attribute.GetPrim()))
 
     def hidden_boxes_outside(self, prim: Any, relative_slack: float) -> HiddenAnimation | None:
         """The time samples of `extent` that a stronger default hides and does not enclose."""
-        from usdvol_lint.facts.prims.extents import outside_box
-
         attribute = prim.GetAttribute("extent")
         hidden = self.hidden_animation(attribute) if attribute else None
         box = self.limits(prim).at(None) if hidden else None
-        is_outside = hidden and box and outside_box(box, hidden.values(), relative_slack)
+        is_outside = hidden and box and extents.outside_box(box, hidden.values(), relative_slack)
         return hidden if is_outside else None
 
     def animated_times(self) -> list[float]:
         """The times at which Volumes, fields and particle fields have samples, in order."""
-        from usdvol_lint.facts.prims.animated import animated
-
-        return sorted({time for _, times in animated(self.tables) for time in times})
+        return sorted({time for _, times in animated.animated(self.tables) for time in times})
 
     @column
     def authored(self, table: Table) -> Sequence[Authored]:
@@ -86,16 +93,12 @@ class Prims(Wing):
     @summary
     def may_be_mistyped(self, table: Table) -> Sequence[bool]:
         """Whether a spec may have another type than the schema declares."""
-        from usdvol_lint.facts.prims.contradictions import may_be_mistyped
-
-        return may_be_mistyped(table.batch, table.authored)
+        return contradictions.may_be_mistyped(table.batch, table.authored)
 
     @summary
     def may_have_unlisted_tokens(self, table: Table) -> Sequence[bool]:
         """Whether a token may be one that the schema does not allow."""
-        from usdvol_lint.facts.prims.contradictions import may_have_unlisted
-
-        return may_have_unlisted(table.batch, table.authored)
+        return contradictions.may_have_unlisted(table.batch, table.authored)
 
     @summary
     def may_be_encoded_otherwise(self, table: Table) -> Sequence[bool]:
@@ -106,15 +109,11 @@ class Prims(Wing):
 
     def mistyped(self, prim: Any) -> Iterator[Mistyped]:
         """The specs of a prim's attributes whose type is not the one that the schema declares."""
-        from usdvol_lint.facts.prims.contradictions import mistyped
-
-        return mistyped(prim, self.authored(prim))
+        return contradictions.mistyped(prim, self.authored(prim))
 
     def misspelt(self, prim: Any) -> Iterator[Misspelt]:
         """The attributes of a prim whose names are probably misspelt."""
-        from usdvol_lint.facts.prims.contradictions import misspelt
-
-        return misspelt(prim, self.authored(prim))
+        return contradictions.misspelt(prim, self.authored(prim))
 
     def is_told_as_misspelt(self, prim: Any, *names: str) -> bool:
         """Whether SCH004 tells that an attribute is probably meant to have one of these names."""
@@ -123,64 +122,46 @@ class Prims(Wing):
 
     def unlisted_tokens(self, prim: Any) -> Iterator[Unlisted]:
         """The values of a prim's attributes that are tokens the schema does not allow."""
-        from usdvol_lint.facts.prims.contradictions import unlisted_tokens
-
-        return unlisted_tokens(prim, self.authored(prim))
+        return contradictions.unlisted_tokens(prim, self.authored(prim))
 
     def transform_faults(self, prim: Any) -> TransformFaults:
         """The transform ops of a prim that are not there or not finite; none where USD has none."""
-        from usdvol_lint.facts.prims.transforms import TransformFaults, transform_faults
-
         is_placed = self.is_a(prim, "Xformable")
-        return transform_faults(prim) if is_placed else TransformFaults()
+        return transforms.transform_faults(prim) if is_placed else transforms.TransformFaults()
 
     @cached_property
     def above_ours(self) -> list[Any]:
         """The prims above Volumes and particle fields with a purpose, visibility or transform."""
-        from usdvol_lint.facts.prims.ancestors import ancestors_of
-
         tables = self.tables.of(schema.VOLUME, schema.PARTICLE_FIELD)
-        return ancestors_of((table.batch for table in tables), self._kinds, self._drawn)
+        return ancestors.ancestors_of((table.batch for table in tables), self._kinds, self._drawn)
 
     def is_handed_down(self, above: Any, name: str) -> bool:
         """Whether a Volume or particle field takes what a prim above it says of a property."""
-        from usdvol_lint.facts.prims.handed_down import is_handed_down
-
-        return is_handed_down(above, name, self._kinds)
+        return handed_down.is_handed_down(above, name, self._kinds)
 
     def dropped_lists(self, prim: Any) -> tuple[DroppedList, ...]:
         """The lists of APIs that USD drops, of a particle field that lacks one."""
         if not self.authored(prim).lacks_apis:
             return ()  # and no text of a layer need be read
-        from usdvol_lint.facts.usd.dropped import dropped_lists
-
-        return dropped_lists(prim, self._kinds.applied(prim), self._texts)
+        return dropped.dropped_lists(prim, self._kinds.applied(prim), self._texts)
 
     @cached_property
     def _texts(self) -> LayerTexts:
-        from usdvol_lint.layertext.source import LayerTexts
-
-        return LayerTexts()
+        return source.LayerTexts()
 
     @fact
     def encoding(self, prim: Any) -> Encoding | None:
         """The encoding of a prim that predates the schema, if it has one."""
-        from usdvol_lint.facts.prims.encodings import recognise
-
-        return recognise(prim)
+        return encodings.recognise(prim)
 
     def has_data_of(self, prim: Any, type_name: str) -> bool:
         """Whether properties are authored that a prim of this type of UsdVol is read for."""
-        from usdvol_lint.facts.prims.data import has_data_of
-
-        return has_data_of(prim, type_name)
+        return data.has_data_of(prim, type_name)
 
     @column
     def limits(self, table: Table) -> Sequence[Limits]:
         """The `extent` of prims, all values as boxes."""
-        from usdvol_lint.facts.prims.extents import read_limits
-
-        return read_limits(table.batch)
+        return extents.read_limits(table.batch)
 
     @summary
     def have_malformed_extents(self, table: Table) -> Sequence[bool]:
@@ -189,25 +170,19 @@ class Prims(Wing):
 
     def extents(self, prim: Any) -> Values:
         """All values of `extent` that are arrays of vectors, as `Extent`, the default first."""
-        from usdvol_lint.facts.prims.extents import read_extents
-
-        return read_extents(prim.GetAttribute("extent"))
+        return extents.read_extents(prim.GetAttribute("extent"))
 
     @cached_property
     def without_extent(self) -> list[Any]:
         """The Volumes and particle fields whose bounds USD can't tell, sorted by path."""
-        from usdvol_lint.facts.prims.bounds import has_bounds
-
         readable = self.limits.readable(schema.VOLUME, schema.PARTICLE_FIELD)
         unauthored = (prim for prim, limits in readable if not limits.are_authored)
-        return sorted(filterfalse(has_bounds, unauthored), key=self.shown_path)
+        return sorted(filterfalse(bounds.has_bounds, unauthored), key=self.shown_path)
 
     @cached_property
     def moved_prototypes(self) -> frozenset[Any]:
         """The paths of the prototypes that PointInstancers show at changing places."""
-        from usdvol_lint.facts.usd.instancers import moved_prototypes
-
-        return moved_prototypes(self._drawn.live_instancers)
+        return instancers.moved_prototypes(self._drawn.live_instancers)
 
     @summary
     def are_nested(self, table: Table) -> Sequence[bool]:
@@ -224,6 +199,4 @@ class Prims(Wing):
 
     @cached_property
     def _nesting(self) -> Nesting:
-        from usdvol_lint.facts.prims.nesting import Nesting
-
-        return Nesting(self._kinds)
+        return nesting.Nesting(self._kinds)

@@ -8,7 +8,21 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing, column, fact, summary
+
+with deferred(globals()):
+    from usdvol_lint.facts.usd import instances, visibility
+    from usdvol_lint.facts.volumes import (
+        enclosure,
+        intended,
+        lookalikes,
+        mixture,
+        placement,
+        reading,
+        staging,
+        usage,
+    )
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.files import Files
@@ -78,10 +92,8 @@ class Volumes(Wing):
 
     def intended_field(self, binding: Binding) -> str | None:
         """The path of the field that a binding without one was probably intended to target."""
-        from usdvol_lint.facts.usd.instances import shown_path
-
         path = self._field_index.intended_by(binding)
-        return shown_path(self._stage, path) if path else None
+        return instances.shown_path(self._stage, path) if path else None
 
     def is_target_of_unknown_type(self, prim: Any) -> bool:
         """Whether a Volume targets a prim whose type is not registered."""
@@ -89,22 +101,16 @@ class Volumes(Wing):
 
     def unbound_fields(self, volume: Any) -> list[Any]:
         """The field prims below a Volume that no Volume targets."""
-        from usdvol_lint.facts.volumes.usage import unbound_fields
-
-        return unbound_fields(volume, self._kinds, self.tables.field_slots, self._users)
+        return usage.unbound_fields(volume, self._kinds, self.tables.field_slots, self._users)
 
     def is_shared(self, volume: Any, field: Any) -> bool:
         """Whether other Volumes, or other instances of this one, target the same field."""
-        from usdvol_lint.facts.volumes.usage import is_shared
-
-        return is_shared(volume, field, self.tables.field_slots, self._users)
+        return usage.is_shared(volume, field, self.tables.field_slots, self._users)
 
     def staging(self, field: Any, time_range: tuple[float, float]) -> Staging:
         """How the Volumes that use a field are shown over a range of time, or else the field."""
-        from usdvol_lint.facts.volumes.staging import staging_of
-
         users = self._users.of(self.tables.field_slots[field.GetPath()])
-        return staging_of(field, users, self._prims.moved_prototypes, time_range)
+        return staging.staging_of(field, users, self._prims.moved_prototypes, time_range)
 
     @cached_property
     def unused_fields(self) -> list[Any]:
@@ -116,8 +122,6 @@ class Volumes(Wing):
         accounts for, also one that is not drawn, or whose type is hidden or missing: those below
         it, and those that its relationships probably intended.
         """
-        from usdvol_lint.facts.volumes import usage
-
         slots, layers = self.tables.field_slots, self._layers
         unused = self._used.add_all_but(self._users.unbound, slots)
         volumes = self._prims.of(schema.VOLUME)
@@ -144,9 +148,7 @@ class Volumes(Wing):
         unbound = self._users.unbound
         if not (unbound or self._untyped):
             return []
-        from usdvol_lint.facts.volumes.lookalikes import lookalikes
-
-        return lookalikes(self._stage, self._untyped, unbound, self._layers)
+        return lookalikes.lookalikes(self._stage, self._untyped, unbound, self._layers)
 
     def stays_unused(self, field: Any) -> Callable[[], bool]:
         """A predicate for later: whether no variant selection until then uses the field."""
@@ -154,16 +156,12 @@ class Volumes(Wing):
 
     def is_hidden(self, field: Any, times: Sequence[float], between: bool = False) -> bool:
         """Whether a field, or each Volume that binds it, is invisible at, or `between`, times."""
-        from usdvol_lint.facts.usd.visibility import is_hidden
-
         users = self._users.of(self.tables.field_slots[field.GetPath()])
-        return is_hidden(field, users, times, between)
+        return visibility.is_hidden(field, users, times, between)
 
     def displacement(self, volume: Any, field: Any) -> Displacement | None:
         """How transforms move a field relative to a Volume that binds it, if they do."""
-        from usdvol_lint.facts.volumes.placement import displacement
-
-        return displacement(volume, field)
+        return placement.displacement(volume, field)
 
     def are_apart(self, volume: Any, fields: Container[str]) -> bool:
         """Whether one of these fields is outside a Volume and does not move with it."""
@@ -191,9 +189,7 @@ class Volumes(Wing):
 
     def mixed_files(self, volume: Any, is_told: Callable[[Any], bool]) -> MixedFiles | None:
         """The different files that fields of a Volume but those told name at one time, if any."""
-        from usdvol_lint.facts.volumes.mixture import find_mixed_files
-
-        return find_mixed_files(self.bindings(volume), self._files.paths, is_told)
+        return mixture.find_mixed_files(self.bindings(volume), self._files.paths, is_told)
 
     def is_targeted(self, prim: Any) -> bool:
         """Whether a live Volume targets a prim, also one that is no live field."""
@@ -202,31 +198,21 @@ class Volumes(Wing):
     @cached_property
     def _targets_of_unknown_type(self) -> frozenset[Any]:
         """The paths of the prims of unregistered types that Volumes target."""
-        from usdvol_lint.facts.volumes.usage import targets_of_unknown_type
-
         bound = self.bound_fields.readable(schema.VOLUME)
-        return targets_of_unknown_type(bound, self.bindings)
+        return usage.targets_of_unknown_type(bound, self.bindings)
 
     @cached_property
     def _users(self) -> Users:
-        from usdvol_lint.facts.volumes.usage import Users
-
-        return Users(self.bound_fields.readable(schema.VOLUME), self.tables.field_slots)
+        return usage.Users(self.bound_fields.readable(schema.VOLUME), self.tables.field_slots)
 
     @cached_property
     def _field_index(self) -> FieldIndex:
-        from usdvol_lint.facts.volumes.intended import FieldIndex
-
-        return FieldIndex(self._prims.of(schema.FIELD), self._prims.of(schema.VOLUME))
+        return intended.FieldIndex(self._prims.of(schema.FIELD), self._prims.of(schema.VOLUME))
 
     @cached_property
     def _binding_reader(self) -> BindingReader:
-        from usdvol_lint.facts.volumes.reading import BindingReader
-
-        return BindingReader(self._kinds)
+        return reading.BindingReader(self._kinds)
 
     @cached_property
     def _enclosure(self) -> Enclosure:
-        from usdvol_lint.facts.volumes.enclosure import Enclosure
-
-        return Enclosure(self.tables, self._prims, self._files, self._grids)
+        return enclosure.Enclosure(self.tables, self._prims, self._files, self._grids)
