@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 _Judged: TypeAlias = tuple[StageReport, bool]
 """The report on a stage, and whether this is a part."""
 
+_FEW = 16
+"""Of more stages than that most are probably small."""
 _SHAPING = (
     *("options", "packs", "fail_on", "fail_on_unchecked", "show", "rules_as_of", "load", "content"),
     *("variants", "variant_limit", "times", "timeout", "memory_limit", "suppressions"),
@@ -209,7 +211,16 @@ def stage_reports(
     shown.begin(len(every))
     is_alone = len(every) == 1 and not config.stages
     stages = in_stages(config)
-    setup = Setup(active, config.packs, config.depth, stages, is_alone, repository, changed)
+    setup = Setup(
+        active,
+        config.packs,
+        config.depth,
+        stages,
+        is_alone,
+        are_many=len(every) > _FEW,
+        repository=repository,
+        changed=changed,
+    )
     pool.run(setup, jobs, config.timeout, shown.advance, config.memory_limit)
     signals = interruption or Interruption()
     signals.stops(pool.interrupt)

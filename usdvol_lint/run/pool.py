@@ -17,7 +17,7 @@ from usdvol_lint.run.endings import not_started
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.memory import Memory
 from usdvol_lint.run.processors import owned
-from usdvol_lint.run.protocol import Setup
+from usdvol_lint.run.protocol import SHORT, Setup
 from usdvol_lint.run.supervisor import Worker
 
 if TYPE_CHECKING:
@@ -27,8 +27,6 @@ _START_DELAY = 0.3
 """Seconds before each further worker starts: about what it spends on importing USD."""
 _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
-_SHORT = 0.02
-"""Seconds that a small stage takes at most."""
 _IDLE = 0.05
 """Seconds after which a worker without a stage looks whether there will be any more."""
 _AHEAD = 8
@@ -157,7 +155,7 @@ class Pool:
         A worker that has to ask for each small stage waits for a tenth of the time.
         """
         fair = self._waiting.qsize() // (2 * max(self._able, 1))
-        wanted = 1 + (min(_AHEAD, fair) if seconds < _SHORT else 0)
+        wanted = 1 + (min(_AHEAD, fair) if seconds < SHORT else 0)
         with suppress(queue.Empty):
             while len(taken) < wanted:
                 is_idle = self.expects_more and not taken

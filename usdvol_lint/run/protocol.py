@@ -13,6 +13,9 @@ from usdvol_lint.model import Cover, Excerpt, Finding, Site, Source, StageReport
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.suppressions import InStages
 
+SHORT = 0.02
+"""Seconds that a small stage takes at most."""
+
 _PARTS = Finding._fields.index("site")
 _EXCERPT = Site._fields.index("excerpt")
 
@@ -20,7 +23,8 @@ _EXCERPT = Site._fields.index("excerpt")
 class Setup(NamedTuple):
     """The parent's first message: the rules to run, and how stages are to be checked.
 
-    `is_alone` says that there is but one stage in the run, `repository` that findings in layers
+    `is_alone` says that there is but one stage in the run, and `are_many` that there are so many
+    that most of them are probably small; `repository` that findings in layers
     outside that folder need a line in the stage's own file.
     Where some files are `changed`, a stage that uses none of them is not checked.
     """
@@ -30,6 +34,7 @@ class Setup(NamedTuple):
     depth: Depth
     suppressions: InStages
     is_alone: bool = False
+    are_many: bool = False
     repository: str | None = None
     changed: frozenset[str] | None = None
 

@@ -14,7 +14,7 @@ from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.limits import narrow_limits
-from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import SHORT, Advance, Done, NewFindings, Ready, Refusal, Setup
 from usdvol_lint.run.requests import Requests
 
 if TYPE_CHECKING:
@@ -44,8 +44,10 @@ def main() -> None:
         )
         return _send(replies, Refusal(f"USD can't be imported ({error}){advice}"))
     from usdvol_lint.engine.asked_types import check_types
+    from usdvol_lint.engine.threads import Threads
     from usdvol_lint.engine.usd_version import usd_version
 
+    threads = Threads()
     said = load_plugins()
     setup: Setup = requests.next()
     try:
@@ -57,13 +59,18 @@ def main() -> None:
     engine = _engine(rules, setup, answers)
     _send(replies, Ready(usd_version(), said))
     concerns = _concerned(setup)
+    if not setup.are_many:
+        threads.use_all()
     gc.freeze()  # what all stages share is never garbage
     garbage = _Garbage()
     while path := requests.next():
+        began = time.perf_counter()
         if concerns is None or concerns(path):
             engine.lint(path, answers.end)
         else:
             answers.end(_unchanged(path))
+        if time.perf_counter() - began > SHORT:
+            threads.use_all()
         garbage.collect()
 
 
