@@ -209,18 +209,7 @@ def stage_reports(
         return
     ahead = Ahead(pool, every, shown.stage_done)
     shown.begin(len(every))
-    is_alone = len(every) == 1 and not config.stages
-    stages = in_stages(config)
-    setup = Setup(
-        active,
-        config.packs,
-        config.depth,
-        stages,
-        is_alone,
-        are_many=len(every) > _FEW,
-        repository=repository,
-        changed=changed,
-    )
+    setup = _setup(config, active, len(every), repository, changed)
     pool.run(setup, jobs, config.timeout, shown.advance, config.memory_limit)
     signals = interruption or Interruption()
     signals.stops(pool.interrupt)
@@ -232,6 +221,25 @@ def stage_reports(
             signals.is_early = True
             yield None
     signals.hold()
+
+
+def _setup(
+    config: Config,
+    active: ActiveRules,
+    stages: int,
+    repository: str | None,
+    changed: frozenset[str] | None,
+) -> Setup:
+    return Setup(
+        active,
+        config.packs,
+        config.depth,
+        in_stages(config),
+        is_alone=stages == 1 and not config.stages,
+        are_many=stages > _FEW,
+        repository=repository,
+        changed=changed,
+    )
 
 
 def _given(config: Config) -> Config:

@@ -19,6 +19,7 @@ from usdvol_lint.run.requests import Requests
 
 if TYPE_CHECKING:
     from usdvol_lint.engine.engine import Engine
+    from usdvol_lint.engine.threads import Threads
 
 
 _FEW = 10_000
@@ -58,10 +59,20 @@ def main() -> None:
     answers = _Answers(replies)
     engine = _engine(rules, setup, answers)
     _send(replies, Ready(usd_version(), said))
-    concerns = _concerned(setup)
     if not setup.are_many:
         threads.use_all()
     gc.freeze()  # what all stages share is never garbage
+    _answer(requests, answers, engine, _concerned(setup), threads)
+
+
+def _answer(
+    requests: Requests,
+    answers: _Answers,
+    engine: Engine,
+    concerns: Callable[[str], bool] | None,
+    threads: Threads,
+) -> None:
+    """Answers path after path."""
     garbage = _Garbage()
     while path := requests.next():
         began = time.perf_counter()
