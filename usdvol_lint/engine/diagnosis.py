@@ -21,6 +21,7 @@ _FORMATS = (
     (TEXT_SIGNATURES, "USD text", (".usda", ".usd")),
 )
 """What a file can begin with, what it is then, and the suffixes under which USD reads that."""
+_TEXT_SUFFIX = ".usda"
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _HEAD_SIZE = 64
 _CRATE_HEADER_SIZE = 88
@@ -32,16 +33,25 @@ _LONGEST_ZIP_END = _ZIP_END_SIZE + 0xFFFF
 _ZIP64 = 0xFFFFFFFF
 
 
-def read_head(path: str) -> bytes:
-    """The first bytes of a file that USD may be able to open.
+def look_at(path: str) -> bytes | None:
+    """The first bytes of a file that USD may be able to open; None of a text.
 
     Raises UnreadableStageError for a file that it can't: USD's own messages for these cases are
-    long and unclear.
+    long and unclear.  Text is safe to try, and `read_head` tells what else a file is that failed.
     """
     status = _status(path)
     trouble = _trouble_with_kind(path, status.st_mode) or _trouble_with_name(path)
     if trouble:
         raise UnreadableStageError(trouble)
+    return None if path.endswith(_TEXT_SUFFIX) else _read_head(path, status)
+
+
+def read_head(path: str) -> bytes:
+    """The first bytes of a file that USD failed to open; raises as `look_at` does."""
+    return _read_head(path, _status(path))
+
+
+def _read_head(path: str, status: os.stat_result) -> bytes:
     try:
         with open(path, "rb") as file:
             head = file.read(_HEAD_SIZE)

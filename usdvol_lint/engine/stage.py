@@ -8,7 +8,13 @@ from typing import Any
 
 from pxr import Ar, Sdf, Usd
 
-from usdvol_lint.engine.diagnosis import CRATE_SIGNATURE, EXPORT_AGAIN, ZIP_SIGNATURE, read_head
+from usdvol_lint.engine.diagnosis import (
+    CRATE_SIGNATURE,
+    EXPORT_AGAIN,
+    ZIP_SIGNATURE,
+    look_at,
+    read_head,
+)
 from usdvol_lint.engine.messages import messages
 from usdvol_lint.engine.trouble import Trouble, UnreadableStageError
 from usdvol_lint.facts.usd.clips import concerns_only_clips
@@ -28,14 +34,16 @@ def open_stage(path: str, load: str, session: Any | None = None) -> Any:
     Without `session` the stage has no session layer.
     Raises UnreadableStageError with the reason.
     """
-    head = read_head(path)
+    head = look_at(path)
     policy = Usd.Stage.LoadNone if load == "none" else Usd.Stage.LoadAll
     try:
         layer = Sdf.Layer.FindOrOpen(os.path.abspath(path))
         stage = _open(layer, session, policy) if layer else None
     except UNREADABLE as error:
+        head = head or read_head(path)
         raise UnreadableStageError(_explain(path, messages(error), head)) from error
     if stage is None:
+        head = head or read_head(path)
         raise UnreadableStageError(
             Trouble("a package in which USD finds no layer to open", "package it again")
             if head.startswith(ZIP_SIGNATURE)

@@ -215,7 +215,7 @@ def test_an_extent_that_frames_stick_out_of_is_never_passed_over(
     limits = Limits(None, [(None, Vt.Vec3fArray([tuple(sides[:3]), tuple(sides[3:])]))])
     limit = limits.at(None)
     assert limit
-    overhang = Hulls(GridBoxes()).overhang(limits, [(timeline, UNTRANSFORMED)])
+    overhang = Hulls(GridBoxes({})).overhang(limits, [(timeline, UNTRANSFORMED)])
     for grid in grids:
         box = grid.world_bounds(0.5)
         assert box

@@ -39,7 +39,6 @@ class Disk:
         self._faults: dict[str, str | None] = {}
         self._listings: dict[str, Listing] = {}
         self._in_case: dict[tuple[str, int], str | None] = {}
-        self._ignores_case: dict[str, bool] = {}
         self._siblings: dict[str, tuple[str, ...]] = {}
         self._tried: set[tuple[str, str]] = set()
         self._names_left = _NAMES_TRIED
@@ -125,14 +124,7 @@ class Disk:
 
     def ignores_case(self, path: str) -> bool:
         """Whether the file system finds an existing file under another case of its name."""
-        folder, _, name = path.rpartition("/")
-        if folder not in self._ignores_case:
-            try:
-                same = os.path.samefile(path, f"{folder}/{name.swapcase()}")
-            except OSError:
-                same = False
-            self._ignores_case[folder] = same
-        return self._ignores_case[folder]
+        return self._all_folders.ignores_case(path)
 
 
 def file_fault(path: str) -> str | None:

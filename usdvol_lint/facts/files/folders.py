@@ -16,6 +16,7 @@ from usdvol_lint.facts.files.places import folders_above, names_listed
 _NUMBER = re.compile(r"[0-9]+")
 _NAMES_KEPT = 200_000
 """So many names take some 20 MB."""
+_FOLDERS_KEPT = 10_000
 _SETTLED = 2_000_000_000
 """In so many nanoseconds a folder may change twice, and its time of change once."""
 
@@ -75,6 +76,7 @@ class Folders:
     def __init__(self) -> None:
         self._listings: dict[str, tuple[_State, Listing]] = {}
         self._names_kept = 0
+        self._ignores_case: dict[str, bool] = {}
 
     def listing(self, folder: str) -> Listing:
         """What is in a folder or package now; nothing if it can't be read."""
@@ -86,6 +88,22 @@ class Folders:
             if state and began - state[0] > _SETTLED:
                 self._keep(folder, state, listing)
         return listing
+
+    def ignores_case(self, path: str) -> bool:
+        """Whether the file system finds an existing file under another case of its name.
+
+        That is asked once in each folder, and stays so.
+        """
+        folder, _, name = path.rpartition("/")
+        if folder not in self._ignores_case:
+            if len(self._ignores_case) >= _FOLDERS_KEPT:
+                self._ignores_case.clear()
+            try:
+                same = os.path.samefile(path, f"{folder}/{name.swapcase()}")
+            except OSError:
+                same = False
+            self._ignores_case[folder] = same
+        return self._ignores_case[folder]
 
     def with_file(self, folder: str, below: str) -> tuple[str, ...]:
         """The folders in a folder that have a file at the path `below`, such as `/a.vdb`."""

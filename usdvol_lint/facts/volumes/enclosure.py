@@ -34,7 +34,7 @@ class Enclosure:
         self._prims = prims
         self._files = files
         self._timelines = grids.timelines
-        self._boxes = GridBoxes()
+        self._boxes = GridBoxes(grids.boxes)
         self._hulls = Hulls(self._boxes)
 
     def overhangs(self, table: Table, bound_fields: Iterable[BoundFields]) -> list[float]:

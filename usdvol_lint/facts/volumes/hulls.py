@@ -7,6 +7,7 @@ from math import inf
 from operator import le
 from typing import Any, NamedTuple
 
+from usdvol_lint.facts.grids.known import KnownBoxes
 from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims.boxes import magnitude, union
 from usdvol_lint.facts.prims.extents import Limits
@@ -29,10 +30,10 @@ _NO_GRIDS = Hull(((0.0,) * 3, (0.0,) * 3), 0.0)
 
 
 class GridBoxes:
-    """Caches the boxes around grids."""
+    """The boxes around grids, kept in `known`."""
 
-    def __init__(self) -> None:
-        self._whole: dict[tuple[int, Matrix | None], tuple[Grid, Bounds | None]] = {}
+    def __init__(self, known: KnownBoxes) -> None:
+        self._whole = known
 
     def whole(self, grid: Grid, matrix: Matrix) -> Bounds | None:
         """The box around the whole voxels of a grid, in the space of a Volume."""
