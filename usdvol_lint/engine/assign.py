@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from operator import itemgetter
+from types import NoneType
 from typing import Any, TypeAlias
 
 from usdvol_lint import schema
@@ -21,6 +22,9 @@ Options: TypeAlias = Mapping[str, Mapping[str, Any]]
 """The options of rules, by code."""
 Failed: TypeAlias = Callable[[Sequence[Rule], BaseException], None]
 """Called with rules whose precondition raised; they are handed the prims all the same."""
+
+_GROUPS = (tuple, frozenset)
+_PLAIN = (NoneType, bool, int, float, str, Enum)
 
 _MOST_KEYS = 10_000
 """So many keys are kept over all stages."""
@@ -147,9 +151,9 @@ class _RulesByKey:
 
 def _lasts(key: Any) -> bool:
     """Whether a key is plain data, or says that it is of no stage."""
-    if isinstance(key, tuple | frozenset):
+    if isinstance(key, _GROUPS):
         return all(map(_lasts, key))
-    return key is None or isinstance(key, bool | int | float | str | Enum) or hasattr(key, "LASTS")
+    return isinstance(key, _PLAIN) or hasattr(key, "LASTS")
 
 
 def _given(rule: Rule, when: When, options: Options) -> dict[str, Any]:

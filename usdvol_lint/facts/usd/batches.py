@@ -48,17 +48,17 @@ class PrimBatch:
     @property
     def names(self) -> list[Any]:
         """The names of the authored properties, a tuple for each prim."""
-        return self._query("names", lambda: map(tuple, map(get_property_names, self.prims)))
+        return self._query("names", _names, self.prims)
 
     @property
     def paths(self) -> list[Any]:
         """The `Sdf.Path` of each prim."""
-        return self._query("paths", lambda: map(get_path, self.prims))
+        return self._query("paths", get_path, self.prims)
 
     @property
     def stacks(self) -> list[Any]:
         """The prim specs, strongest first."""
-        return self._query("stacks", lambda: map(get_prim_stack, self.prims))
+        return self._query("stacks", get_prim_stack, self.prims)
 
     @property
     def families(self) -> list[tuple[Any, int]]:
@@ -74,29 +74,32 @@ class PrimBatch:
     @property
     def children(self) -> list[Any]:
         """The live children of each prim, those of an instance too."""
-        return self._query(
-            "children", lambda: map(get_children, self.prims, repeat(WITH_INSTANCES))
-        )
+        return self._query("children", get_children, self.prims, repeat(WITH_INSTANCES))
 
     def relationships(self, name: str) -> list[Any]:
         """The relationships of that name; invalid where a prim has none."""
-        return self._query(("rel", name), lambda: map(get_relationship, self.prims, repeat(name)))
+        return self._query(("rel", name), get_relationship, self.prims, repeat(name))
 
     def attributes(self, name: str) -> list[Any]:
         """The attributes of that name, whether authored or not."""
-        return self._query(
-            ("attribute", name), lambda: map(get_attribute, self.prims, repeat(name))
-        )
+        return self._query(("attribute", name), get_attribute, self.prims, repeat(name))
 
     def counts(self, name: str) -> list[int]:
         """The numbers of time samples of the attributes of that name, those in clips included."""
-        return self._query(("count", name), lambda: map(count_samples, self.attributes(name)))
+        return self._query(("count", name), count_samples, self.attributes(name))
 
     def values(self, name: str) -> list[Any]:
         """The defaults of the attributes of that name; None where there is none."""
-        return self._query(("value", name), lambda: map(get_value, self.attributes(name)))
+        return self._query(("value", name), get_value, self.attributes(name))
 
-    def _query(self, query: Hashable, make: Callable[[], Iterable[Any]]) -> list[Any]:
-        if query not in self._cache:
-            self._cache[query] = list(make())
-        return self._cache[query]
+    def _query(
+        self, query: Hashable, ask: Callable[..., Any], *columns: Iterable[Any]
+    ) -> list[Any]:
+        known = self._cache.get(query)
+        if known is None:
+            known = self._cache[query] = list(map(ask, *columns))
+        return known
+
+
+def _names(prim: Any) -> tuple[str, ...]:
+    return tuple(get_property_names(prim))
