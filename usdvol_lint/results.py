@@ -116,7 +116,7 @@ class StageResult(NamedTuple):
         """
         shown = zip(self.causes, self.worst, strict=True)
         counted = [level for number, level in shown if level and causes[number].state.counts]
-        levels = dict(sorted(Counter(counted).items()))
+        levels = {level: counted.count(level) for level in sorted(set(counted))}
         shared = {} if equal is None else equal
         return self._replace(levels=shared.setdefault(tuple(levels.items()), levels))
 
