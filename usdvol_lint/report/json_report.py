@@ -33,6 +33,7 @@ _ENCODE = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
 
 _LABELS = {severity: severity.label for severity in Severity}
 
+
 class Shared(NamedTuple):
     """What many causes have in common, each written once in a report."""
 

@@ -11,11 +11,10 @@ if TYPE_CHECKING:
 
 
 class Answer:
-    """A future whose lock is made by who waits for it: few stages are waited for.
+    """A future that has a lock only where somebody waits for it, which is for few stages.
 
-    `settle` is called once.  What is written in one thread before what it reads is seen in the
-    other one, which writes what the first one reads: so either the waiter finds the answer, or who
-    settles it finds the waiter.
+    `settle` is called once.  It says that it is done before it looks for a waiter, and `result`
+    says that it waits before it looks once more: one of them finds the other.
     """
 
     __slots__ = ("_calls", "_error", "_is_done", "_report", "_waiter")
@@ -48,7 +47,8 @@ class Answer:
     def result(self) -> StageReport:
         """The report, once it is there."""
         if not self._is_done:
-            self._waiter = waiter = SimpleQueue()
+            waiter: SimpleQueue[None] = SimpleQueue()
+            self._waiter = waiter
             if not self._is_done:
                 waiter.get()
         if self._error:

@@ -5,21 +5,12 @@ After `Setup` the parent sends paths, and the worker answers each with `Done`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any, Final, NamedTuple, TypeAlias, TypeVar
 
 from usdvol_lint.config import Depth
-from usdvol_lint.model import (
-    Cover,
-    Excerpt,
-    Finding,
-    Severity,
-    Site,
-    Source,
-    StageReport,
-    Status,
-)
+from usdvol_lint.model import Cover, Excerpt, Finding, Severity, Site, Source, StageReport, Status
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.suppressions import InStages
 
@@ -92,15 +83,16 @@ class NewFindings(NamedTuple):
         code, name, severity, message, *rest = self.columns
         *where, excerpt, entry = self.sites
         level, *extent = self.covers
-        excerpts = [each and Excerpt(*each) for each in excerpt]
+        excerpts = tuple([each and Excerpt(*each) for each in excerpt])
         sites = _rows(Site, self.number, *where, excerpts, entry)
         sources = _rows(Source, self.number, *self.sources)
-        covers = _rows(Cover, len(level), [_SEVERITIES[each] for each in level], *extent)
-        severities = [_SEVERITIES[each] for each in severity]
-        parts = (sites, sources, covers)
-        return iter(
-            _rows(Finding, self.number, code, name, severities, message, *parts, *rest)
-        )
+        covers = _rows(Cover, len(level), _levels(level), *extent)
+        said = (code, name, _levels(severity), message, sites, sources, covers, *rest)
+        return iter(_rows(Finding, self.number, *said))
+
+
+def _levels(numbers: tuple[int, ...]) -> tuple[Severity, ...]:
+    return tuple(map(_SEVERITIES.__getitem__, numbers))
 
 
 def _shortened(*columns: tuple[Any, ...]) -> _Columns:
@@ -114,7 +106,7 @@ def _short(column: tuple[Any, ...]) -> tuple[Any, ...]:
     return (first,) if is_even else column
 
 
-def _rows(kind: type[_Row], number: int, *columns: Sequence[Any]) -> Sequence[_Row]:
+def _rows(kind: type[_Row], number: int, *columns: tuple[Any, ...]) -> tuple[_Row, ...]:
     """So many named tuples, made without their own constructor, which is Python's."""
     full = [each * number if len(each) == 1 else each for each in columns]
     return tuple(map(partial(tuple.__new__, kind), zip(*full, strict=True)))
@@ -151,4 +143,3 @@ class Advance(NamedTuple):
     """Samples of a long sequence read since the last such message; more messages follow."""
 
     samples: int
-
