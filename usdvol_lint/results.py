@@ -114,9 +114,11 @@ class StageResult(NamedTuple):
 
         What is `equal` to the levels of another stage is shared with it.
         """
+        if not (self.causes or self.levels):
+            return self
         shown = zip(self.causes, self.worst, strict=True)
         counted = [level for number, level in shown if level and causes[number].state.counts]
-        levels = dict(sorted(Counter(counted).items()))
+        levels = {level: counted.count(level) for level in sorted(set(counted))}
         shared = {} if equal is None else equal
         return self._replace(levels=shared.setdefault(tuple(levels.items()), levels))
 

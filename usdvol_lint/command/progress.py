@@ -58,6 +58,8 @@ class ProgressBar:
         self._stages = stages
 
     def stage_done(self) -> None:
+        if not self._enabled:
+            return
         with self._lock:
             self._done += 1
             self._show()
@@ -69,6 +71,8 @@ class ProgressBar:
 
     def awaits(self, path: str, number: int) -> None:
         """Says which stage is told next, and how many were before it."""
+        if not self._enabled:
+            return
         with self._lock:
             self._awaited, self._number = path, number
 

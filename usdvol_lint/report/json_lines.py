@@ -10,7 +10,15 @@ from collections.abc import Iterator, Mapping
 
 from usdvol_lint.model import Severity
 from usdvol_lint.report import Options, Writer
-from usdvol_lint.report.json_report import Shared, cause_object, head, line, place_object, rest
+from usdvol_lint.report.json_report import (
+    Shared,
+    cause_members,
+    escaped,
+    head,
+    line,
+    place_members,
+    rest,
+)
 from usdvol_lint.results import Cause, Place, Report
 
 
@@ -29,12 +37,12 @@ class JsonLines(Writer):
 
     def cause(self, number: int, cause: Cause) -> Iterator[str]:
         self._said[number] = cause
-        said = cause_object(cause, cause.places[:1], self._shared)
-        yield _of_type("cause", {"number": number, **said})
+        said = cause_members(cause, cause.places[:1], self._shared)
+        yield escaped(f'{{"type": "cause", "number": {number}, {said}}}\n')
 
     def place(self, number: int, place: Place) -> Iterator[str]:
-        said = place_object(place, self._said[number].first, self._shared)
-        yield _of_type("place", {"cause": number, **said})
+        said = place_members(place, self._said[number].first, self._shared)
+        yield escaped(f'{{"type": "place", "cause": {number}, {said}}}\n')
 
     def raised(self, number: int, cause: Cause, was: Severity) -> Iterator[str]:
         self._said[number] = self._said[number]._replace(severity=cause.severity)
@@ -53,7 +61,9 @@ class JsonLines(Writer):
         """What was not known yet when a cause was told."""
         changed: dict[str, object] = {}
         if cause.cover != said.cover:
-            changed["cover"] = self._shared.cover(cause.cover)
+            from usdvol_lint.baseline.cover import cover_as_json
+
+            changed["cover"] = cover_as_json(cause.cover)
         if cause.count != said.count:
             changed["count"] = cause.count
         return changed

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from itertools import islice
-from typing import TYPE_CHECKING
+from queue import Empty, SimpleQueue
 
 from usdvol_lint.model import StageReport
+from usdvol_lint.run.answers import Answer
 from usdvol_lint.run.pool import Pool
-
-if TYPE_CHECKING:
-    from concurrent.futures import Future
 
 MOST_AHEAD = 1000
 """How many stages are looked at while one before them is not done yet."""
+_PAUSE = 0.02
+"""Seconds that a stage which is done may wait to be told: to be woken for each takes longer."""
 
 
 class Ahead:
@@ -24,7 +26,10 @@ class Ahead:
         self._pool = pool
         self._done = done
         self._left = iter(paths)
-        self._futures: deque[Future[StageReport]] = deque()
+        self._answers: deque[Answer] = deque()
+        self._lock = threading.RLock()  # a signal may interrupt who has it
+        self._unsettled = 0
+        self._all_done: SimpleQueue[None] = SimpleQueue()
         pool.expects_more = len(paths) > MOST_AHEAD
         for path in islice(self._left, MOST_AHEAD):
             self._submit(path)
@@ -36,9 +41,23 @@ class Ahead:
             self._pool.expects_more = False
         else:
             self._submit(path)
-        return self._futures.popleft().result()
+        answer = self._answers.popleft()
+        if not answer.done():
+            with suppress(Empty):
+                self._all_done.get(timeout=_PAUSE)
+        return answer.result()
 
     def _submit(self, path: str) -> None:
-        future = self._pool.submit(path)
-        future.add_done_callback(lambda _: self._done())
-        self._futures.append(future)
+        with self._lock:
+            self._unsettled += 1
+        answer = self._pool.submit(path)
+        self._answers.append(answer)
+        answer.add_done_callback(self._settled)
+
+    def _settled(self, answer: Answer) -> None:
+        self._done()
+        with self._lock:
+            self._unsettled -= 1
+            is_last = not self._unsettled
+        if is_last:
+            self._all_done.put(None)

@@ -28,20 +28,21 @@ class _Places:
 
     __slots__ = ("count", "cover", "first", "here", "severity")
 
-    def __init__(self, first: Place) -> None:
-        self.first = [first]
+    def __init__(self, stage: int, finding: Finding) -> None:
+        self.first = [Place(stage, finding)]
         self.count = self.here = 1
-        self.severity = first.finding.severity
-        self.cover = first.finding.cover
+        self.severity = finding.severity
+        self.cover = finding.cover
 
-    def add(self, place: Place, most: int) -> None:
+    def add(self, stage: int, finding: Finding, most: int) -> None:
         self.count += 1
-        self.here += place.stage == self.first[0].stage
-        self.severity = max(self.severity, place.finding.severity)
-        if self.cover != place.finding.cover:
-            self.cover = join(self.cover, place.finding.cover)
+        self.here += stage == self.first[0].stage
+        if self.severity < finding.severity:
+            self.severity = finding.severity
+        if self.cover != finding.cover:
+            self.cover = join(self.cover, finding.cover)
         if len(self.first) < most:
-            self.first.append(place)
+            self.first.append(Place(stage, finding))
 
 
 class _Gathered:
@@ -59,16 +60,16 @@ class _Gathered:
         self.left: _Places | None = None
         self.suppressed: _Places | None = None
 
-    def add(self, place: Place, most: int) -> None:
-        if place.finding.ignored is not None:
+    def add(self, stage: int, finding: Finding, most: int) -> None:
+        if finding.ignored is not None:
             if self.suppressed:
-                self.suppressed.add(place, most)
+                self.suppressed.add(stage, finding, most)
             else:
-                self.suppressed = _Places(place)
+                self.suppressed = _Places(stage, finding)
         elif self.left:
-            self.left.add(place, most)
+            self.left.add(stage, finding, most)
         else:
-            self.left = _Places(place)
+            self.left = _Places(stage, finding)
 
 
 class _Again(NamedTuple):
@@ -76,6 +77,7 @@ class _Again(NamedTuple):
 
     gathered: _Gathered
     place: Place
+    is_kept: bool
     before: Severity
 
 
@@ -142,19 +144,21 @@ class Causes:
                 gathered = found[key] = _Gathered(key)
             if is_judged:
                 finding = self._judged(stage_path, finding, Source(*key[1:]))
-            place = Place(stage, finding)
             worst = shown.setdefault(gathered, None)
             if finding.ignored is None:
-                shown[gathered] = max(worst or finding.severity, finding.severity)
-                self._note(gathered, place)
-            gathered.add(place, most)
+                if worst is None or worst < finding.severity:
+                    shown[gathered] = finding.severity
+                if gathered.number is None:
+                    self._number(gathered)
+                elif gathered.is_told and gathered.left:
+                    self._note(gathered, gathered.left, Place(stage, finding))
+            gathered.add(stage, finding, most)
 
-    def _note(self, gathered: _Gathered, place: Place) -> None:
-        """Keeps what is to be told of a place that is left, before it is added."""
-        if gathered.number is None:
-            self._number(gathered)
-        elif gathered.is_told and gathered.left:
-            self._again.append(_Again(gathered, place, gathered.left.severity))
+    def _note(self, gathered: _Gathered, left: _Places, place: Place) -> None:
+        """Keeps what is to be told of another place, before it is added."""
+        is_kept = len(left.first) < self._most
+        if is_kept or left.severity < place.finding.severity:
+            self._again.append(_Again(gathered, place, is_kept, left.severity))
 
     def _number(self, gathered: _Gathered) -> None:
         gathered.number = len(self._numbered)
@@ -174,9 +178,9 @@ class Causes:
                 teller.place(number, place)
         self._new.clear()
         before: dict[_Gathered, Severity] = {}
-        for gathered, place, was in self._again:
+        for gathered, place, is_kept, was in self._again:
             assert gathered.left
-            if any(place is kept for kept in gathered.left.first):
+            if is_kept:
                 teller.place(_number_of(gathered), place)
             worst = before.setdefault(gathered, was)
             if worst < gathered.left.severity == place.finding.severity:
@@ -233,9 +237,8 @@ class Causes:
         return tuple(whole)
 
     def _causes_of(self, shown: _Shown) -> _Numbers:
-        pairs = ((each.number, worst) for each, worst in shown.items() if each.number is not None)
-        found = sorted(pairs, key=itemgetter(0))
-        causes, worst = tuple(each for each, _ in found), tuple(level for _, level in found)
+        pairs = [(each.number, worst) for each, worst in shown.items() if each.number is not None]
+        causes, worst = zip(*sorted(pairs, key=itemgetter(0)), strict=True) if pairs else ((), ())
         return {
             "causes": self._once(("causes", *causes), causes),
             "worst": self._once(("worst", *worst), worst),

@@ -34,7 +34,8 @@ class Deadline:
         self._looks = True
         self._looks_from = 0.0
         self._is_closed = False
-        self._changed = threading.Condition()
+        self._lock = threading.Lock()
+        self._changed = threading.Condition(self._lock)
         self._thread: threading.Thread | None = None
         self._wakes_at = _UNLIMITED
 
@@ -48,19 +49,20 @@ class Deadline:
     def set(self, seconds: float, looks: bool = True) -> None:
         """Lets the time run from now on; unless it `looks`, nothing is asked meanwhile."""
         self.start()
+        now = time.monotonic()
         self._looks = looks
         if looks:
-            self._looks_from = self._looks_from or time.monotonic() + _FEW_SECONDS
+            self._looks_from = self._looks_from or now + _FEW_SECONDS
         self.is_expired = self.is_over = False
-        with self._changed:
+        with self._lock:
             self._number += 1
-            self._at = time.monotonic() + seconds
+            self._at = now + seconds
             if self._at < self._wakes_at:
                 self._changed.notify()
 
     def clear(self) -> None:
         """Stops the time: whether it is expired does not change any more."""
-        with self._changed:  # the thread notices once it wakes
+        with self._lock:  # the thread notices once it wakes
             self._at = _UNLIMITED
 
     def close(self) -> None:

@@ -31,7 +31,8 @@ def folded(
         waits = is_part or not are_declared
         absent = tuple(each for each in report.findings if each.absent) if waits else ()
         causes.add(stage, report.path, _present(report.findings) if absent else report.findings)
-        report = report._replace(findings=() if is_part else absent)
+        if report.findings:
+            report = report._replace(findings=() if is_part else absent)
         if report.findings:
             lacking[stage] = report
         if report.findings or report.completes:

@@ -7,12 +7,12 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from concurrent.futures import Future, InvalidStateError
 from contextlib import suppress
 from typing import TYPE_CHECKING, TypeAlias
 
 from usdvol_lint.engine.trouble import report_trouble
 from usdvol_lint.model import StageReport, Status, UsageError
+from usdvol_lint.run.answers import Answer
 from usdvol_lint.run.endings import not_started
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.memory import Memory
@@ -32,7 +32,7 @@ _IDLE = 0.05
 _AHEAD = 8
 """How many small stages a worker has beside the one that it checks."""
 
-_Stage: TypeAlias = tuple[str, Future[StageReport]]
+_Stage: TypeAlias = tuple[str, Answer]
 
 
 class InterruptedRunError(Exception):
@@ -40,7 +40,7 @@ class InterruptedRunError(Exception):
 
 
 class Pool:
-    """Workers behind the interface of an executor: `submit` gives a Future of a StageReport.
+    """Workers behind the interface of an executor: `submit` gives the Answer for a stage.
 
     The first worker starts at once, unless its child process is given; others start only while
     stages are waiting.
@@ -53,7 +53,7 @@ class Pool:
         self._waiting: queue.SimpleQueue[_Stage] = queue.SimpleQueue()
         self._workers: list[Worker] = [self._first]
         self._closed = False
-        self._submitted: set[Future[StageReport]] = set()
+        self._unsettled: set[Answer] = set()
         self._why_not: UsageError | None = None
         self.expects_more = False
         """Whether more stages will be submitted, so that a worker waits for them."""
@@ -67,17 +67,26 @@ class Pool:
         """What USD said of itself, and not of a stage."""
         return self._first.said
 
-    def submit(self, path: str) -> Future[StageReport]:
+    def submit(self, path: str) -> Answer:
         """Queues a stage; nothing happens to it before `run`."""
-        future: Future[StageReport] = Future()
-        self._submitted.add(future)
-        future.add_done_callback(self._submitted.discard)
-        self._waiting.put((path, future))
+        answer = Answer()
+        self._unsettled.add(answer)
+        self._waiting.put((path, answer))
         if self._closed:
-            _interrupt(future)
+            self._settle(answer, None, InterruptedRunError())
         if self._why_not:
             self._refuse(self._why_not)
-        return future
+        return answer
+
+    def _settle(
+        self, answer: Answer, report: StageReport | None, error: Exception | None = None
+    ) -> None:
+        """Settles what is not settled yet, as it is in a run that was interrupted."""
+        try:
+            self._unsettled.remove(answer)  # of two threads it is one that can
+        except KeyError:
+            return
+        answer.settle(report, error)
 
     def run(
         self,
@@ -89,8 +98,7 @@ class Pool:
     ) -> None:
         """Starts to work the queue off with at most `jobs` workers, in threads; does not wait.
 
-        `limit` are the seconds that one stage may take, `memory` is what one worker may keep; a
-        future holds what its stage came to.
+        `limit` are the seconds that one stage may take, `memory` is what one worker may keep.
         Raises UsageError if the first worker can't work.
         """
         workers = max(1, min(jobs, owned(), self._waiting.qsize()))
@@ -136,17 +144,16 @@ class Pool:
                 if self._is_done():
                     return
                 continue
-            path, future = stage = taken.popleft()
+            path, answer = stage = taken.popleft()
             began = time.perf_counter()
-            with suppress(InvalidStateError):  # of a run that was interrupted
-                try:
-                    report = worker.lint(path, limit, advance, [each for each, _ in taken])
-                except UsageError as error:
-                    return self._give_up(error, stage, *taken)
-                except Exception as error:  # raised again where the result is asked for
-                    future.set_exception(error)
-                else:
-                    future.set_result(report)
+            try:
+                report = worker.lint(path, limit, advance, [each for each, _ in taken])
+            except UsageError as error:
+                return self._give_up(error, stage, *taken)
+            except Exception as error:  # raised again where the result is asked for
+                self._settle(answer, None, error)
+            else:
+                self._settle(answer, report)
             seconds = time.perf_counter() - began
 
     def _take(self, taken: deque[_Stage], seconds: float) -> None:
@@ -185,18 +192,17 @@ class Pool:
     def _refuse(self, why: UsageError) -> None:
         with suppress(queue.Empty):
             while True:
-                path, future = self._waiting.get_nowait()
-                with suppress(InvalidStateError):
-                    trouble = not_started(str(why))
-                    future.set_result(report_trouble(path, trouble, Status.UNCHECKED))
+                path, answer = self._waiting.get_nowait()
+                trouble = not_started(str(why))
+                self._settle(answer, report_trouble(path, trouble, Status.UNCHECKED))
 
     def interrupt(self) -> None:
         """Ends the run at once: no stage that is not done yet has a report any more."""
         self._closed = True
         for worker in self._workers:
             worker.kill()
-        for future in tuple(self._submitted):
-            _interrupt(future)
+        for answer in tuple(self._unsettled):
+            self._settle(answer, None, InterruptedRunError())
 
     def close(self) -> None:
         """Ends all workers."""
@@ -205,11 +211,6 @@ class Pool:
             worker.kill()
         for worker in self._workers:
             worker.stop()
-
-
-def _interrupt(future: Future[StageReport]) -> None:
-    with suppress(InvalidStateError):  # it is done
-        future.set_exception(InterruptedRunError())
 
 
 def _in_a_thread(call: Callable[..., None], *arguments: object) -> None:

@@ -5,19 +5,23 @@ After `Setup` the parent sends paths, and the worker answers each with `Done`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Sequence
+from functools import partial
+from typing import Any, Final, NamedTuple, TypeAlias, TypeVar
 
 from usdvol_lint.config import Depth
-from usdvol_lint.model import Cover, Excerpt, Finding, Site, Source, StageReport
+from usdvol_lint.model import Cover, Excerpt, Finding, Severity, Site, Source, StageReport, Status
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.suppressions import InStages
 
 SHORT = 0.02
 """Seconds that a small stage takes at most."""
 
-_PARTS = Finding._fields.index("site")
-_EXCERPT = Site._fields.index("excerpt")
+_SEVERITIES: Final = {int(each): each for each in Severity}
+_STATUSES: Final = {each.value: each for each in Status}
+
+_Columns: TypeAlias = tuple[Any, ...]
+_Row = TypeVar("_Row", bound=tuple[Any, ...])
 
 
 class Setup(NamedTuple):
@@ -55,19 +59,62 @@ class Refusal(NamedTuple):
 class NewFindings(NamedTuple):
     """Findings on a stage since the last such message; more messages about the stage follow.
 
-    They are plain tuples: a named tuple is pickled by a call of Python's, which takes three times
-    as long.
+    They are the columns of a table, those of `site`, `source` and `cover` by themselves: so hardly
+    any code of Python's runs for each finding, as it does where named tuples are pickled.
     """
 
-    plain: list[tuple[Any, ...]]
+    number: int
+    columns: _Columns
+    sites: _Columns
+    sources: _Columns
+    covers: _Columns
 
     @classmethod
-    def of(cls, findings: Iterable[Finding]) -> NewFindings:
-        return cls(list(map(_plain, findings)))
+    def of(cls, findings: Sequence[Finding]) -> NewFindings:
+        code, name, severity, message, sites, sources, covers, *rest = zip(*findings, strict=True)
+        *where, excerpts, entry = zip(*sites, strict=True)
+        level, *extent = zip(*_short(covers), strict=True)
+        plain = tuple([each and (each.text, each.column) for each in excerpts])
+        return cls(
+            len(findings),
+            _shortened(code, name, tuple(map(int, severity)), message, *rest),
+            _shortened(*where, plain, entry),
+            _shortened(*zip(*sources, strict=True)),
+            (tuple(map(int, level)), *extent),
+        )
 
     @property
     def findings(self) -> Iterator[Finding]:
-        return map(_named, self.plain)
+        code, name, severity, message, *rest = self.columns
+        *where, excerpt, entry = self.sites
+        level, *extent = self.covers
+        excerpts = tuple([each and Excerpt(*each) for each in excerpt])
+        sites = _rows(Site, self.number, *where, excerpts, entry)
+        sources = _rows(Source, self.number, *self.sources)
+        covers = _rows(Cover, len(level), _levels(level), *extent)
+        said = (code, name, _levels(severity), message, sites, sources, covers, *rest)
+        return iter(_rows(Finding, self.number, *said))
+
+
+def _levels(numbers: tuple[int, ...]) -> tuple[Severity, ...]:
+    return tuple(map(_SEVERITIES.__getitem__, numbers))
+
+
+def _shortened(*columns: tuple[Any, ...]) -> _Columns:
+    return tuple(map(_short, columns))
+
+
+def _short(column: tuple[Any, ...]) -> tuple[Any, ...]:
+    """A column, with one value in the place of many that are equal."""
+    first = column[0]
+    is_even = first == column[-1] and column.count(first) == len(column)
+    return (first,) if is_even else column
+
+
+def _rows(kind: type[_Row], number: int, *columns: tuple[Any, ...]) -> tuple[_Row, ...]:
+    """So many named tuples, made without their own constructor, which is Python's."""
+    full = [each * number if len(each) == 1 else each for each in columns]
+    return tuple(map(partial(tuple.__new__, kind), zip(*full, strict=True)))
 
 
 class Done(NamedTuple):
@@ -80,27 +127,24 @@ class Done(NamedTuple):
     report: StageReport
     order: tuple[int | Finding, ...]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As plain values, since most stages have no more to tell."""
+        path, status, stats, findings, *rest = self.report
+        return _done, (self.order, path, status.value, stats, findings, *rest)
+
     def with_findings(self, sent: Sequence[Finding]) -> StageReport:
         """The whole report."""
-        found = (sent[each] if isinstance(each, int) else each for each in self.order)
+        if not self.order:
+            return self.report
+        found = [sent[each] if isinstance(each, int) else each for each in self.order]
         return self.report._replace(findings=tuple(found))
+
+
+def _done(order: tuple[int | Finding, ...], path: str, status: str, *rest: Any) -> Done:
+    return Done(StageReport(path, _STATUSES[status], *rest), order)
 
 
 class Advance(NamedTuple):
     """Samples of a long sequence read since the last such message; more messages follow."""
 
     samples: int
-
-
-def _plain(finding: Finding) -> tuple[Any, ...]:
-    site = finding.site
-    excerpt = site.excerpt and tuple(site.excerpt)
-    parts = (*site[:_EXCERPT], excerpt, site.entry), tuple(finding.source), tuple(finding.cover)
-    return (*finding[:_PARTS], *parts, *finding[_PARTS + len(parts) :])
-
-
-def _named(plain: tuple[Any, ...]) -> Finding:
-    code, name, severity, message, place, source, cover, *rest = plain
-    *where, excerpt, entry = place
-    site = Site._make((*where, excerpt and Excerpt(*excerpt), entry))
-    return Finding(code, name, severity, message, site, Source(*source), Cover(*cover), *rest)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import os
+import select
 import selectors
+from collections.abc import Callable
 from contextlib import suppress
 from subprocess import TimeoutExpired
 from typing import IO, TYPE_CHECKING, Any
@@ -49,21 +51,30 @@ def _selector(pipe: IO[bytes]) -> selectors.BaseSelector:
     return selector
 
 
+def _looking_at(pipe: IO[bytes]) -> Callable[[float], object]:
+    """Whether a pipe has something to read, or has ended, within so many seconds."""
+    if not hasattr(select, "poll"):
+        return _selector(pipe).select
+    poll = select.poll()  # what it has over a selector is that no code of Python's runs
+    poll.register(pipe, select.POLLIN)
+    return lambda seconds: poll.poll(1000 * seconds)
+
+
 class _Output(io.RawIOBase):
     def __init__(self, child: subprocess.Popen[bytes]) -> None:
         assert child.stdout
         self._child = child
         self._pipe = child.stdout
-        self._selector = _selector(child.stdout)
+        self._is_there = _looking_at(child.stdout)
 
     def readable(self) -> bool:
         return True
 
     def readinto(self, buffer: Any) -> int:
-        while not self._selector.select(_LOOKS_EVERY):
+        while not self._is_there(_LOOKS_EVERY):
             if self._child.poll() is not None:
                 kill_group(self._child)
-                if not self._selector.select(0):
+                if not self._is_there(0):
                     return 0
         return os.readv(self._pipe.fileno(), [buffer])
 

@@ -108,7 +108,8 @@ class Worker:
         """Hands the rules to a child; raises UsageError if it refuses or does not get ready."""
         if self._process is None:
             self._begin()
-        reply, expired = self._ask([self._setup], self._ready_limit, lambda message: None)
+        # What a process takes to get ready is looked at then; most runs don't take long enough.
+        reply, expired = self._ask((self._setup,), self._ready_limit, lambda message: None, False)
         if isinstance(reply, Refusal):
             raise UsageError(" ".join(reply.reason.split()))
         if self._memory.is_chosen and isinstance(reply, Ready) and self._is_too_large():
@@ -154,7 +155,7 @@ class Worker:
 
         new = (path, *following)[len(self._unanswered) :]
         self._unanswered += new
-        reply, timed_out = self._ask(new, limit, hear)
+        reply, timed_out = self._ask(new, limit, hear, looks=True)
         self._unanswered.popleft()
         self._is_gone = timed_out or self._deadline.is_over or not isinstance(reply, Done)
         if isinstance(reply, Done):
@@ -224,18 +225,17 @@ class Worker:
         messages: Sequence[Setup | str],
         limit: float,
         hear: Callable[[Advance | NewFindings], None],
+        looks: bool,
     ) -> tuple[Any, bool]:
         """The child's next reply, or None if it died or was ended; and whether the limit ended it.
 
-        `hear` is called with each message that comes before the reply.
+        `hear` is called with each message that comes before the reply; unless it `looks`, nobody
+        asks meanwhile what memory the child has.
         """
-        # What a process takes to get ready is looked at then; most runs don't take long enough.
-        self._deadline.set(limit, looks=not any(isinstance(each, Setup) for each in messages))
+        self._deadline.set(limit, looks)
         try:
-            with suppress(OSError):  # a child that has gone may have said why
-                for message in messages:
-                    pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
-                self._stdin.flush()
+            if messages:
+                self._send(messages)
             while isinstance(reply := pickle.load(self._replies), Advance | NewFindings):
                 hear(reply)
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
@@ -244,6 +244,12 @@ class Worker:
             self._deadline.clear()
         # Only now: a limit that passed while the reply came has ended the child all the same.
         return reply, self._deadline.is_expired
+
+    def _send(self, messages: Sequence[Setup | str]) -> None:
+        with suppress(OSError):  # a child that has gone may have said why
+            for message in messages:
+                pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
+            self._stdin.flush()
 
     @property
     def _stdin(self) -> IO[bytes]:
