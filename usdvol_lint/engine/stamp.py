@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.lacking import absent_of
 from usdvol_lint.engine.parts import parts_of
 from usdvol_lint.engine.site import Located, Sites, cover_of
+from usdvol_lint.facts.usd.calls import is_in_prototype
 from usdvol_lint.layertext.source import SharedTexts
 from usdvol_lint.model import Cover, Finding, Severity
 from usdvol_lint.packs.activation import ActiveRules
@@ -104,33 +105,31 @@ class Stamp:
             return
         root = stage.GetPseudoRoot()
         for prim in failed:
-            self._tried(prim, partial(self._suppressions.ask, prim), None)
+            self.sites.tried(prim, _SUPPRESSED, self._suppressions.ask, prim)
         if self._asked.unused:
-            codes = self._active.severities
-            found = self._tried(root, lambda: list(self._suppressions.unused(stage, codes)), [])
-            for unused in found:
+            for unused in self.sites.tried(root, _SUPPRESSED, self._unused, stage) or ():
                 yield from self.stamp(UNUSED_SUPPRESSION, unused)
         if "_suppressions" in self.__dict__:
             for fault in self._suppressions.faults():
                 yield from self.stamp(UNUSED_SUPPRESSION, fault)
 
-    def _tried(self, prim: Any, find: Callable[[], Any], otherwise: Any) -> Any:
-        """What suppressions say at a prim; where they can't be asked, `otherwise`."""
-        return self.sites.tried(prim, _SUPPRESSED, find, otherwise)
+    def _unused(self, stage: Any) -> list[Problem]:
+        return list(self._suppressions.unused(stage, self._active.severities))
 
     def _stamped(
         self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
     ) -> Iterator[Stamped]:
+        tried = self.sites.tried
         located = self.sites.locate(problem)
-        source, blame = located.source, located.blame
+        prim, source, blame = located.prim, located.source, located.blame
         clip = ""
         if blame.clip and blame.clip.rpartition("/")[2] not in problem.message:
             clip = f" (in the clip {quoted(blame.clip)})"
         if reported_as is not rule and source.layer is not None:
             source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())
         own = min(reported_as.severity, problem.severity or reported_as.severity)
-        prim, tried = problem.at.GetPrim(), self.sites.tried
-        cover = tried(prim, _REACH, lambda: cover_of(problem, blame, own), Cover(own))
+        cover = tried(prim, _REACH, cover_of, problem, blame, own) or Cover(own)
+        absent = () if self._is_alone else tried(prim, _ABSENT, absent_of, problem)
         finding = Finding(
             code=reported_as.code,
             name=reported_as.name,
@@ -142,34 +141,33 @@ class Stamp:
             suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST_SUGGESTION),
             help=help_for(reported_as),
             fold=problem.fold,
-            absent=() if self._is_alone else tried(prim, _ABSENT, lambda: absent_of(problem), ()),
+            absent=absent or (),
             since=problem.since,
         )
         same = identity(rule, problem, blame.spec) if self._several_selections else ()
-        as_told = [_shown_by(finding, located.instances)]
-        for shown in self._tried(
-            prim, lambda: list(self._as_shown(finding, problem, located)), as_told
-        ):
+        as_shown = tried(prim, _SUPPRESSED, self._as_shown, finding, located)
+        if as_shown is None:
+            as_shown = [_shown_by(finding, located.instances)]
+        for shown in as_shown:
             reason = (shown.ignored,) if same and shown.ignored else ()
             yield Stamped(shown, (*same, *reason), problem.holds)
 
-    def _as_shown(
-        self, finding: Finding, problem: Problem | NotChecked, located: Located
-    ) -> Iterator[Finding]:
+    def _as_shown(self, finding: Finding, located: Located) -> list[Finding]:
         """The finding, or one for each reason why some of its instances are ignored."""
         if not self._asked.heeded:
-            yield _shown_by(finding, located.instances)
-            return
-        prim = problem.at.GetPrim()
+            return [_shown_by(finding, located.instances)]
+        prim = located.prim
         layer = None if finding.source.layer is None else located.layer
-        if not prim.IsInPrototype():
+        if not is_in_prototype(prim):
             reason = self._suppressions.reason(prim, layer, finding.code)
-            yield finding if reason is None else finding._replace(ignored=reason)
-            return
-        for share in self._suppressions.shares(prim, layer, finding.code):
-            site = finding.site._replace(prim=share.path)
-            told = finding._replace(site=site, ignored=share.reason)
-            yield _shown_by(told, share.instances)
+            return [finding if reason is None else finding._replace(ignored=reason)]
+        return [
+            _shown_by(
+                finding._replace(site=finding.site._replace(prim=share.path), ignored=share.reason),
+                share.instances,
+            )
+            for share in self._suppressions.shares(prim, layer, finding.code)
+        ]
 
     def _lowered(self, severity: Severity, problem: Problem | NotChecked, code: str) -> Severity:
         """The severity of a milder or younger case, unless the user chose one for the rule."""
