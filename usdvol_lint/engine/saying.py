@@ -14,7 +14,7 @@ from usdvol_lint.facts.usd.calls import (
 )
 from usdvol_lint.rule import APIS, TYPE
 
-_VALUES = ("default", "timeSamples", "targetPaths", "spline")
+_VALUES = ("default", "targetPaths", "timeSamples", "spline")
 
 
 def of_prim(prim: Any, of: Any) -> Any | None:

@@ -29,9 +29,13 @@ _DIGITS = 6
 
 
 class Located(NamedTuple):
-    """A site and its prim, what is to blame and its layer, and how many instances show it."""
+    """A site and its prim, what is to blame and its layer, and how many instances show it.
+
+    `path` is that of the first that shows the prim on the stage.
+    """
 
     prim: Any
+    path: str
     site: Site
     source: Source
     blame: Blame
@@ -123,38 +127,38 @@ class Sites:
             at_default=problem.at_default,
         )
         source = Source(real_name(root), path, name, problem.subject)
-        return Located(prim, site, source, Blame(None), root, 1)
+        return Located(prim, path, site, source, Blame(None), root, 1)
 
     def _find(self, prim: Any, problem: Problem | NotChecked) -> Located:
         at = problem.at
         on_stage, instances = shown(prim)
         blame = self._blaming.blame(problem)
-        spec = blame.spec
-        blamed = spec.layer if spec else get_stage(prim).GetRootLayer()
+        spec = blame.spec or None
+        blamed = get_stage(prim).GetRootLayer() if spec is None else spec.layer
         layer = self._layer(blamed)
-        path = str(spec.path) if spec else "/"
+        path = "/" if spec is None else str(spec.path)
         asset = blame.clip or blame.asset or problem.asset
         position = layer.position(path, blame.time, asset, on_stage)
         site = Site(
-            layer=layer.shown,
-            variant=_variants(spec.path) if spec and "{" in path else None,
-            prim=None if on_stage == "/" else on_stage,
-            property=get_name(at) if isinstance(at, Usd.Property) else None,
-            times=problem.times,
-            at_default=problem.at_default,
-            line=position.line if position else None,
-            column=position.column if position else None,
-            excerpt=position.excerpt if position else None,
-            entry=self._entries.of(prim, spec, layer.real) if self._entries and spec else None,
+            layer.shown,
+            None if on_stage == "/" else on_stage,
+            get_name(at) if isinstance(at, Usd.Property) else None,
+            _variants(spec.path) if spec is not None and "{" in path else None,
+            position.line if position else None,
+            position.column if position else None,
+            problem.times,
+            problem.at_default,
+            position.excerpt if position else None,
+            self._entries.of(prim, spec, layer.real) if self._entries and spec else None,
         )
         if problem.machine is not None:
             source = Source(None, subject=problem.machine)
         else:
-            prim_path = _path_of_prim(spec, path) if spec else None
+            prim_path = None if spec is None else _path_of_prim(spec, path)
             is_link = layer.link and leads_elsewhere(layer.link, asset)
             name = layer.link if is_link else layer.real
             source = Source(name, prim_path, blame.property, blame.subject)
-        return Located(prim, site, source, blame, blamed, instances)
+        return Located(prim, on_stage, site, source, blame, blamed, instances)
 
     def _layer(self, layer: Any) -> _Layer:
         found = self._layers.get(layer)

@@ -51,12 +51,12 @@ class Suppressions:
         self._marked: set[tuple[Any, str]] = set()
         self._shares = Shares(self._reason_at, self._asked.prims)
 
-    def reason(self, prim: Any, layer: Any | None, code: str) -> str | None:
+    def reason(self, prim: Any, path: str, layer: Any | None, code: str) -> str | None:
         """Why a finding at a prim outside of prototypes is ignored; None if it is not.
 
-        `layer` is the one to blame; None if there is none.
+        `path` is the prim's, `layer` the one to blame; None if there is none.
         """
-        reason = self._reason_at(prim, code)
+        reason = self._reason_at(prim, code, path)
         if reason is not None:
             return reason or None
         said = self._said_by(layer, prim, code)
@@ -72,9 +72,9 @@ class Suppressions:
             self._use_layer(layer, code)
         return found
 
-    def ask(self, prim: Any) -> Mapping[str, _Reason]:
+    def ask(self, prim: Any, path: str | None = None) -> Mapping[str, _Reason]:
         """What a prim and those above it ignore; the root of a prototype has no data."""
-        path = str(get_path(prim))
+        path = path or str(get_path(prim))
         waiting = []
         while (known := self._above.get(path)) is None:
             waiting.append((path, prim))
@@ -115,9 +115,9 @@ class Suppressions:
         problem.holds = lambda: key not in self._used
         return problem
 
-    def _reason_at(self, prim: Any, code: str) -> str | None:
+    def _reason_at(self, prim: Any, code: str, path: str | None = None) -> str | None:
         """Why a prim ignores a code, or TAKEN_BACK; None if nothing is said there."""
-        reason = self.ask(prim).get(code)
+        reason = self.ask(prim, path).get(code)
         if reason is None:
             return None
         if self._asked.unused and (reason.prim, code) not in self._marked:

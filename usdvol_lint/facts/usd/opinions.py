@@ -37,18 +37,14 @@ def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
 
 def _strongest(attribute: Any, time: float | None) -> Opinion | None:
     code, keys = (_DEFAULT, _OF_DEFAULT) if time is None else (time, _OF_TIMES)
-    for spec, offset in _stack(attribute, code):
+    try:
+        stack = get_stack_with_offsets(attribute, code)
+    except UNREADABLE:  # not all clips open
+        stack = get_stack_with_offsets(attribute, _DEFAULT)
+    for spec, offset in stack:
         if any(map(spec.HasInfo, keys)):
             return Opinion(spec, offset)
     return None
-
-
-def _stack(attribute: Any, code: Any) -> Any:
-    """The specs and their offsets, strongest first; those in clips only if all clips open."""
-    try:
-        return get_stack_with_offsets(attribute, code)
-    except UNREADABLE:
-        return get_stack_with_offsets(attribute, _DEFAULT)
 
 
 def is_of_retimed_clip(attribute: Any, time: float, opinion: Opinion) -> bool:
