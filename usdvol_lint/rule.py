@@ -135,8 +135,8 @@ class _Result:
     """
 
     __slots__ = (
-        *("against", "asset", "at", "at_default", "cover", "fold", "machine", "message", "of"),
-        *("spec", "subject", "suggestion", "times"),
+        *("absent", "against", "asset", "at", "at_default", "cover", "fold", "holds", "machine"),
+        *("message", "of", "severity", "since", "spec", "subject", "suggestion", "times"),
     )
 
     def __init__(
@@ -154,6 +154,10 @@ class _Result:
         subject: str = "",
         fold: str | None = None,
         machine: str | None = None,
+        severity: Severity | None = None,
+        since: str | None = None,
+        holds: Callable[[], bool] | None = None,
+        absent: Iterable[tuple[tuple[Prim, str], ...]] = (),
     ) -> None:
         # What is no text here would fail where reports are written, for all stages at once.
         is_text = isinstance(message, str) and isinstance(subject, str)
@@ -163,18 +167,13 @@ class _Result:
         if not type(at).__module__.startswith("pxr"):  # to ask a prim what it lacks takes long
             self.cover = at
             at, times, at_default, asset = at.attribute, at.times, at.at_default, at.asset
-        self.message = message
-        self.at = at
+        self.message, self.suggestion, self.fold = message, suggestion, fold
+        self.at, self.at_default, self.asset = at, at_default, asset
         self.times = tuple(map(float, times)) if times else ()
-        self.at_default = at_default
-        self.suggestion = suggestion
-        self.spec = spec
-        self.asset = asset
-        self.of = of
-        self.against = tuple(against)
+        self.spec, self.of, self.against = spec, of, tuple(against)
         self.subject = subject or (of[1] if isinstance(of, tuple) else "")
-        self.fold = fold
-        self.machine = machine
+        self.machine, self.severity, self.since = machine, severity, since
+        self.holds, self.absent = holds, tuple(absent)
 
 
 class Problem(_Result):
@@ -188,31 +187,22 @@ class Problem(_Result):
     of the run composes this one and has all of it, of each part (see `lacks`) one.
     """
 
-    __slots__ = ("absent", "holds", "severity", "since")
-
-    def __init__(
-        self,
-        message: str,
-        *,
-        severity: Severity | None = None,
-        since: str | None = None,
-        holds: Callable[[], bool] | None = None,
-        absent: Iterable[tuple[tuple[Prim, str], ...]] = (),
-        **where: Any,
-    ) -> None:
-        super().__init__(message, **where)
-        self.severity = severity
-        self.since = since
-        self.holds = holds
-        self.absent = tuple(absent)
+    __slots__ = ()
 
 
 class NotChecked(_Result):
     """What a rule could not check, and why: reported as LNT005, never as an error."""
 
     __slots__ = ()
-    severity = since = holds = None
-    absent = ()
+
+    def __init__(self, message: str, **where: Any) -> None:
+        if not where.keys().isdisjoint(_OF_PROBLEMS):
+            raise TypeError(f"{', '.join(_OF_PROBLEMS)} are of problems only")
+        super().__init__(message, **where)
+
+
+_OF_PROBLEMS = ("severity", "since", "holds", "absent")
+"""What only a `Problem` has: nothing is known of what was not checked."""
 
 
 Problems: TypeAlias = Iterator[Problem | NotChecked]

@@ -13,6 +13,15 @@ from usdvol_lint.engine.strength import Opinion, Standing, decisive, path_beside
 from usdvol_lint.engine.taking import Edit, Takings
 from usdvol_lint.engine.variables import deciding_layer
 from usdvol_lint.facts.usd.bringing import node_of
+from usdvol_lint.facts.usd.calls import (
+    get_name,
+    get_parent,
+    get_prim,
+    get_property_stack,
+    get_stage,
+    has_metadata,
+    is_pseudo_root,
+)
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.facts.usd.opinions import strongest_opinion
@@ -54,9 +63,14 @@ class Blaming:
 
     def blame(self, problem: Problem | NotChecked) -> Blame:
         """What is to blame for a problem."""
-        at = problem.at
-        prim = at.GetPrim()
         own = self._own(problem)
+        if problem.against or problem.absent or _is_relationship(problem.at):
+            return self._decided(problem, own)
+        return own
+
+    def _decided(self, problem: Problem | NotChecked, own: Blame) -> Blame:
+        """Which of the opinions that bring about a problem is to blame for it."""
+        at, prim = problem.at, get_prim(problem.at)
         others = [each for other in problem.against if (each := self._opinion(other, problem))]
         if _is_relationship(at):
             others += self._forwards.behind(at, self._standing)
@@ -64,7 +78,7 @@ class Blaming:
             others.append((edit.prim, Blame(edit.spec)))
         if own.spec is None or not others:
             return own
-        opinions = [Opinion(each.GetPrim(), blame.spec) for each, blame in others]
+        opinions = [Opinion(get_prim(each), blame.spec) for each, blame in others]
         found = decisive([Opinion(prim, own.spec), *opinions])
         if found.spec == own.spec:
             return own
@@ -84,70 +98,77 @@ class Blaming:
     def _edit(self, problem: Problem | NotChecked, own: Blame) -> Edit | None:
         """The edit of another layer that takes away what is missing."""
         may_miss = problem.absent or _is_relationship(problem.at)
-        is_top = own.spec is None or own.spec.layer == problem.at.GetStage().GetRootLayer()
-        return self._takings.edit(problem) if may_miss and not is_top else None
+        if not may_miss or own.spec is None:
+            return None
+        is_top = own.spec.layer == get_stage(problem.at).GetRootLayer()
+        return None if is_top else self._takings.edit(problem)
 
     def _own(self, problem: Problem | NotChecked) -> Blame:
         """The spec whose opinion counts where the problem is."""
-        at, prim, subject = problem.at, problem.at.GetPrim(), problem.subject
+        at, subject = problem.at, problem.subject
         if not isinstance(at, Usd.Property):
+            prim = get_prim(at)
             if blocked := _blocked(problem):
                 return Blame(blocked, str(blocked.name), subject)
             if problem.of == TYPE and (losing := losing_fallback(prim)):
                 return Blame(losing, None, subject or str(prim.GetTypeName()))
             return Blame(problem.spec or of_prim(prim, problem.of), None, subject)
-        name = at.GetName()
+        name = get_name(at)
         if problem.spec:
             return _given(problem, name)
         if problem.of in (NAME, VALUED_NAME):
-            return Blame(weakest(at, problem.of == VALUED_NAME) or maker(prim), name, subject)
-        if isinstance(problem.of, str) and (spec := saying(problem.of, at.GetPropertyStack())):
+            return Blame(
+                weakest(at, problem.of == VALUED_NAME) or maker(get_prim(at)), name, subject
+            )
+        if isinstance(problem.of, str) and (spec := saying(problem.of, get_property_stack(at))):
             return Blame(spec, name, subject)
         if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
             time = None if problem.at_default else problem.times[0]
-            if found := self._value(at, time, subject):
+            if found := self._value(at, time, name, subject):
                 return found
-        spec = next(filter(has_value, at.GetPropertyStack()), None)
-        if spec is None and isinstance(at, Usd.Relationship):
+        spec = next(filter(has_value, get_property_stack(at)), None)
+        if spec is None and _is_relationship(at):
             spec = weakest(at)
-        return Blame(spec or _declared(maker(prim), name), name, subject)
+        return Blame(spec or _declared(maker(get_prim(at)), name), name, subject)
 
-    def _value(self, attribute: Any, time: float | None, subject: str) -> Blame | None:
+    def _value(self, attribute: Any, time: float | None, name: str, subject: str) -> Blame | None:
         """The spec with the value at a time of the stage; of one in clips, that with the clips."""
         strongest = strongest_opinion(attribute, time)
         if strongest is None:
             return None
         spec, offset = strongest
-        prim = attribute.GetPrim()
         local = None if time is None else offset.GetInverse() * time
-        if self._says_variables(prim) and (top := deciding_layer(prim, spec, local)):
-            return Blame(top.pseudoRoot, attribute.GetName(), subject or str(spec.path))
+        if self._says_variables(attribute) and (
+            top := deciding_layer(get_prim(attribute), spec, local)
+        ):
+            return Blame(top.pseudoRoot, name, subject or str(spec.path))
         if time is None:
-            return Blame(spec, attribute.GetName(), subject, None, offset)
+            return Blame(spec, name, subject, None, offset)
+        prim = get_prim(attribute)
         if node_of(prim, spec) is None and (clips := self._clips_with(prim, spec.layer)):
             path = attribute.GetPath().MakeRelativePath(clips.prim.GetPath())
             clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
             bearer, offset = clips.opinion_with(clips.key)
             return Blame(bearer, "clips", subject or str(path), None, offset, clips.named(clip))
-        return Blame(spec, attribute.GetName(), subject, local, offset)
+        return Blame(spec, name, subject, local, offset)
 
-    def _says_variables(self, prim: Any) -> bool:
+    def _says_variables(self, at: Any) -> bool:
         """Whether any layer of the stage has expression variables, of which few stages have one."""
         if self._has_variables is None:
-            layers = prim.GetStage().GetUsedLayers()
+            layers = get_stage(at).GetUsedLayers()
             self._has_variables = any(layer.HasExpressionVariables() for layer in layers)
         return self._has_variables
 
     def _clips_with(self, prim: Any, layer: Any) -> ClipSet | None:
         """The clip set that has a layer among its clips, of a prim or the next one above it."""
-        while not prim.IsPseudoRoot():
-            if prim.HasAuthoredMetadata("clips"):
+        while not is_pseudo_root(prim):
+            if has_metadata(prim, "clips"):
                 if prim not in self._clip_sets:
                     self._clip_sets[prim] = [(each, _paths_of(each)) for each in clip_sets_on(prim)]
                 for clip_set, paths in self._clip_sets[prim]:
                     if layer.realPath in paths:
                         return clip_set
-            prim = prim.GetParent()
+            prim = get_parent(prim)
         return None
 
     def _opinion(self, other: Any, problem: Problem | NotChecked) -> tuple[Any, Blame] | None:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from usdvol_lint.facts.usd.bringing import losing_spec
+from usdvol_lint.facts.usd.calls import get_prim_stack, get_type
 
 _KEY = "fallbackPrimTypes"
 
 
 def losing_fallback(prim: Any) -> Any | None:
     """The spec that brings a prim without the fallback for its type that the layer below has."""
-    name = prim.GetTypeName()
-    typed = next((spec for spec in prim.GetPrimStack() if spec.typeName == name), None)
+    name = get_type(prim)
+    typed = next((spec for spec in get_prim_stack(prim) if spec.typeName == name), None)
 
     def says(layer: Any) -> bool:
         top = layer.pseudoRoot

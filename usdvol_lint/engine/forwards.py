@@ -7,6 +7,7 @@ from itertools import islice
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from usdvol_lint.engine.strength import Standing
+from usdvol_lint.facts.usd.calls import get_path, get_stage, own_targets
 
 _MOST = 100
 """So many kinds are kept of a chain: each is brought by arcs of its own."""
@@ -41,10 +42,10 @@ class Forwards(Generic[_Said]):
         """One, and those that it forwards to."""
         passed: dict[Any, Any] = {}
         each = relationship
-        while each and each.GetPath() not in self._known and each.GetPath() not in passed:
-            passed[each.GetPath()] = each
+        while each and (path := get_path(each)) not in self._known and path not in passed:
+            passed[path] = each
             each = _following(each)
-        last = each.GetPath() if each else None
+        last = get_path(each) if each else None
         kinds = self._known.get(last, {})
         ring = list(_from_on(passed, last))
         for path in (*reversed(ring), *reversed(passed)):  # of a ring, each has all of it behind
@@ -75,5 +76,7 @@ def _from_on(paths: Iterable[Any], first: Any) -> Iterator[Any]:
 
 def _following(relationship: Any) -> Any | None:
     """The only one that a relationship leads to."""
-    targets = relationship.GetTargets()
-    return relationship.GetStage().GetRelationshipAtPath(targets[0]) if len(targets) == 1 else None
+    targets = own_targets(relationship)
+    if len(targets) != 1 or not (path := targets[0]).IsPropertyPath():
+        return None
+    return get_stage(relationship).GetRelationshipAtPath(path)

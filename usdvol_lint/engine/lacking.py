@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 
 from pxr import Sdf
 
+from usdvol_lint.facts.usd.calls import get_prim_stack, get_stage
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.instances import on_stage, shown
 from usdvol_lint.facts.usd.nodes import nodes_of
@@ -21,6 +22,8 @@ def absent_of(problem: Problem | NotChecked) -> Absent:
 
     Another stage has to complete both: of two prims of one class it may complete only one.
     """
+    if not problem.absent:
+        return ()
     return tuple(
         frozenset(lack for prim, name in part for lack in lacks(prim, name))
         for part in problem.absent
@@ -29,15 +32,14 @@ def absent_of(problem: Problem | NotChecked) -> Absent:
 
 
 def _of_specs(prim: Any, name: str) -> Iterator[Lack]:
-    for spec in prim.GetPrimStack():
-        if spec.layer.realPath:
-            yield spec.layer.realPath, str(spec.path), name
+    for spec in get_prim_stack(prim):
+        if path := spec.layer.realPath:
+            yield path, str(spec.path), name
 
 
 def _of_place(prim: Any, name: str) -> Iterator[Lack]:
-    root = prim.GetStage().GetRootLayer()
-    if root.realPath:
-        yield root.realPath, shown(prim).path, name
+    if root := get_stage(prim).GetRootLayer().realPath:
+        yield root, shown(prim).path, name
 
 
 def absent_under(selection: str, absent: Absent, root: str) -> Absent:

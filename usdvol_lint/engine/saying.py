@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from usdvol_lint.facts.usd.calls import (
+    get_prim_stack,
+    get_property_stack,
+    get_stage,
+    get_type,
+    is_pseudo_root,
+)
 from usdvol_lint.rule import APIS, TYPE
 
-_VALUES = ("default", "timeSamples", "targetPaths", "spline")
+_VALUES = ("default", "targetPaths", "timeSamples", "spline")
 
 
 def of_prim(prim: Any, of: Any) -> Any | None:
-    if prim.IsPseudoRoot():
-        return prim.GetStage().GetRootLayer().pseudoRoot
+    if is_pseudo_root(prim):
+        return get_stage(prim).GetRootLayer().pseudoRoot
     return with_metadata(prim, of) or maker(prim)
 
 
@@ -35,7 +42,7 @@ def maker(prim: Any) -> Any | None:
     stack = _stack(prim)
     if len(stack) == 1:
         return stack[0]
-    wanted = prim.GetTypeName()
+    wanted = get_type(prim)
     if wanted:
         typed = [spec for spec in stack if spec.typeName == wanted]
     else:
@@ -67,13 +74,13 @@ def _lists(api: str) -> Callable[[Any], bool]:
 
 
 def _stack(prim: Any) -> list[Any]:
-    stack: list[Any] = prim.GetPrimStack()
-    session = prim.GetStage().GetSessionLayer() if len(stack) > 1 else None
+    stack: list[Any] = get_prim_stack(prim)
+    session = get_stage(prim).GetSessionLayer() if len(stack) > 1 else None
     return [spec for spec in stack if spec.layer != session] if session else stack
 
 
 def weakest(prop: Any, is_valued: bool = False) -> Any | None:
-    stack = prop.GetPropertyStack()
+    stack = get_property_stack(prop)
     valued = list(filter(has_value, stack)) if is_valued else []
     return (valued or stack or [None])[-1]
 

@@ -11,6 +11,7 @@ from usdvol_lint.engine.blame import Blame, Blaming
 from usdvol_lint.engine.entries import Entries
 from usdvol_lint.engine.layer_names import leads_elsewhere, link_to, real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
+from usdvol_lint.facts.usd.calls import get_name, get_path, get_prim, get_stage
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.layertext.source import LayerTexts, SharedTexts
 from usdvol_lint.model import Cover, Severity, Site, Source
@@ -28,8 +29,13 @@ _DIGITS = 6
 
 
 class Located(NamedTuple):
-    """A site, what is to blame and its layer, and how many instances show it on the stage."""
+    """A site and its prim, what is to blame and its layer, and how many instances show it.
 
+    `path` is that of the first that shows the prim on the stage.
+    """
+
+    prim: Any
+    path: str
     site: Site
     source: Source
     blame: Blame
@@ -80,7 +86,7 @@ class Sites:
         self._stage = stage
         self._texts = LayerTexts(texts)
         self._entries = Entries(repository, self._texts) if repository else None
-        self._layers: dict[str, _Layer] = {}
+        self._layers: dict[Any, _Layer] = {}
         self._blaming = Blaming()
         self.faults: list[tuple[Any, str, Exception]] = []
         """What was raised where something was looked for: the prim of the problem, and what."""
@@ -94,22 +100,23 @@ class Sites:
 
         Where looking for it fails, that is its prim: what was found stands all the same.
         """
-        prim = problem.at.GetPrim()
-        found = self.tried(prim, PLACE, lambda: self._find(problem), None)
-        return found or self._at_prim(problem)
+        prim = get_prim(problem.at)
+        return self.tried(prim, PLACE, self._find, prim, problem) or self._at_prim(prim, problem)
 
-    def tried(self, prim: Any, what: str, find: Callable[[], _Found], otherwise: _Found) -> _Found:
-        """What is found for a problem at a prim; where that fails, `otherwise`."""
+    def tried(
+        self, prim: Any, what: str, find: Callable[..., _Found], *arguments: Any
+    ) -> _Found | None:
+        """What is found for a problem at a prim; None where that fails."""
         try:
-            return find()
+            return find(*arguments)
         except Exception as error:  # whatever it is: the engine reports it
             self.faults.append((prim, what, error))
-            return otherwise
+            return None
 
-    def _at_prim(self, problem: Problem | NotChecked) -> Located:
+    def _at_prim(self, prim: Any, problem: Problem | NotChecked) -> Located:
         """The prim of a problem, in the stage's own layer."""
         at = problem.at
-        path = str(at.GetPrim().GetPath())
+        path = str(get_path(prim))
         name = at.GetName() if isinstance(at, Usd.Property) else None
         root = at.GetStage().GetRootLayer()
         site = Site(
@@ -120,47 +127,46 @@ class Sites:
             at_default=problem.at_default,
         )
         source = Source(real_name(root), path, name, problem.subject)
-        return Located(site, source, Blame(None), root, 1)
+        return Located(prim, path, site, source, Blame(None), root, 1)
 
-    def _find(self, problem: Problem | NotChecked) -> Located:
+    def _find(self, prim: Any, problem: Problem | NotChecked) -> Located:
         at = problem.at
-        prim = at.GetPrim()
-        on_stage = shown(prim)
+        on_stage, instances = shown(prim)
         blame = self._blaming.blame(problem)
-        spec = blame.spec
-        blamed = spec.layer if spec else prim.GetStage().GetRootLayer()
+        spec = blame.spec or None
+        blamed = get_stage(prim).GetRootLayer() if spec is None else spec.layer
         layer = self._layer(blamed)
-        path = str(spec.path) if spec else "/"
+        path = "/" if spec is None else str(spec.path)
         asset = blame.clip or blame.asset or problem.asset
-        position = layer.position(path, blame.time, asset, on_stage.path)
+        position = layer.position(path, blame.time, asset, on_stage)
         site = Site(
-            layer=layer.shown,
-            variant=_variants(spec.path) if spec and "{" in path else None,
-            prim=None if prim.IsPseudoRoot() else on_stage.path,
-            property=at.GetName() if isinstance(at, Usd.Property) else None,
-            times=problem.times,
-            at_default=problem.at_default,
-            line=position.line if position else None,
-            column=position.column if position else None,
-            excerpt=position.excerpt if position else None,
-            entry=self._entries.of(prim, spec, layer.real) if self._entries and spec else None,
+            layer.shown,
+            None if on_stage == "/" else on_stage,
+            get_name(at) if isinstance(at, Usd.Property) else None,
+            _variants(spec.path) if spec is not None and "{" in path else None,
+            position.line if position else None,
+            position.column if position else None,
+            problem.times,
+            problem.at_default,
+            position.excerpt if position else None,
+            self._entries.of(prim, spec, layer.real) if self._entries and spec else None,
         )
         if problem.machine is not None:
             source = Source(None, subject=problem.machine)
         else:
-            prim_path = _path_of_prim(spec, path) if spec else None
+            prim_path = None if spec is None else _path_of_prim(spec, path)
             is_link = layer.link and leads_elsewhere(layer.link, asset)
             name = layer.link if is_link else layer.real
             source = Source(name, prim_path, blame.property, blame.subject)
-        return Located(site, source, blame, blamed, on_stage.instances)
+        return Located(prim, on_stage, site, source, blame, blamed, instances)
 
     def _layer(self, layer: Any) -> _Layer:
-        key = layer.identifier
-        if key not in self._layers:
+        found = self._layers.get(layer)
+        if found is None:
             text = self._texts.of(layer)
             names = shown_name(layer, self._stage), real_name(layer), link_to(layer)
-            self._layers[key] = _Layer(*names, text, {})
-        return self._layers[key]
+            found = self._layers[layer] = _Layer(*names, text, {})
+        return found
 
 
 def _path_of_prim(spec: Any, path: str) -> str:
@@ -171,8 +177,7 @@ def _path_of_prim(spec: Any, path: str) -> str:
 def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Cover:
     """How much a problem covers, in the time of the layer to blame."""
     found = problem.cover
-    share = getattr(found, "share", None) if found else None
-    sizes = getattr(found, "sizes", None) if found else None
+    share, sizes = getattr(found, "share", None), getattr(found, "sizes", None)
     elements = round(sum(sizes) / len(sizes)) if sizes else None
     if not problem.times or _are_all(problem):
         return Cover(level, None, problem.at_default, share, elements)
@@ -185,7 +190,7 @@ def cover_of(problem: Problem | NotChecked, blame: Blame, level: Severity) -> Co
 
 def _are_all(problem: Problem | NotChecked) -> bool:
     """Whether the problem is at all time samples there are."""
-    total = getattr(problem.cover, "total", None) if problem.cover else None
+    total = getattr(problem.cover, "total", None)
     if total is None:
         is_attribute = isinstance(problem.at, Usd.Attribute)
         total = problem.at.GetNumTimeSamples() if is_attribute else 0

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cached_property, partial
+from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.lacking import absent_of
 from usdvol_lint.engine.parts import parts_of
 from usdvol_lint.engine.site import Located, Sites, cover_of
+from usdvol_lint.facts.usd.calls import is_in_prototype
 from usdvol_lint.layertext.source import SharedTexts
-from usdvol_lint.model import Cover, Finding, Severity
+from usdvol_lint.model import Cover, Finding, Severity, Source
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
@@ -77,17 +79,18 @@ class Stamp:
 
         return Suppressions(self._rules, self._asked)
 
-    def stamp(self, rule: Rule, problem: Problem | NotChecked) -> Iterator[Stamped]:
+    def stamp(self, rule: Rule, problem: Problem | NotChecked) -> Iterable[Stamped]:
         """The finding; none if LNT005, which reports what was not checked, is switched off."""
         reported_as = NOT_CHECKED if isinstance(problem, NotChecked) else rule
         severity = self._active.severities.get(reported_as.code)
         if severity is None:
-            return
+            return ()
         if problem.at_default and problem.times:
-            for part in parts_of(problem):
-                yield from self._stamped(rule, reported_as, part, severity)
-        else:
-            yield from self._stamped(rule, reported_as, problem, severity)
+            parts = parts_of(problem)
+            return chain.from_iterable(
+                self._stamped(rule, reported_as, part, severity) for part in parts
+            )
+        return self._stamped(rule, reported_as, problem, severity)
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
@@ -104,72 +107,84 @@ class Stamp:
             return
         root = stage.GetPseudoRoot()
         for prim in failed:
-            self._tried(prim, partial(self._suppressions.ask, prim), None)
+            self.sites.tried(prim, _SUPPRESSED, self._suppressions.ask, prim)
         if self._asked.unused:
-            codes = self._active.severities
-            found = self._tried(root, lambda: list(self._suppressions.unused(stage, codes)), [])
-            for unused in found:
+            for unused in self.sites.tried(root, _SUPPRESSED, self._unused, stage) or ():
                 yield from self.stamp(UNUSED_SUPPRESSION, unused)
         if "_suppressions" in self.__dict__:
             for fault in self._suppressions.faults():
                 yield from self.stamp(UNUSED_SUPPRESSION, fault)
 
-    def _tried(self, prim: Any, find: Callable[[], Any], otherwise: Any) -> Any:
-        """What suppressions say at a prim; where they can't be asked, `otherwise`."""
-        return self.sites.tried(prim, _SUPPRESSED, find, otherwise)
+    def _unused(self, stage: Any) -> list[Problem]:
+        return list(self._suppressions.unused(stage, self._active.severities))
 
     def _stamped(
         self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
-    ) -> Iterator[Stamped]:
+    ) -> list[Stamped]:
         located = self.sites.locate(problem)
-        source, blame = located.source, located.blame
+        source = located.source
+        if reported_as is not rule and source.layer is not None:
+            source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())
+        finding = self._finding(reported_as, problem, severity, located, source)
+        same = identity(rule, problem, located.blame.spec) if self._several_selections else ()
+        as_shown = self.sites.tried(located.prim, _SUPPRESSED, self._as_shown, finding, located)
+        if as_shown is None:
+            as_shown = [_shown_by(finding, located.instances)]
+        return [
+            Stamped(
+                shown, (*same, shown.ignored) if same and shown.ignored else same, problem.holds
+            )
+            for shown in as_shown
+        ]
+
+    def _finding(
+        self,
+        rule: Rule,
+        problem: Problem | NotChecked,
+        severity: Severity,
+        located: Located,
+        source: Source,
+    ) -> Finding:
+        tried, prim, blame = self.sites.tried, located.prim, located.blame
         clip = ""
         if blame.clip and blame.clip.rpartition("/")[2] not in problem.message:
             clip = f" (in the clip {quoted(blame.clip)})"
-        if reported_as is not rule and source.layer is not None:
-            source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())
-        own = min(reported_as.severity, problem.severity or reported_as.severity)
-        prim, tried = problem.at.GetPrim(), self.sites.tried
-        cover = tried(prim, _REACH, lambda: cover_of(problem, blame, own), Cover(own))
-        finding = Finding(
-            code=reported_as.code,
-            name=reported_as.name,
-            severity=self._lowered(severity, problem, reported_as.code),
-            message=shortened(problem.message + clip, _LONGEST),
-            site=located.site,
-            source=source,
-            cover=cover,
-            suggestion=problem.suggestion and shortened(problem.suggestion, _LONGEST_SUGGESTION),
-            help=help_for(reported_as),
-            fold=problem.fold,
-            absent=() if self._is_alone else tried(prim, _ABSENT, lambda: absent_of(problem), ()),
-            since=problem.since,
+        own = rule.severity if problem.severity is None else min(rule.severity, problem.severity)
+        cover = tried(prim, _REACH, cover_of, problem, blame, own) or Cover(own)
+        absent = () if self._is_alone else tried(prim, _ABSENT, absent_of, problem)
+        return Finding(  # by positions, because to name so many takes as long as to make it
+            rule.code,
+            rule.name,
+            self._lowered(severity, problem, rule.code),
+            shortened(problem.message + clip, _LONGEST),
+            located.site,
+            source,
+            cover,
+            problem.suggestion and shortened(problem.suggestion, _LONGEST_SUGGESTION),
+            help_for(rule),
+            None,
+            problem.fold,
+            absent or (),
+            None,
+            problem.since,
         )
-        same = identity(rule, problem, blame.spec) if self._several_selections else ()
-        as_told = [_shown_by(finding, located.instances)]
-        for shown in self._tried(
-            prim, lambda: list(self._as_shown(finding, problem, located)), as_told
-        ):
-            reason = (shown.ignored,) if same and shown.ignored else ()
-            yield Stamped(shown, (*same, *reason), problem.holds)
 
-    def _as_shown(
-        self, finding: Finding, problem: Problem | NotChecked, located: Located
-    ) -> Iterator[Finding]:
+    def _as_shown(self, finding: Finding, located: Located) -> list[Finding]:
         """The finding, or one for each reason why some of its instances are ignored."""
         if not self._asked.heeded:
-            yield _shown_by(finding, located.instances)
-            return
-        prim = problem.at.GetPrim()
+            return [_shown_by(finding, located.instances)]
+        prim = located.prim
         layer = None if finding.source.layer is None else located.layer
-        if not prim.IsInPrototype():
-            reason = self._suppressions.reason(prim, layer, finding.code)
-            yield finding if reason is None else finding._replace(ignored=reason)
-            return
-        for share in self._suppressions.shares(prim, layer, finding.code):
-            site = finding.site._replace(prim=share.path)
-            told = finding._replace(site=site, ignored=share.reason)
-            yield _shown_by(told, share.instances)
+        if not is_in_prototype(prim):
+            reason = self._suppressions.reason(prim, located.path, layer, finding.code)
+            return [finding if reason is None else finding._replace(ignored=reason)]
+        return [
+            _shown_by(
+                finding._replace(site=finding.site._replace(prim=share.path), ignored=share.reason),
+                share.instances,
+            )
+            for share in self._suppressions.shares(prim, layer, finding.code)
+        ]
 
     def _lowered(self, severity: Severity, problem: Problem | NotChecked, code: str) -> Severity:
         """The severity of a milder or younger case, unless the user chose one for the rule."""

@@ -19,7 +19,7 @@ from usdvol_lint.engine.ignoring import (
     read,
 )
 from usdvol_lint.engine.shares import Share, Shares
-from usdvol_lint.facts.usd.calls import COMPOSED, get_parent, has_metadata
+from usdvol_lint.facts.usd.calls import COMPOSED, get_parent, get_path, get_stage, has_metadata
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.rule import Problem, Rule
 from usdvol_lint.suppressions import InStages
@@ -47,16 +47,16 @@ class Suppressions:
 
     def recomposed(self) -> None:
         """Forgets what prims say: the stage was composed in another way."""
-        self._above: dict[Any, Mapping[str, _Reason]] = {}
+        self._above: dict[str, Mapping[str, _Reason]] = {"/": {}}
         self._marked: set[tuple[Any, str]] = set()
         self._shares = Shares(self._reason_at, self._asked.prims)
 
-    def reason(self, prim: Any, layer: Any | None, code: str) -> str | None:
+    def reason(self, prim: Any, path: str, layer: Any | None, code: str) -> str | None:
         """Why a finding at a prim outside of prototypes is ignored; None if it is not.
 
-        `layer` is the one to blame; None if there is none.
+        `path` is the prim's, `layer` the one to blame; None if there is none.
         """
-        reason = self._reason_at(prim, code)
+        reason = self._reason_at(prim, code, path)
         if reason is not None:
             return reason or None
         said = self._said_by(layer, prim, code)
@@ -72,17 +72,16 @@ class Suppressions:
             self._use_layer(layer, code)
         return found
 
-    def ask(self, prim: Any) -> Mapping[str, _Reason]:
+    def ask(self, prim: Any, path: str | None = None) -> Mapping[str, _Reason]:
         """What a prim and those above it ignore; the root of a prototype has no data."""
+        path = path or str(get_path(prim))
         waiting = []
-        while (known := self._above.get(prim)) is None:
-            if prim.IsPseudoRoot():
-                known = self._above[prim] = {}
-                break
-            waiting.append(prim)
+        while (known := self._above.get(path)) is None:
+            waiting.append((path, prim))
+            path = path.rpartition("/")[0] or "/"
             prim = get_parent(prim)
-        for each in reversed(waiting):
-            known = self._above[each] = self._said(each, known)
+        for path, each in reversed(waiting):
+            known = self._above[path] = self._said(each, known)
         return known
 
     def faults(self) -> Iterator[Problem]:
@@ -95,14 +94,14 @@ class Suppressions:
 
         Asks every prim.
         """
-        own = stage.GetLayerStack(False)
+        root, own = stage.GetPseudoRoot(), stage.GetLayerStack(False)
         for layer in own:
-            said = self._of_layer(stage, layer)
+            said = self._of_layer(root, layer)
             for code in said.keys() & codes:
                 fault = matched_nothing(code, said[code])
-                yield self._unused(fault, stage.GetPseudoRoot(), layer.pseudoRoot, code)
-        roots = [stage.GetPseudoRoot(), *stage.GetPrototypes()]
-        for prim in (each for root in roots for each in Usd.PrimRange(root, COMPOSED)):
+                yield self._unused(fault, root, layer.pseudoRoot, code)
+        roots = [root, *stage.GetPrototypes()]
+        for prim in (each for top in roots for each in Usd.PrimRange(top, COMPOSED)):
             for code, reason in self.ask(prim).items():
                 if reason.prim == prim and reason.text != TAKEN_BACK and code in codes:
                     fault = matched_nothing(code, reason.text)
@@ -116,9 +115,9 @@ class Suppressions:
         problem.holds = lambda: key not in self._used
         return problem
 
-    def _reason_at(self, prim: Any, code: str) -> str | None:
+    def _reason_at(self, prim: Any, code: str, path: str | None = None) -> str | None:
         """Why a prim ignores a code, or TAKEN_BACK; None if nothing is said there."""
-        reason = self.ask(prim).get(code)
+        reason = self.ask(prim, path).get(code)
         if reason is None:
             return None
         if self._asked.unused and (reason.prim, code) not in self._marked:
@@ -158,12 +157,12 @@ class Suppressions:
 
     def _said_by(self, layer: Any | None, prim: Any, code: str) -> str | None:
         """Why a layer ignores a code."""
-        return (layer and self._of_layer(prim.GetStage(), layer).get(code)) or None
+        return None if layer is None else self._of_layer(prim, layer).get(code) or None
 
     def _use_layer(self, layer: Any, code: str) -> None:
         self._used.add((layer.identifier, "/", code))
 
-    def _of_layer(self, stage: Any, layer: Any) -> Mapping[str, str]:
+    def _of_layer(self, prim: Any, layer: Any) -> Mapping[str, str]:
         key = layer.identifier
         if key not in self._layers:
             data = _value(layer.pseudoRoot, _OF_LAYER, (KEY,))
@@ -174,7 +173,7 @@ class Suppressions:
                 for code, text in said.reasons.items()
                 if text == TAKEN_BACK
             )
-            root = stage.GetPseudoRoot()
+            root = get_stage(prim).GetPseudoRoot()
             self._faults += (_problem(fault, root, layer.pseudoRoot) for fault in faults)
             self._layers[key] = said
         return self._layers[key].reasons

@@ -10,7 +10,15 @@ from pxr import Sdf, Usd
 
 from usdvol_lint.engine.strength import Opinion, node_with
 from usdvol_lint.facts.usd.bringing import root_layer
-from usdvol_lint.facts.usd.calls import ARCS
+from usdvol_lint.facts.usd.calls import (
+    ARCS,
+    get_path,
+    get_prim_stack,
+    get_stage,
+    get_targets,
+    parent_path,
+    prim_at,
+)
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.instances import on_stage, shown_path
 from usdvol_lint.facts.usd.untyped import GROUP_TYPES
@@ -33,7 +41,7 @@ class Takings:
     """The edits of one stage that take something away; each layer is opened alone at most once."""
 
     def __init__(self) -> None:
-        self._edits: dict[Any, list[Edit]] = {}
+        self._edits: dict[Any, tuple[Edit, ...]] = {}
         self._alone: dict[Any, Any | None] = {}
 
     def recomposed(self) -> None:
@@ -45,22 +53,26 @@ class Takings:
 
         Of several the strongest that is one; those above it merely did not mend it.
         """
-        stage = problem.at.GetStage()
+        stage = get_stage(problem.at)
         for path, has in _missing(problem):
-            edits = list(self._above(stage, path))
+            edits = self._on_the_way(stage, path)
             if edits and not has(stage, path):
                 for edit in edits:
                     if self._has_below(edit, path, has):
                         return edit
         return None
 
-    def _above(self, stage: Any, path: Any) -> Iterator[Edit]:
+    def _on_the_way(self, stage: Any, path: Any) -> tuple[Edit, ...]:
         """The edits of the prims on the way to a path, the lowest first."""
-        for prefix in reversed(path.GetPrefixes()):
-            if prim := stage.GetPrimAtPath(prefix):
-                if prim not in self._edits:
-                    self._edits[prim] = list(_edits(prim))
-                yield from self._edits[prim]
+        waiting = []
+        while (found := self._edits.get(path)) is None and path.pathElementCount:
+            waiting.append(path)
+            path = parent_path(path)
+        found = found or ()
+        for each in reversed(waiting):
+            prim = prim_at(stage, each)
+            found = self._edits[each] = (*_edits(prim), *found) if prim else found
+        return found
 
     def _has_below(self, edit: Edit, path: Any, has: _Has) -> bool:
         """Whether the weaker layer has by itself what is missing at a path of the stage."""
@@ -89,10 +101,10 @@ def _missing(problem: Problem | NotChecked) -> Iterator[tuple[Any, _Has]]:
     """The paths of what may be missing, each with how to tell."""
     at = problem.at
     if isinstance(at, Usd.Relationship):
-        for target in at.GetForwardedTargets():
-            yield Sdf.Path(shown_path(at.GetStage(), target.GetPrimPath())), _has_field
+        for target in get_targets(at):
+            yield Sdf.Path(shown_path(get_stage(at), target.GetPrimPath())), _has_field
     for prim, name in (lack for part in problem.absent for lack in part):
-        yield on_stage(prim).GetPath(), _has(name)
+        yield get_path(on_stage(prim)), _has(name)
 
 
 def _has_field(stage: Any, path: Any) -> bool:
@@ -116,10 +128,10 @@ def _has(name: str) -> _Has:
 
 
 def _edits(prim: Any) -> Iterator[Edit]:
-    stack = prim.GetPrimStack()
+    stack = get_prim_stack(prim)
     if len(stack) < 2:
         return  # nearly always
-    session = prim.GetStage().GetSessionLayer()
+    session = get_stage(prim).GetSessionLayer()
     own = [spec for spec in stack if spec.layer != session]
     for spec, kept in _pairs(stack, own):
         yield Edit(prim, spec, kept)

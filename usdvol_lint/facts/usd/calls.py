@@ -20,11 +20,13 @@ has_value: Any = Usd.Attribute.HasAuthoredValue
 
 get_name: Any = Usd.Object.GetName
 get_path: Any = Usd.Object.GetPath
+get_prim: Any = Usd.Object.GetPrim
 get_stage: Any = Usd.Object.GetStage
 
 get_applied: Any = Usd.Prim.GetAppliedSchemas
 get_attribute: Any = Usd.Prim.GetAttribute
 get_children: Any = Usd.Prim.GetFilteredChildren
+get_index: Any = Usd.Prim.GetPrimIndex
 get_parent: Any = Usd.Prim.GetParent
 get_prim_stack: Any = Usd.Prim.GetPrimStack
 get_properties: Any = Usd.Prim.GetAuthoredProperties
@@ -35,6 +37,12 @@ has_metadata: Any = Usd.Prim.HasAuthoredMetadata
 has_specifier: Any = Usd.Prim.HasDefiningSpecifier
 is_defined: Any = Usd.Prim.IsDefined
 is_in_prototype: Any = Usd.Prim.IsInPrototype
+is_instance_proxy: Any = Usd.Prim.IsInstanceProxy
+is_prototype: Any = Usd.Prim.IsPrototype
+is_pseudo_root: Any = Usd.Prim.IsPseudoRoot
+
+get_property_stack: Any = Usd.Property.GetPropertyStack
+get_stack_with_offsets: Any = Usd.Property.GetPropertyStackWithLayerOffsets
 
 get_targets: Any = Usd.Relationship.GetForwardedTargets
 own_targets: Any = Usd.Relationship.GetTargets

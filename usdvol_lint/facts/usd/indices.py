@@ -7,6 +7,7 @@ from weakref import WeakKeyDictionary
 
 from pxr import Ar, Pcp, Usd
 
+from usdvol_lint.facts.usd.calls import get_index, is_in_prototype
 from usdvol_lint.facts.usd.instances import forget_prototypes, in_prototype, prototype_of, shown
 
 
@@ -45,8 +46,8 @@ def index_of(prim: Any) -> Any:
     the paths of that one.  The root of a prototype has none.
     """
     prim = in_prototype(prim)
-    if not prim.IsInPrototype() or prim.IsPrototype():
-        return prim.GetPrimIndex()
+    if not is_in_prototype(prim) or prim.IsPrototype():
+        return get_index(prim)
     stage = prim.GetStage()
     if stage not in _COMPOSED:
         _COMPOSED[stage] = _Composed(stage)

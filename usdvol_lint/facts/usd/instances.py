@@ -9,6 +9,15 @@ from weakref import WeakKeyDictionary
 
 from pxr import Sdf
 
+from usdvol_lint.facts.usd.calls import (
+    get_parent,
+    get_path,
+    get_stage,
+    is_in_prototype,
+    is_instance_proxy,
+    is_prototype,
+    prim_at,
+)
 from usdvol_lint.facts.usd.settled import settle
 
 _MOST_PATHS = 10_000
@@ -57,7 +66,7 @@ def forget_prototypes(stage: Any) -> None:
 
 
 def _known(prim: Any) -> _Prototypes:
-    stage = prim.GetStage()
+    stage = get_stage(prim)
     if stage not in _PROTOTYPES:
         _PROTOTYPES[stage] = _Prototypes()
     return _PROTOTYPES[stage]
@@ -65,8 +74,8 @@ def _known(prim: Any) -> _Prototypes:
 
 def shown(prim: Any) -> Shown:
     """Where a prim appears; outside prototypes, once, at its own path."""
-    if not prim.IsInPrototype():
-        return Shown(str(prim.GetPath()), 1)
+    if not is_in_prototype(prim):
+        return Shown(str(get_path(prim)), 1)
     path, instances = settle(prototype_of(prim), _find_shown, _known(prim).shown)
     return Shown(path + path_in_prototype(prim), instances)
 
@@ -171,8 +180,8 @@ def _standing_of(instance: Any) -> Standing:
 
 def path_in_prototype(prim: Any) -> str:
     """The path relative to the prototype, equal for all instances; outside one, the whole path."""
-    path = str(prim.GetPath())
-    return path[len(str(prototype_of(prim).GetPath())) :] if prim.IsInPrototype() else path
+    path = str(get_path(prim))
+    return path[len(str(get_path(prototype_of(prim)))) :] if is_in_prototype(prim) else path
 
 
 def shown_path(stage: Any, path: Any) -> str:
@@ -186,16 +195,16 @@ def shown_path(stage: Any, path: Any) -> str:
 
 def prototype_of(prim: Any) -> Any:
     """The root of the prototype that a prim is in."""
-    while not prim.IsPrototype():
-        prim = prim.GetParent()
+    while not is_prototype(prim):
+        prim = get_parent(prim)
     return prim
 
 
 def on_stage(prim: Any) -> Any:
     """The prim where it appears first: what is above it there, a prototype does not have."""
-    return prim.GetStage().GetPrimAtPath(shown(prim).path) if prim.IsInPrototype() else prim
+    return prim_at(get_stage(prim), shown(prim).path) if is_in_prototype(prim) else prim
 
 
 def in_prototype(prim: Any) -> Any:
     """The prim of the prototype for an instance proxy; any other prim itself."""
-    return prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
+    return prim.GetPrimInPrototype() if is_instance_proxy(prim) else prim

@@ -8,9 +8,12 @@ from typing import Any, NamedTuple, TypeVar
 
 from pxr import Usd
 
+from usdvol_lint.facts.usd.calls import get_stack_with_offsets
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 
 _Found = TypeVar("_Found", bound=Any)
+_DEFAULT = Usd.TimeCode.Default()
+_OF_DEFAULT, _OF_TIMES = ("default",), ("timeSamples", "default", "spline")
 
 
 class Opinion(NamedTuple):
@@ -26,27 +29,22 @@ def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
     Stronger specs are skipped if they hold only metadata, or at the default time only time samples.
     """
     found = _strongest(attribute, time)
-    if found is None or not (time is not None and is_of_retimed_clip(attribute, time, found)):
+    if time is None or found is None or not is_of_retimed_clip(attribute, time, found):
         return found
     # Of retimed clips USD lists the one at that time of the layer with the clips (26.11).
     return _strongest(attribute, found.offset.GetInverse() * time) or found
 
 
 def _strongest(attribute: Any, time: float | None) -> Opinion | None:
-    code = Usd.TimeCode.Default() if time is None else time
-    keys = ("default",) if time is None else ("timeSamples", "default", "spline")
-    for spec, offset in _stack(attribute, code):
+    code, keys = (_DEFAULT, _OF_DEFAULT) if time is None else (time, _OF_TIMES)
+    try:
+        stack = get_stack_with_offsets(attribute, code)
+    except UNREADABLE:  # not all clips open
+        stack = get_stack_with_offsets(attribute, _DEFAULT)
+    for spec, offset in stack:
         if any(map(spec.HasInfo, keys)):
             return Opinion(spec, offset)
     return None
-
-
-def _stack(attribute: Any, code: Any) -> Any:
-    """The specs and their offsets, strongest first; those in clips only if all clips open."""
-    try:
-        return attribute.GetPropertyStackWithLayerOffsets(code)
-    except UNREADABLE:
-        return attribute.GetPropertyStackWithLayerOffsets(Usd.TimeCode.Default())
 
 
 def is_of_retimed_clip(attribute: Any, time: float, opinion: Opinion) -> bool:
