@@ -9,7 +9,7 @@ from typing import Any
 
 from usdvol_lint.facts.volumes.bindings import Binding
 from usdvol_lint.facts.volumes.states import TargetState
-from usdvol_lint.nearest import closest_match
+from usdvol_lint.nearest import Vocabulary
 
 
 class FieldIndex:
@@ -22,6 +22,7 @@ class FieldIndex:
         for path in sorted(field.GetPath() for field in fields):
             self._by_name[path.name].append(path)
             self._by_parent[path.GetParentPath()][path.name] = path
+        self._names: dict[Any, Vocabulary] = {}
 
     def intended_by(self, binding: Binding) -> Any | None:
         """The path of the field that a binding without one was probably intended to target."""
@@ -34,10 +35,9 @@ class FieldIndex:
         None where two are equally close, as a wrong guess misleads, and where the closest is below
         a Volume other than the one at the path `volume`.
         """
-        siblings = self._by_parent.get(path.GetParentPath(), {})
-        sibling = closest_match(path.name, siblings, cutoff=0.7, fold=str)
-        if sibling:
-            return siblings[sibling]
+        parent = path.GetParentPath()
+        if sibling := self._names_below(parent).closest(path.name, cutoff=0.7):
+            return self._by_parent[parent][sibling]
         namesakes = self._by_name.get(path.name, [])
         index = bisect(namesakes, path)  # in sorted order, the closest are next to it
         shared = defaultdict(list)
@@ -48,6 +48,12 @@ class FieldIndex:
             return None
         above = self._volumes.intersection(closest[0].GetPrefixes())
         return closest[0] if above <= {volume} else None
+
+    def _names_below(self, parent: Any) -> Vocabulary:
+        """The names of the fields right below a path, in which those of its Volume are sought."""
+        if parent not in self._names:
+            self._names[parent] = Vocabulary(self._by_parent.get(parent, ()), fold=str)
+        return self._names[parent]
 
 
 def _intended_path(binding: Binding) -> Any | None:
