@@ -81,6 +81,12 @@ class Done(NamedTuple):
         return self.report._replace(findings=tuple(found))
 
 
+class GivenUp(NamedTuple):
+    """The report on a stage that USD would have been busy with for ever, and the last message."""
+
+    report: StageReport
+
+
 class Advance(NamedTuple):
     """Samples of a long sequence read since the last such message; more messages follow."""
 
