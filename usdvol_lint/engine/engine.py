@@ -14,6 +14,7 @@ from usdvol_lint.engine.asked_types import idle_rules
 from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.failures import still_holding, unreadable
+from usdvol_lint.engine.opening import Watch
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
@@ -47,6 +48,8 @@ class Engine:
     call, `send` with new findings, so that they are not lost if the process dies.
     `is_alone` says that there is but one stage, which no other may complete.
     `repository` is a folder whose host is to show findings: see `Sites`.
+    `give_up` is called with the report on a stage that USD would compose without end: in another
+    thread, while one waits for that, so it ends the process.
     USD's own warnings go to standard error, which in a worker process is a pipe to its parent.
     """
 
@@ -60,7 +63,9 @@ class Engine:
         is_alone: bool = False,
         suppressions: InStages | None = None,
         repository: str | None = None,
+        give_up: Callable[[StageReport], None] | None = None,
     ) -> None:
+        self._watch = Watch(give_up) if give_up else None
         self._known = rules
         self._suppressions = suppressions or InStages()
         self._rules = [rules[code] for code in sorted({*active.severities, *active.watching})]
@@ -102,7 +107,7 @@ class Engine:
         clock = _Stopwatch()
         try:
             session = Sdf.Layer.CreateAnonymous() if self._depth.selections else None
-            stage = open_stage(path, self._depth.load, session)
+            stage = open_stage(path, self._depth.load, session, self._watch)
         except UnreadableStageError as error:
             clock.lap("open")
             return report_trouble(path, error.trouble, seconds=clock.seconds)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from contextlib import nullcontext
 from typing import Any
 
 from pxr import Ar, Sdf, Usd
@@ -16,6 +17,7 @@ from usdvol_lint.engine.diagnosis import (
     read_head,
 )
 from usdvol_lint.engine.messages import messages
+from usdvol_lint.engine.opening import Watch
 from usdvol_lint.engine.trouble import Trouble, UnreadableStageError
 from usdvol_lint.facts.usd.clips import concerns_only_clips
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, without_parser_rule
@@ -28,17 +30,18 @@ _VERSION = r"\d+\.\d+\.\d+"
 _LONGEST_MESSAGE = 300
 
 
-def open_stage(path: str, load: str, session: Any | None = None) -> Any:
+def open_stage(path: str, load: str, session: Any | None = None, watch: Watch | None = None) -> Any:
     """Opens a stage; `load` is `all` or `none`, and says whether payloads are loaded.
 
-    Without `session` the stage has no session layer.
+    Without `session` the stage has no session layer.  Where that takes long, `watch` may end it.
     Raises UnreadableStageError with the reason.
     """
     head = look_at(path)
     policy = Usd.Stage.LoadNone if load == "none" else Usd.Stage.LoadAll
     try:
         layer = Sdf.Layer.FindOrOpen(os.path.abspath(path))
-        stage = _open(layer, session, policy) if layer else None
+        with watch.opening(path, layer, session, load != "none") if watch else nullcontext():
+            stage = _open(layer, session, policy) if layer else None
     except UNREADABLE as error:
         head = head or read_head(path)
         raise UnreadableStageError(_explain(path, messages(error), head)) from error

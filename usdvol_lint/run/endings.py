@@ -27,7 +27,8 @@ def too_large(own: int, limit: float) -> Trouble:
     return Trouble(
         f"stopped at {format_size(own)} of memory; the limit for one process is "
         f"{format_size(limit)}",
-        f"raise --memory-limit, let fewer work at once with --jobs, or {LESS}",
+        f"if the stage is that large, raise --memory-limit, let fewer work at once with --jobs, or "
+        f"{LESS}; where references bring references, a few multiply: usdcat shows them",
     )
 
 

@@ -144,6 +144,12 @@ def _done(order: tuple[int | Finding, ...], path: str, status: str, *rest: Any) 
     return Done(StageReport(path, _STATUSES[status], *rest), order)
 
 
+class GivenUp(NamedTuple):
+    """The report on a stage that USD would have been busy with for ever, and the last message."""
+
+    report: StageReport
+
+
 class Advance(NamedTuple):
     """Samples of a long sequence read since the last such message; more messages follow."""
 

@@ -18,7 +18,7 @@ from usdvol_lint.run.endings import MORE_MEMORY, cause_of, crashed, timed_out, t
 from usdvol_lint.run.last_words import LastWords
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.memory import Memory
-from usdvol_lint.run.protocol import Advance, Done, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import Advance, Done, GivenUp, NewFindings, Ready, Refusal, Setup
 from usdvol_lint.run.replies import replies_of, wait_for_end
 from usdvol_lint.words import format_size
 
@@ -160,6 +160,8 @@ class Worker:
         self._is_gone = timed_out or self._deadline.is_over or not isinstance(reply, Done)
         if isinstance(reply, Done):
             return reply.with_findings(found)
+        if isinstance(reply, GivenUp):
+            return reply.report
         seconds = {"total": time.perf_counter() - began}
         status = Status.TIMED_OUT if timed_out else Status.CRASHED
         return report_trouble(path, self._trouble(timed_out, limit), status, seconds, found)

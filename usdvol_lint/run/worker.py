@@ -14,7 +14,16 @@ from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.limits import narrow_limits
-from usdvol_lint.run.protocol import SHORT, Advance, Done, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import (
+    SHORT,
+    Advance,
+    Done,
+    GivenUp,
+    NewFindings,
+    Ready,
+    Refusal,
+    Setup,
+)
 from usdvol_lint.run.requests import Requests
 
 if TYPE_CHECKING:
@@ -116,6 +125,7 @@ def _engine(rules: Mapping[str, Rule], setup: Setup, answers: _Answers) -> Engin
         setup.is_alone,
         setup.suppressions,
         setup.repository,
+        answers.give_up,
     )
 
 
@@ -152,6 +162,11 @@ class _Answers:
         _send(self._replies, Done(report._replace(findings=()), order))
         self._sent = []
 
+    def give_up(self, report: StageReport) -> None:
+        """Answers while USD is busy with a stage, and ends the process with that."""
+        _send(self._replies, GivenUp(report))
+        os._exit(0)
+
 
 def _take_pipes() -> tuple[Requests, BinaryIO]:
     """Requests and replies; what anything prints goes to standard error instead."""
@@ -163,6 +178,8 @@ def _take_pipes() -> tuple[Requests, BinaryIO]:
     return Requests(requests), replies
 
 
-def _send(replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | Done) -> None:
+def _send(
+    replies: BinaryIO, message: Ready | Refusal | Advance | NewFindings | GivenUp | Done
+) -> None:
     pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
     replies.flush()
