@@ -30,8 +30,9 @@ def Volume "Cloud"
 _BARE = """
 import os, sys
 from pxr import Usd, UsdVol
-for folder, _, files in os.walk(sys.argv[1]):
-    for name in files:
+part, parts = map(int, sys.argv[2:] or (0, 1))
+for number, (folder, _, files) in enumerate(os.walk(sys.argv[1])):
+    for name in files if number % parts == part else ():
         if name.endswith(".usda"):
             stage = Usd.Stage.Open(os.path.join(folder, name))
             for prim in stage.Traverse():
@@ -39,6 +40,13 @@ for folder, _, files in os.walk(sys.argv[1]):
                     for attribute in ("fieldDataType", "fieldName", "filePath"):
                         value = prim.GetAttribute(attribute).Get()
                     os.path.exists(value.resolvedPath)
+"""
+
+_BARE_BY_TWO = f"""
+import subprocess, sys
+code = {_BARE!r}
+halves = [[sys.executable, "-c", code, sys.argv[1], half, "2"] for half in "01"]
+for child in [subprocess.Popen(half) for half in halves]: child.wait()
 """
 
 
@@ -70,4 +78,5 @@ _TWO = linter("--isolated", "--quiet", "--jobs", "2")
 CASES = (
     Case("stages", _ONE, python(_BARE), 3.0, small_stages),
     Case("stages-2", _TWO, _ONE, 0.56, more_small_stages),
+    Case("stages-2-bare", python(_BARE_BY_TWO), python(_BARE), 0.56, more_small_stages),
 )
