@@ -50,6 +50,7 @@ class Blaming:
     """Finds what is to blame for the problems of one stage; the clips of a prim are read once."""
 
     def __init__(self) -> None:
+        self._root: Any | None = None
         self._has_variables: bool | None = None
         self._takings = Takings()
         self._forwards: Forwards[Blame] = Forwards()
@@ -100,8 +101,9 @@ class Blaming:
         may_miss = problem.absent or _is_relationship(problem.at)
         if not may_miss or own.spec is None:
             return None
-        is_top = own.spec.layer == get_stage(problem.at).GetRootLayer()
-        return None if is_top else self._takings.edit(problem)
+        if self._root is None:
+            self._root = get_stage(problem.at).GetRootLayer()
+        return self._takings.edit(problem) if own.spec.layer != self._root else None
 
     def _own(self, problem: Problem | NotChecked) -> Blame:
         """The spec whose opinion counts where the problem is."""

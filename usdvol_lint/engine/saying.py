@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from pxr import Sdf
+
 from usdvol_lint.facts.usd.calls import (
     get_prim_stack,
     get_property_stack,
@@ -14,7 +16,7 @@ from usdvol_lint.facts.usd.calls import (
 )
 from usdvol_lint.rule import APIS, TYPE
 
-_VALUES = ("default", "targetPaths", "timeSamples", "spline")
+_VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
 
 
 def of_prim(prim: Any, of: Any) -> Any | None:
@@ -86,4 +88,5 @@ def weakest(prop: Any, is_valued: bool = False) -> Any | None:
 
 
 def has_value(spec: Any) -> bool:
-    return any(map(spec.HasInfo, _VALUES))
+    is_relationship = isinstance(spec, Sdf.RelationshipSpec)
+    return any(map(spec.HasInfo, _TARGETS if is_relationship else _VALUES))
