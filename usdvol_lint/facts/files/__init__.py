@@ -139,7 +139,7 @@ class Files(Wing):
         """The frame numbers and paths of the files that a path with a placeholder stands for."""
         from usdvol_lint.facts.files.corrections import find_frames
 
-        return find_frames(self._disk, found.anchored(), found.first.path)
+        return find_frames(self._disk, found.place, found.first.path)
 
     @fact
     def recased(self, field: Any) -> Recased | None:
