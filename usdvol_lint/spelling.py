@@ -156,6 +156,7 @@ def is_alike(one: str, other: str) -> bool:
     return _array_and_text(one) == _array_and_text(other)
 
 
+@lru_cache(maxsize=1024)
 def misspelt_token(attribute: str, token: str, allowed: tuple[str, ...]) -> str | None:
     """The allowed token that another one is probably a misspelling of.
 

@@ -7,7 +7,7 @@ from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, 
 def file_missing(field: Prim, facts: Facts) -> Problems:
     missing = facts.files.missing(field)
     if missing:
-        absence = facts.files.absence(missing.anchored(), missing.first.path)
+        absence = facts.files.absence(missing.place, missing.first.path)
         what, count = missing.nothing_there
         yield Problem(
             f"{what}{absence.reason}{count}",

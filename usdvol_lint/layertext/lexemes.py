@@ -29,9 +29,17 @@ def either(*patterns: bytes) -> bytes:
     return b"(?:" + b"|".join(patterns) + b")"
 
 
+def runs(plain: bytes, *others: bytes) -> bytes:
+    """As much as there is of plain bytes, a class, and of other patterns, few of which stand there.
+
+    `re` takes the plain ones in one step, and a step for each of the others.
+    """
+    return plain + b"*+(?:" + either(*others) + plain + b"*+)*+"
+
+
 STRING = either(*STRINGS)
 SPACE = either(rb"[ \t]++", BLOCK_COMMENT)
-PADDING = either(rb"[\s;]++", *COMMENTS) + b"*+"
+PADDING = runs(rb"[ \t\n\r\f\v;]", *COMMENTS)
 NAMED = SPACE + rb"++(?:[^\s\"'(){}=;,/]++" + SPACE + b"++)?+" + STRING
 BRACE_VALUE = b"=" + SPACE + rb"*+\{"
 

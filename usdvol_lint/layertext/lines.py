@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import re
+from array import array
+from collections import defaultdict
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from usdvol_lint.layertext.excerpts import excerpt
 from usdvol_lint.layertext.outline import Outline
-from usdvol_lint.layertext.statements import KEY, Property, asset_offsets, end_of, statements
+from usdvol_lint.layertext.statements import (
+    KEY,
+    Property,
+    Statement,
+    asset_offsets,
+    end_of,
+    statements,
+)
 from usdvol_lint.model import Excerpt
 
 _ELEMENT = re.compile(r"\{[^{}]*\}|[^/{}]+")
-_BLOCK_SIZE = 1 << 12
+_NAME = re.compile(r"[^/{}]+")
+_BLOCK_SIZE = 1 << 9
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -31,7 +41,7 @@ class TextLayer:
         self._data = data
         self._scopes: dict[int, _Scope] = {}
         self._enclosing: dict[str, _Scope | None] = {}
-        self._lines_before_block = [0]
+        self._lines_before_block = array("q", [0])
 
     def find(
         self, path: str, *, time: float | None = None, asset: str | None = None
@@ -50,9 +60,9 @@ class TextLayer:
         offset = spec.start
         mark = spec.value if isinstance(spec, Property) else None
         sample = None
-        if time is not None and isinstance(spec, Property) and spec.samples:
+        if time is not None and isinstance(spec, Property) and (samples := spec.samples):
             sample = spec.sample(time)
-            offset = (sample or spec.samples.span).start
+            offset = (sample or samples).start
             mark = end_of(KEY, self._data, sample.start) if sample else None
         if asset is not None:
             assets = asset_offsets(self._data, [sample]) if sample else spec.assets
@@ -77,15 +87,23 @@ class TextLayer:
 
     def _scope_at(self, path: str) -> _Scope | None:
         """The scope at the path of a prim or variant, or of the layer."""
-        if not path.startswith("/"):
-            return None
-        scope = self._scope(0)
+        above, _, name = path.rpartition("/")
+        if not above or not _NAME.fullmatch(name):
+            return self._top_down(path)
+        if above not in self._enclosing:
+            self._enclosing[above] = self._top_down(above)
+        scope = self._enclosing[above]
+        return self._child(scope, name) if scope else None
+
+    def _top_down(self, path: str) -> _Scope | None:
+        scope = self._scope(0) if path.startswith("/") else None
         for element in _ELEMENT.findall(path):
-            child = scope.children.get(element)
-            if child is None:
-                return None
-            scope = self._scope(child)
+            scope = scope and self._child(scope, element)
         return scope
+
+    def _child(self, scope: _Scope, element: str) -> _Scope | None:
+        number = scope.children.get(element)
+        return None if number is None else self._scope(number)
 
     def _scope(self, number: int) -> _Scope:
         if number not in self._scopes:
@@ -98,18 +116,20 @@ class TextLayer:
 
     def _position(self, offset: int, mark: int | None) -> Position:
         """The position of an offset; `mark` is where its value begins, if that is in its line."""
+        start = self._data.rfind(b"\n", 0, offset) + 1
+        text = self._data[start:offset].decode("utf-8", "replace")
+        column = len(text.removeprefix("\ufeff")) + 1
+        if mark is None or self._data.find(b"\n", offset, mark) >= 0:
+            mark = offset
+        return Position(self._line(offset), column, excerpt(self._data, start, mark))
+
+    def _line(self, offset: int) -> int:
         before = self._lines_before_block
         block = offset // _BLOCK_SIZE
         while len(before) <= block:
             start = (len(before) - 1) * _BLOCK_SIZE
             before.append(before[-1] + self._data.count(b"\n", start, start + _BLOCK_SIZE))
-        line = before[block] + self._data.count(b"\n", block * _BLOCK_SIZE, offset)
-        line_start = self._data.rfind(b"\n", 0, offset) + 1
-        text = self._data[line_start:offset].decode("utf-8", "replace")
-        column = len(text.removeprefix("\ufeff")) + 1
-        if mark is None or b"\n" in self._data[offset:mark]:
-            mark = offset
-        return Position(line + 1, column, excerpt(self._data, line_start, mark))
+        return before[block] + self._data.count(b"\n", block * _BLOCK_SIZE, offset) + 1
 
 
 class _Scope:
@@ -142,9 +162,9 @@ class _Scope:
 
     @cached_property
     def properties(self) -> dict[str, Property]:
-        outline = self._outline
-        found: dict[str, Property] = {}
-        for span in outline.own(self._number, self.body):
-            for statement in statements(outline.data, span):
-                found.setdefault(statement.name, Property(outline.data)).add(statement)
-        return found
+        data = self._outline.data
+        found: dict[str, list[Statement]] = defaultdict(list)
+        for span in self._outline.own(self._number, self.body):
+            for statement in statements(data, span):
+                found[statement.name].append(statement)
+        return {name: Property(data, about) for name, about in found.items()}

@@ -6,7 +6,7 @@ import math
 import re
 from array import array
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from itertools import islice
 from operator import le
@@ -24,6 +24,7 @@ from usdvol_lint.layertext.lexemes import (
     STRINGS,
     Span,
     either,
+    runs,
     tokens,
 )
 
@@ -31,13 +32,16 @@ _BRACKETS = {
     opener: tokens(rb"\%c" % opener, rb"\%c" % closer, plain=OPAQUE)
     for opener, closer in (b"()", b"[]", b"{}")
 }
-_STATEMENT = re.compile(PADDING + rb"((?:[^=(;\r\n{}#/\"'@<]++|" + BLOCK_COMMENT + rb")*+)")
+_HEAD = runs(rb"[^=(;\r\n{}#/\"'@<]", BLOCK_COMMENT)
+_TAIL = runs(rb"[^()\[\]{};\r\n\"'@#/<]", *OPAQUE, b"/") + rb"[)\]};\r\n]"
+_STATEMENT = re.compile(PADDING + b"(" + _HEAD + b")(" + _TAIL + b")?+")
+"""The second group is not there where a bracket opens: then the end is to be searched for."""
 _BREAK = tokens(
     *(rb"\(", rb"\[", rb"\{"),
     *OPAQUE,
     plain=(rb"\)", rb"\]", rb"\}", b";", b"\n", b"\r"),
 )
-_COMMENT = re.compile(BLOCK_COMMENT)
+_COMMENT = re.compile(BLOCK_COMMENT.decode())
 _ASSET = tokens(*ASSETS, *PATHS, plain=(*STRINGS, *COMMENTS))
 _SAMPLES = re.compile(BRACE_VALUE + PADDING)
 _ARRAY = rb"\[" + either(rb"[^\]\"'@#/<]++", *OPAQUE) + b"*+"
@@ -56,36 +60,42 @@ KEY = re.compile(rb"[^:\r\n]*:[ \t]*(?=[^\s])")
 class Statement(NamedTuple):
     """One statement about a property; `value` is the offset at which the declaration ends."""
 
-    span: Span
+    start: int
     value: int
+    stop: int
     name: str
     suffix: str
+
+    @property
+    def span(self) -> Span:
+        return Span(self.start, self.stop)
 
 
 class Property:
     """The statements about one property in one scope."""
 
-    def __init__(self, data: bytes) -> None:
+    def __init__(self, data: bytes, statements: Sequence[Statement]) -> None:
         self._data = data
-        self._spans: list[Span] = []
-        self.value: int | None = None
-        """Where the value of the first one begins, if that is in the line of the declaration."""
-        self.samples: Statement | None = None
-
-    def add(self, statement: Statement) -> None:
-        if not self._spans:
-            self.value = end_of(_EQUALS, self._data, statement.value)
-        self._spans.append(statement.span)
-        if statement.suffix == "timeSamples":
-            self.samples = statement
+        self._statements = statements
 
     @property
     def start(self) -> int:
-        return self._spans[0].start
+        return self._statements[0].start
+
+    @property
+    def value(self) -> int | None:
+        """Where the value of the first one begins, if that is in the line of the declaration."""
+        return end_of(_EQUALS, self._data, self._statements[0].value)
+
+    @property
+    def samples(self) -> Statement | None:
+        """The last one with time samples."""
+        found = [each for each in self._statements if each.suffix == "timeSamples"]
+        return found[-1] if found else None
 
     @cached_property
     def assets(self) -> dict[str, int]:
-        return asset_offsets(self._data, self._spans)
+        return asset_offsets(self._data, (statement.span for statement in self._statements))
 
     def sample(self, time: float) -> Span | None:
         """The span of the time sample with that key, within rounding; None if there is none."""
@@ -104,10 +114,11 @@ class Property:
         """The keys of the time samples, ascending, and their offsets."""
         times: array[float] = array("d")
         offsets: array[int] = array("q")
-        opening = self.samples and _SAMPLES.match(self._data, self.samples.value)
-        if not self.samples or not opening:
+        samples = self.samples
+        opening = samples and _SAMPLES.match(self._data, samples.value)
+        if not samples or not opening:
             return times, offsets
-        for token in _SAMPLE.finditer(self._data, opening.end(), self.samples.span.stop):
+        for token in _SAMPLE.finditer(self._data, opening.end(), samples.stop):
             try:
                 times.append(float(token[1]))
             except ValueError:
@@ -122,22 +133,21 @@ class Property:
 
 def statements(data: bytes, span: Span) -> Iterator[Statement]:
     """The statements about properties in a span of a body that holds no prims."""
-    position = span.start
-    while position < span.stop:
-        head = _STATEMENT.match(data, position, span.stop)
+    position, stop = span
+    while position < stop:
+        head = _STATEMENT.match(data, position, stop)
         if head is None:
             return
-        position = _statement_stop(data, head.end(), span.stop)
-        declaration, _, suffix = _COMMENT.sub(b" ", head[1]).partition(b".")
-        words = declaration.rstrip(b"[ \t").decode("utf-8", "replace").split()
+        start, value = head.span(1)
+        position = head.end() if head[2] else _statement_stop(data, value, stop)
+        text = head[1].decode("utf-8", "replace")
+        if "/" in text:
+            text = _COMMENT.sub(" ", text)
+        declaration, _, suffix = text.partition(".")
+        words = declaration.rstrip("[ \t").split()
         # `reorder properties` orders names and declares none.
-        if len(words) > 1 and words[:-1] != ["reorder"]:
-            yield Statement(
-                Span(head.start(1), position),
-                head.end(),
-                words[-1],
-                suffix.strip().decode("utf-8", "replace"),
-            )
+        if len(words) > 1 and (len(words) > 2 or words[0] != "reorder"):
+            yield Statement(start, value, position, words[-1], suffix.strip())
 
 
 def _statement_stop(data: bytes, position: int, stop: int) -> int:

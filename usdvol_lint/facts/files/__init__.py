@@ -145,7 +145,7 @@ class Files(Wing):
 
     def frames(self, found: Affected) -> list[tuple[int, str]]:
         """The frame numbers and paths of the files that a path with a placeholder stands for."""
-        return corrections.find_frames(self._disk, found.anchored(), found.first.path)
+        return corrections.find_frames(self._disk, found.place, found.first.path)
 
     @fact
     def recased(self, field: Any) -> Recased | None:

@@ -67,7 +67,7 @@ class Absences:
         """The topmost missing folder above all missing files, if their paths have one folder."""
         if len({split_path(sample.path)[0] for sample in missing.samples}) > 1:
             return None
-        path = missing.anchored()
+        path = missing.place
         if path not in self._folders:
             self._folders[path] = missing_folder(self._disk, path)
         return self._folders[path]

@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -130,7 +131,7 @@ class AssetSamples(NamedTuple):
         return not self.samples and any(spec.layer == root for spec in specs)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Affected(Occurrences):
     """The samples that a finding is about, and what its message says of them."""
 
@@ -213,7 +214,8 @@ class Affected(Occurrences):
         names = (each.spec.layer.GetDisplayName() for each in opinions if each)
         return list(dict.fromkeys(names))
 
-    def anchored(self) -> str:
+    @cached_property
+    def place(self) -> str:
         """The absolute path of the first sample, whether or not anything is there."""
         return _place_of(self.attribute, self.first)
 

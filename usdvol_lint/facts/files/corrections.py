@@ -13,7 +13,7 @@ from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.paths import count_shared, is_packaged
 from usdvol_lint.facts.files.patterns import matching_frames
 from usdvol_lint.facts.files.places import place_of
-from usdvol_lint.nearest import are_swapped, by_nearness, closest_match
+from usdvol_lint.nearest import by_nearness
 from usdvol_lint.words import quoted
 
 _NAMED = 3
@@ -69,7 +69,7 @@ def find_absence(
         if not os.path.isfile(package):
             return _absence_of_package(disk, package, authored)
         return _absence_inside(disk, package, inner, authored, corrected)
-    missing = _first_missing(path)
+    missing = disk.first_missing(path)
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
     if os.path.isfile(folder):
@@ -106,10 +106,10 @@ def missing_folder(disk: Disk, path: str) -> str | None:
     if is_packaged(path):
         package, inner = Ar.SplitPackageRelativePathOuter(path)
         if not os.path.isfile(package):
-            return _first_missing(package)
+            return disk.first_missing(package)
         folder = disk.missing_in_package(package, inner)
         return str(Ar.JoinPackageRelativePath(package, folder)) if folder else None
-    missing = _first_missing(path)
+    missing = disk.first_missing(path)
     return None if missing == path else missing
 
 
@@ -176,11 +176,9 @@ def _absence_below_file(file: str, path: str, authored: str) -> Absence:
 def _closest_name(
     disk: Disk, folder: str, name: str, not_meant: Collection[str] = ()
 ) -> str | None:
-    """The closest other name in a folder; a name with other numbers is no misspelling."""
-    excluded = {name, *(path.removeprefix(f"{folder}/") for path in not_meant)}
-    others = [other for other in disk.listing(folder).numbered_like(name) if other not in excluded]
-    swapped = (other for other in others if are_swapped(name, other))
-    return next(swapped, None) or closest_match(name, others)
+    """The closest other name in a folder."""
+    excluded = frozenset(path.removeprefix(f"{folder}/") for path in not_meant)
+    return disk.listing(folder).closest(name, excluded)
 
 
 def _moved(
@@ -220,13 +218,6 @@ def _in_folders_of(disk: Disk, folder: str, below: str, authored: str) -> Iterat
     file = below[below.rindex("/") :]
     for inside in disk.folders_with(folder, file) if authored.endswith(below) else ():
         yield _with_end(authored, below, inside + file)
-
-
-def _first_missing(path: str) -> str:
-    """The topmost folder of an absolute path that does not exist, or the whole path."""
-    while not os.path.exists(parent := os.path.dirname(path)) and parent != path:
-        path = parent
-    return path
 
 
 def _broken_link(path: str) -> str:

@@ -38,6 +38,7 @@ class Disk:
         self._all_folders = folders or Folders()
         self._faults: dict[str, str | None] = {}
         self._listings: dict[str, Listing] = {}
+        self._missing: dict[str, str | None] = {}
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._siblings: dict[str, tuple[str, ...]] = {}
         self._tried: set[tuple[str, str]] = set()
@@ -59,6 +60,13 @@ class Disk:
         if folder not in self._listings:
             self._listings[folder] = self._all_folders.listing(folder)
         return self._listings[folder]
+
+    def first_missing(self, path: str) -> str:
+        """The topmost folder of an absolute path that does not exist, or the whole path."""
+        folder = os.path.dirname(path)
+        if folder not in self._missing:
+            self._missing[folder] = _first_missing(folder)
+        return self._missing[folder] or path
 
     def missing_in_package(self, package: str, inner: str) -> str | None:
         """The topmost folder that a package lacks above a path in it, if it lacks one.
@@ -125,6 +133,14 @@ class Disk:
     def ignores_case(self, path: str) -> bool:
         """Whether the file system finds an existing file under another case of its name."""
         return self._all_folders.ignores_case(path)
+
+
+def _first_missing(folder: str) -> str | None:
+    """The topmost of a folder and those above it that does not exist; None if it is there."""
+    missing = None
+    while folder != missing and not os.path.exists(folder):
+        missing, folder = folder, os.path.dirname(folder)
+    return missing
 
 
 def file_fault(path: str) -> str | None:

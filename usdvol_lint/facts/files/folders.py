@@ -6,12 +6,13 @@ import os
 import re
 import time
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from itertools import chain
 from typing import TypeAlias
 
 from usdvol_lint.facts.files.places import folders_above, names_listed
+from usdvol_lint.nearest import are_swapped, closest_match
 
 _NUMBER = re.compile(r"[0-9]+")
 _NAMES_KEPT = 200_000
@@ -31,6 +32,7 @@ class Listing:
         self.names = tuple(names)
         self.with_file: dict[str, tuple[str, ...]] = {}
         """By a path, those of the names that are folders with a file at that path below them."""
+        self._closest: dict[tuple[str, frozenset[str]], str | None] = {}
 
     @cached_property
     def by_case(self) -> dict[str, str]:
@@ -65,9 +67,15 @@ class Listing:
         )
         return [name for name in found if "/" not in name]
 
-    def numbered_like(self, name: str) -> Sequence[str]:
-        """The names whose numbers are the same as in `name`."""
-        return self._by_numbers.get(_numbers(name), ())
+    def closest(self, name: str, excluded: frozenset[str]) -> str | None:
+        """The closest other name; one with other numbers is no misspelling."""
+        key = name, excluded
+        if key not in self._closest:
+            alike = self._by_numbers.get(_numbers(name), ())
+            others = [other for other in alike if other != name and other not in excluded]
+            swapped = (other for other in others if are_swapped(name, other))
+            self._closest[key] = next(swapped, None) or closest_match(name, others)
+        return self._closest[key]
 
 
 class Folders:

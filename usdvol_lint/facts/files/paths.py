@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-from itertools import takewhile
 from typing import Any
 
 from pxr import Ar, Sdf
@@ -12,6 +11,7 @@ from pxr import Ar, Sdf
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.paths import FORMAT_ARGUMENTS
 
+_UNLISTED = ("", ".", "..")
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+-]+):")
 
 
@@ -31,7 +31,7 @@ def extension_of(path: str) -> str:
 def count_names(path: str) -> int:
     """How many names a path has that folders list, so without `.` and `..`."""
     names = os.path.normpath(path).replace(os.sep, "/").split("/")
-    return sum(name not in ("", ".", "..") for name in names)
+    return len(names) - sum(map(names.count, _UNLISTED))
 
 
 def count_shared(path: str, place: str) -> int:
@@ -41,8 +41,12 @@ def count_shared(path: str, place: str) -> int:
     """
     names = os.path.normpath(path).replace("\\", "/").split("/")
     others = place.replace("\\", "/").split("/")
-    pairs = zip(reversed(names), reversed(others), strict=False)
-    return min(count_names(path), sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs)))
+    shared = 0
+    for name, other in zip(reversed(names), reversed(others), strict=False):
+        if name != other:
+            break
+        shared += 1
+    return min(count_names(path), shared)
 
 
 def is_packaged(path: str) -> bool:
