@@ -114,6 +114,16 @@ def test_fields_below_one_missing_folder_are_told_in_one_line(
     ]
 
 
+def test_a_field_whose_files_are_missing_in_two_folders_is_told_by_itself(
+    lint_text: Lint, tmp_path: Path
+) -> None:
+    one = volume("asset filePath = @./gone/a.vdb@")
+    two = volume("asset filePath.timeSamples = { 1: @./gone/a.vdb@, 2: @./lost/a.vdb@ }")
+    found = findings(lint_text(one + two.replace("cloud", "second")))
+    assert [each.code for each in found] == ["AST002", "AST002"]
+    assert (found[0].fold, found[1].fold == found[0].fold) == (f"{tmp_path}/gone", False)
+
+
 def test_what_lies_beside_the_folder_of_a_layer_is_another_asset(tmp_path: Path) -> None:
     write(tmp_path, "a/cloud.vdb", "b/other.vdb")
     assert find_absence(Disk(), f"{tmp_path}/b/cloud.vdb", "./cloud.vdb") == Absence("", None)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from typing import Any
 
 import pytest
 from pxr import Sdf, Usd
 
+from usdvol_lint.facts.usd import forwarding
 from usdvol_lint.facts.usd.below import each_below
 from usdvol_lint.facts.usd.forwarding import Forwarding
 from usdvol_lint.facts.usd.settled import settle
@@ -63,7 +65,23 @@ def test_forwarding_ends_where_usd_says(text: str, order: str) -> None:
     layer = Sdf.Layer.CreateAnonymous(".usda")
     layer.ImportFromString(f'#usda 1.0\ndef "w"\n{{\n{text}\n}}\n')
     stage = Usd.Stage.Open(layer)
-    forwarding = Forwarding()
+    followed = Forwarding()
     for name in order:
         relationship = stage.GetRelationshipAtPath(f"/w.{name}")
-        assert forwarding.targets(relationship) == relationship.GetForwardedTargets()
+        assert followed.targets(relationship) == relationship.GetForwardedTargets()
+
+
+def test_what_a_ring_forwards_to_is_asked_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Any] = []
+    get_targets = forwarding.get_targets
+    monkeypatch.setattr(
+        forwarding, "get_targets", lambda end: asked.append(end) or get_targets(end)
+    )
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    links = "\n".join(f"rel n{number} = </w.n{(number + 1) % 9}>" for number in range(9))
+    layer.ImportFromString(f'#usda 1.0\ndef "w"\n{{\n{links}\n}}\n')
+    stage = Usd.Stage.Open(layer)
+    followed = Forwarding()
+    for number in range(9):
+        assert followed.targets(stage.GetRelationshipAtPath(f"/w.n{number}")) == []
+    assert len(asked) == 1

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from pxr import Sdf, Usd
 
-from usdvol_lint.facts.volumes.emptiness import why_empty
+from usdvol_lint.facts.volumes.emptiness import Reason, why_empty
 from usdvol_lint.facts.volumes.states import Emptiness
 
 BARE = "rel field:density"
@@ -51,6 +53,26 @@ def test_opinions_strongest_first(
     stage.DefinePrim("/a").GetReferences().AddReference(asset.identifier, "/asset")
     relationship = stage.GetRelationshipAtPath("/a/cloud.field:density")
     assert not relationship.GetTargets()
-    found, specs = why_empty(relationship)
+    found, specs = why_empty(relationship, {})
     assert found is emptiness
     assert [spec.layer for spec in specs] == [layers[index] for index in lost]
+
+
+@pytest.mark.parametrize(
+    ("last", "emptiness"),
+    [
+        ("</v.field:n7>", Emptiness.CIRCULAR),
+        ("</v.field:gone>", Emptiness.UNAUTHORED),
+        ("None", Emptiness.BLOCKED),
+    ],
+)
+def test_many_that_lead_into_one_chain(last: str, emptiness: Emptiness) -> None:
+    """A ring, or what ends nowhere or with nothing: USD is asked once for each of them."""
+    links = 30
+    chain = "".join(f"rel field:n{n} = </v.field:n{n + 1}>\n" for n in range(links - 1))
+    stage = Usd.Stage.Open(layer(f'def "v"\n{{\n{chain}rel field:n{links - 1} = {last}\n}}'))
+    known: dict[Any, Reason] = {}
+    for number in range(links):
+        relationship = stage.GetRelationshipAtPath(f"/v.field:n{number}")
+        assert why_empty(relationship, known) == (emptiness, ())
+        assert len(known) == links

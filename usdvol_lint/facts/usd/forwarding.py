@@ -15,11 +15,15 @@ class Forwarding:
 
     def __init__(self) -> None:
         self._ends: dict[Any, Any] = {}
+        self._targets: dict[Any, list[Any]] = {}
 
     def targets(self, relationship: Any) -> list[Any]:
         """What USD calls the forwarded targets."""
-        targets: list[Any] = get_targets(self._end(relationship))
-        return targets
+        end = self._end(relationship)
+        path = end.GetPath()
+        if path not in self._targets:
+            self._targets[path] = get_targets(end)
+        return self._targets[path]
 
     def _end(self, relationship: Any) -> Any:
         """The first relationship of a chain that does not forward to one; any of a ring."""

@@ -22,7 +22,7 @@ from usdvol_lint.facts.usd.forwarding import Forwarding
 from usdvol_lint.facts.usd.instances import shown_path
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.volumes.bindings import Binding, BoundFields, FieldBindings
-from usdvol_lint.facts.volumes.emptiness import why_empty
+from usdvol_lint.facts.volumes.emptiness import Reason, why_empty
 from usdvol_lint.facts.volumes.states import BindingMark, TargetState
 from usdvol_lint.facts.volumes.targets import MayLack, read_target
 
@@ -42,6 +42,7 @@ class BindingReader:
     def __init__(self, kinds: PrimKinds) -> None:
         self._kinds = kinds
         self._forwarding = Forwarding()
+        self._reasons: dict[Any, Reason] = {}
 
     def read_many(
         self, batch: PrimBatch, authored: Authored, live: Mapping[Any, Slot], may_lack: MayLack
@@ -98,7 +99,7 @@ class BindingReader:
             volume = prop.GetPrim()
             targets = tuple([read_target(volume, path, self._kinds, may_lack) for path in paths])
             return Binding(prop, name, True, targets)
-        emptiness, lost = why_empty(prop)
+        emptiness, lost = why_empty(prop, self._reasons)
         forwards_to = "".join(shown_path(stage, path) for path in prop.GetTargets()[:1])
         return Binding(prop, name, True, (), emptiness, lost, forwards_to)
 
