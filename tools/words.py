@@ -13,7 +13,7 @@ from typing import Any
 
 from usdvol_lint.command import cli
 from usdvol_lint.config import Config
-from usdvol_lint.packs.catalog import Catalog
+from usdvol_lint.packs.catalog import NOT_CHECKED, Catalog
 from usdvol_lint.packs.examples import words_of
 from usdvol_lint.run.testing import findings_in, portable
 
@@ -91,6 +91,8 @@ def _of_bad_input(data: Mapping[str, Any]) -> Iterator[str]:
         packs = (_said_of_pack(name, modules) for name, modules in data["packs"].items())
         yield _paragraph("A pack of rules", packs)
         yield _paragraph("A stage", _said_of_stages(data["stages"], here))
+        partly = (_said_of_part(name, made, here) for name, made in data["partly"].items())
+        yield _paragraph("A stage that is checked in part", partly)
 
 
 def _paragraph(title: str, entries: Iterable[str]) -> str:
@@ -175,6 +177,19 @@ def _said_of_stages(stages: Mapping[str, Mapping[str, Any]], here: Path) -> Iter
     config = Config(packs=(str(_ROUGH),), select=("RGH",), timeout=_LIMIT)
     for found in findings_in(list(stages), config):
         yield words_of(portable(found, here))
+
+
+def _said_of_part(name: str, made: Mapping[str, Any], here: Path) -> str:
+    """What is said of a stage of which something is not checked."""
+    asked = {key: value for key, value in made.items() if key not in ("text", "repeated")}
+    text = f"#usda 1.0\n{made['text']}"
+    if again := made.get("repeated"):
+        for number in range(again["count"]):
+            one = again["text"].replace("{n}", f"{number}")
+            text += one.replace("{next}", f"{number + 1}")
+    Path(name).write_text(text, encoding="utf-8")
+    [found] = findings_in([name], Config(timeout=_LIMIT, **asked))
+    return words_of(tuple(each for each in portable(found, here) if each.code == NOT_CHECKED.code))
 
 
 def _write(path: Path, made: Mapping[str, Any]) -> None:
