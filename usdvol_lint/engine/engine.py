@@ -32,7 +32,7 @@ from usdvol_lint.paths import named
 from usdvol_lint.rule import Rule
 from usdvol_lint.suppressions import InStages
 
-_SENT_AT_ONCE = 100
+_SENT_AT_ONCE = 10
 """From this many findings on they are sent in batches."""
 
 
