@@ -117,6 +117,7 @@ class Facts:
             self.layers,
             self.grids,
             used,
+            known.boxes,
         )
         self.particles = Particles(tables, kinds, self.prims, depth, advance)
 

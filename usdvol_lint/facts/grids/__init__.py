@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.grids.changes import GridChanges
     from usdvol_lint.facts.grids.claims import FieldClaims
     from usdvol_lint.facts.grids.contents import ContentClass
-    from usdvol_lint.facts.grids.known import KnownBoxes, KnownContents
+    from usdvol_lint.facts.grids.known import KnownContents
     from usdvol_lint.facts.grids.reader import ContentReader
     from usdvol_lint.facts.grids.timelines import FieldContents, Timeline
     from usdvol_lint.facts.prims.tables import Table, Tables
@@ -88,11 +88,6 @@ class Grids(Wing):
             if sharing[0] == field
             else None
         )
-
-    @property
-    def boxes(self) -> KnownBoxes:
-        """The boxes around grids that are known so far, of this stage and others."""
-        return self._known.boxes
 
     @cached_property
     def _sharing(self) -> Mapping[Hashable, list[Any]]:

@@ -27,6 +27,7 @@ with deferred(globals()):
 if TYPE_CHECKING:
     from usdvol_lint.facts.files import Files
     from usdvol_lint.facts.grids import Grids
+    from usdvol_lint.facts.grids.known import KnownBoxes
     from usdvol_lint.facts.layers import Layers
     from usdvol_lint.facts.prims import Prims
     from usdvol_lint.facts.prims.tables import Table, Tables
@@ -45,7 +46,11 @@ if TYPE_CHECKING:
 
 
 class Volumes(Wing):
-    """The facts about Volumes; `used` are the fields that any variant selection so far uses."""
+    """The facts about Volumes.
+
+    `used` are the fields that any variant selection so far uses, `boxes` those around grids that
+    are known so far, of this stage and others.
+    """
 
     def __init__(
         self,
@@ -58,6 +63,7 @@ class Volumes(Wing):
         layers: Layers,
         grids: Grids,
         used: UsedFields,
+        boxes: KnownBoxes,
     ) -> None:
         super().__init__(tables)
         self._stage = stage
@@ -68,6 +74,7 @@ class Volumes(Wing):
         self._layers = layers
         self._grids = grids
         self._used = used
+        self._boxes = boxes
 
     @column
     def bound_fields(self, table: Table) -> Sequence[BoundFields]:
@@ -215,4 +222,4 @@ class Volumes(Wing):
 
     @cached_property
     def _enclosure(self) -> Enclosure:
-        return enclosure.Enclosure(self.tables, self._prims, self._files, self._grids)
+        return enclosure.Enclosure(self.tables, self._prims, self._files, self._grids, self._boxes)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from usdvol_lint.facts.files import Files
 from usdvol_lint.facts.grids import Grids
+from usdvol_lint.facts.grids.known import KnownBoxes
 from usdvol_lint.facts.grids.timelines import Timeline
 from usdvol_lint.facts.prims import Prims
 from usdvol_lint.facts.prims.tables import Table, Tables
@@ -29,12 +30,14 @@ if TYPE_CHECKING:
 class Enclosure:
     """Compares extents with the grids in the files of the fields."""
 
-    def __init__(self, tables: Tables, prims: Prims, files: Files, grids: Grids) -> None:
+    def __init__(
+        self, tables: Tables, prims: Prims, files: Files, grids: Grids, known: KnownBoxes
+    ) -> None:
         self._tables = tables
         self._prims = prims
         self._files = files
         self._timelines = grids.timelines
-        self._boxes = GridBoxes(grids.boxes)
+        self._boxes = GridBoxes(known)
         self._hulls = Hulls(self._boxes)
 
     def overhangs(self, table: Table, bound_fields: Iterable[BoundFields]) -> list[float]:
