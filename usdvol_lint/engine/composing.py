@@ -17,12 +17,14 @@ _MOST_INDICES = 20_000
 class Size(NamedTuple):
     """How many prims there are, and of how many places in layer stacks they are composed.
 
-    `different` of the prims bring each something below that no other one brings.
+    `different` of the prims bring each something below that no other one brings; `again` is the
+    first of those with most below it that are there more than once, if any are.
     """
 
     prims: int
     sites: int
     different: int = 0
+    again: str | None = None
 
 
 _Key: TypeAlias = tuple[bool, Hashable]
@@ -53,14 +55,17 @@ class _Composing:
         self._left = _MOST_INDICES
         self._below: dict[_Key, Size] = {}
         self._first: dict[_Key, Any] = {}
+        self._repeated: dict[_Key, None] = {}  # in the order in which they are met
 
     def size(self) -> Size:
         root, _ = self._met(Sdf.Path.absoluteRootPath)
         settle(root, self._find_below, self._below)
         # An instance is one prim of what is above it, and what it shares is there beside that.
         there = [size for key, size in self._below.items() if key == root or key[0]]
-        prims, sites = (sum(each[part] for each in there) for part in (0, 1))
-        return Size(prims, sites, len(self._below))
+        prims, sites = sum(each.prims for each in there), sum(each.sites for each in there)
+        repeated = max(self._repeated, key=lambda each: self._below[each].sites, default=None)
+        again = None if repeated is None else str(self._first[repeated])
+        return Size(prims, sites, len(self._below), again)
 
     def _met(self, path: Any) -> tuple[_Key, int]:
         """The key of a prim, and of how many places it is composed."""
@@ -87,7 +92,9 @@ class _Composing:
             if self._left <= 0 or not self._goes_on():
                 break
             child, own = self._met(path.AppendChild(name))
-            if child not in self._below:
+            if child in self._below:
+                self._repeated[child] = None
+            else:
                 yield child
             below = Size(0, 0) if child[0] else self._below[child]
             prims += 1 + below.prims

@@ -6,11 +6,14 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.trouble import Trouble, report_trouble
 from usdvol_lint.model import StageReport
 from usdvol_lint.words import counted
+
+if TYPE_CHECKING:
+    from usdvol_lint.engine.composing import Size
 
 _LOOKS_EVERY = 2.0
 """Seconds between two looks: only a stage that both find opening is looked at."""
@@ -70,13 +73,14 @@ class Watch:
         size = size_of(layer, session, loads, lambda: self._opening is opening)
         with self._lock:
             if size.sites > _MOST_SITES and self._opening is opening:
-                self._end(report_trouble(path, _multiplied(size.prims, size.different)))
+                self._end(report_trouble(path, _multiplied(size)))
 
 
-def _multiplied(prims: int, different: int) -> Trouble:
+def _multiplied(size: Size) -> Trouble:
+    below = f", many of them below prims such as <{size.again}>" if size.again else ""
     return Trouble(
         "not opened: its arcs multiply what they bring: "
-        f"the same {different:,} prims again and again, {counted(prims)} in all",
+        f"the same {size.different:,} prims again and again, {counted(size.prims)} in all{below}",
         "let each level bring the one below once, or make the prims that bring it instanceable: "
         "what instances share is composed once",
     )

@@ -28,7 +28,7 @@ def too_large(own: int, limit: float) -> Trouble:
         f"stopped at {format_size(own)} of memory; the limit for one process is "
         f"{format_size(limit)}",
         f"if the stage is that large, raise --memory-limit, let fewer work at once with --jobs, or "
-        f"{LESS}; where references bring references, a few multiply: usdcat shows them",
+        f"{LESS}; if it is not, look for references that bring references: a few of them multiply",
     )
 
 

@@ -18,6 +18,8 @@ _NUMBER = re.compile(r"[0-9]+")
 _NAMES_KEPT = 200_000
 """So many names take some 20 MB."""
 _FOLDERS_KEPT = 10_000
+_SOUGHT_KEPT = 1_000
+"""So many missing names are kept with what was found for them, of each folder."""
 _SETTLED = 2_000_000_000
 """In so many nanoseconds a folder may change twice, and its time of change once."""
 
@@ -71,6 +73,8 @@ class Listing:
         """The closest other name; one with other numbers is no misspelling."""
         key = name, excluded
         if key not in self._closest:
+            if len(self._closest) >= _SOUGHT_KEPT:
+                self._closest.clear()  # a listing lasts for the whole run
             alike = self._by_numbers.get(_numbers(name), ())
             others = [other for other in alike if other != name and other not in excluded]
             swapped = (other for other in others if are_swapped(name, other))
