@@ -15,6 +15,7 @@ from usdvol_lint.engine.walk import asked_by, walk
 from usdvol_lint.facts import Context, Facts
 from usdvol_lint.facts.grids.known import KnownContents
 from usdvol_lint.facts.usd.kinds import PrimKinds
+from usdvol_lint.volumefile import Grid
 from usdvol_lint.volumefile.cache import VolumeFiles
 
 SAME = stage(
@@ -93,3 +94,14 @@ def test_the_size_of_readings_is_known(tmp_path: Path) -> None:
     assert sizes[0] < sizes[1] < 5_000 < 60_000 < sizes[2]
     files.forget()
     assert files.size == 0
+
+
+def test_too_many_boxes_are_forgotten_between_two_stages(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are of grids, which they keep alive."""
+    known = KnownContents()
+    known.boxes[1, None] = Grid("density", "density", "float", "Tree_float_5_4_3"), None
+    known.begin_stage()
+    assert known.boxes
+    monkeypatch.setattr(known_module, "_MOST", 0)
+    known.begin_stage()
+    assert not known.boxes
