@@ -5,21 +5,38 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import pytest
+
 _SCRIPT = """
+import sys
 from pxr import Usd, Work
 before = Work.GetConcurrencyLimit()
 from usdvol_lint.engine.threads import Threads
 threads = Threads()
+are_many, workers, seconds = eval(sys.argv[1])
+threads.begin(are_many, workers)
 Usd.Stage.CreateInMemory()
-limits = [Work.GetConcurrencyLimit()]
-threads.use_all()
-print(*limits, Work.GetConcurrencyLimit() == before)
+threads.opened(seconds)
+print("all" if Work.GetConcurrencyLimit() == before else Work.GetConcurrencyLimit())
 """
 
 
-def test_one_thread_until_all_are_wanted() -> None:
-    """In a process of its own: there is no way back from many threads."""
+@pytest.mark.parametrize(
+    ("are_many", "workers", "seconds", "threads"),
+    [
+        (True, 1, 0.001, "1"),
+        (True, 1, 0.2, "all"),
+        (True, 2, 0.2, "1"),
+        (True, 2, 1.0, "all"),
+        (False, 2, 0.0, "all"),
+    ],
+)
+def test_one_thread_until_all_are_wanted(
+    are_many: bool, workers: int, seconds: float, threads: str
+) -> None:
+    """In a process of its own, where there is a second thread: there is no way back from many."""
+    asked = repr((are_many, workers, seconds))
     done = subprocess.run(
-        [sys.executable, "-P", "-c", _SCRIPT], capture_output=True, text=True, check=True
+        [sys.executable, "-P", "-c", _SCRIPT, asked], capture_output=True, text=True, check=True
     )
-    assert done.stdout.split() == ["1", "True"]
+    assert done.stdout.split() == [threads]

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from pxr import Work
 
+_LONG = 0.01
+"""A stage that takes so many seconds to open is worth the threads; a small one takes 0.5 ms."""
+_LONG_AMONG_WORKERS = 0.5
+"""The same where other processes have the other processors for their own stages."""
+
 
 class Threads:
     """The threads of USD: one until all are wanted.
@@ -15,9 +20,21 @@ class Threads:
 
     def __init__(self) -> None:
         self._all = Work.GetConcurrencyLimit()
+        self._long = _LONG
         Work.SetConcurrencyLimit(1)
 
-    def use_all(self) -> None:
+    def begin(self, are_many: bool, workers: int) -> None:
+        """Says whether there are many stages, most of them probably small, and for how many."""
+        self._long = _LONG if workers == 1 else _LONG_AMONG_WORKERS
+        if not are_many:
+            self._use_all()
+
+    def opened(self, seconds: float) -> None:
+        """Says how long a stage took to open: after a long one USD has all threads."""
+        if seconds > self._long:
+            self._use_all()
+
+    def _use_all(self) -> None:
         """Lets USD use as many as it may, which the caller's environment can limit."""
         if Work.GetConcurrencyLimit() != self._all:
             Work.SetConcurrencyLimit(self._all)

@@ -102,6 +102,7 @@ class Pool:
         Raises UsageError if the first worker can't work.
         """
         workers = max(1, min(jobs, owned(), self._waiting.qsize()))
+        setup = setup._replace(workers=workers)
         self._first.prepare(setup, _ready_limit(limit), Memory(memory, workers))
         self._able = workers
         try:

@@ -28,8 +28,9 @@ class Setup(NamedTuple):
     """The parent's first message: the rules to run, and how stages are to be checked.
 
     `is_alone` says that there is but one stage in the run, and `are_many` that there are so many
-    that most of them are probably small; `repository` that findings in layers
-    outside that folder need a line in the stage's own file.
+    that most of them are probably small; `workers` is how many there are at most.
+    `repository` says that findings in layers outside that folder need a line in the stage's own
+    file.
     Where some files are `changed`, a stage that uses none of them is not checked.
     """
 
@@ -39,6 +40,7 @@ class Setup(NamedTuple):
     suppressions: InStages
     is_alone: bool = False
     are_many: bool = False
+    workers: int = 1
     repository: str | None = None
     changed: frozenset[str] | None = None
 

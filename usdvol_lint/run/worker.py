@@ -15,7 +15,6 @@ from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.protocol import (
-    SHORT,
     Advance,
     Done,
     GivenUp,
@@ -68,8 +67,7 @@ def main() -> None:
     answers = _Answers(replies)
     engine = _engine(rules, setup, answers)
     _send(replies, Ready(usd_version(), said))
-    if not setup.are_many:
-        threads.use_all()
+    threads.begin(setup.are_many, setup.workers)
     gc.freeze()  # what all stages share is never garbage
     _answer(requests, answers, engine, _concerned(setup), threads)
 
@@ -84,13 +82,10 @@ def _answer(
     """Answers path after path."""
     garbage = _Garbage()
     while path := requests.next():
-        began = time.perf_counter()
         if concerns is None or concerns(path):
-            engine.lint(path, answers.end)
+            threads.opened(engine.lint(path, answers.end).seconds.get("open", 0.0))
         else:
             answers.end(_unchanged(path))
-        if time.perf_counter() - began > SHORT:
-            threads.use_all()
         garbage.collect()
 
 
