@@ -14,15 +14,7 @@ from usdvol_lint.model import Finding, StageReport, Status, UsageError
 from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.limits import narrow_limits
-from usdvol_lint.run.protocol import (
-    Advance,
-    Done,
-    GivenUp,
-    NewFindings,
-    Ready,
-    Refusal,
-    Setup,
-)
+from usdvol_lint.run.protocol import Advance, Done, GivenUp, NewFindings, Ready, Refusal, Setup
 from usdvol_lint.run.requests import Requests
 
 if TYPE_CHECKING:
