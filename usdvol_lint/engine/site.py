@@ -44,16 +44,12 @@ class Located(NamedTuple):
 
 
 class _Layer(NamedTuple):
-    """What is found once of a layer with a problem: its names, and its text if it has one.
-
-    `positions` are those in the text by path, time and asset.
-    """
+    """What is found once of a layer with a problem: its names, and its text if it has one."""
 
     shown: str
     real: str
     link: str | None
     text: TextLayer | None
-    positions: dict[tuple[str, float | None, str | None], Position | None]
 
     def position(
         self, path: str, time: float | None, asset: str | None, prim: str
@@ -63,10 +59,7 @@ class _Layer(NamedTuple):
             return None
         if path.startswith(prim):
             return self.text.find(path, time=time, asset=asset)
-        key = (path, time, asset)
-        if key not in self.positions:
-            self.positions[key] = self.text.find(path, time=time, asset=asset)
-        return self.positions[key]
+        return self.text.find_once(path, time, asset)
 
 
 class Sites:
@@ -165,7 +158,7 @@ class Sites:
         if found is None:
             text = self._texts.of(layer)
             names = shown_name(layer, self._stage), real_name(layer), link_to(layer)
-            found = self._layers[layer] = _Layer(*names, text, {})
+            found = self._layers[layer] = _Layer(*names, text)
         return found
 
 

@@ -41,6 +41,7 @@ class TextLayer:
         self._data = data
         self._scopes: dict[int, _Scope] = {}
         self._enclosing: dict[str, _Scope | None] = {}
+        self._found: dict[tuple[str, float | None, str | None], Position | None] = {}
         self._lines_before_block = array("q", [0])
 
     def find(
@@ -69,6 +70,13 @@ class TextLayer:
             if asset in assets:
                 offset = mark = assets[asset]
         return self._position(offset, mark)
+
+    def find_once(self, path: str, time: float | None, asset: str | None) -> Position | None:
+        """The same, kept for the other prims, and stages, that show what is there."""
+        key = (path, time, asset)
+        if key not in self._found:
+            self._found[key] = self.find(path, time=time, asset=asset)
+        return self._found[key]
 
     def heading(self, path: str) -> bytes:
         """What stands before the body of the prim or variant at `path`; empty if it is not here."""
