@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, TypeAlias
 
 from pxr import Sdf
 
 from usdvol_lint import schema
+from usdvol_lint.cached import cached_property
 from usdvol_lint.engine.lacking import levels_to, places_of, prim_above
 from usdvol_lint.engine.spec_parts import (
     COEFFICIENTS,

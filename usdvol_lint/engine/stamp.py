@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.lacking import absent_of
 from usdvol_lint.engine.parts import parts_of

@@ -6,8 +6,8 @@ import re
 from array import array
 from collections import defaultdict
 from dataclasses import dataclass, field
-from functools import cached_property
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.layertext.excerpts import excerpt
 from usdvol_lint.layertext.outline import Outline
 from usdvol_lint.layertext.statements import (

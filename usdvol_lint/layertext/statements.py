@@ -7,11 +7,11 @@ import re
 from array import array
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
-from functools import cached_property
 from itertools import islice
 from operator import le
 from typing import NamedTuple
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.layertext.lexemes import (
     ASSETS,
     BLOCK_COMMENT,

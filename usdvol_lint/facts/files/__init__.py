@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.cached import cached_property
 from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing, column, fact, summary
 

@@ -7,10 +7,10 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from operator import attrgetter
 from typing import Any, NamedTuple
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.paths import anchored, extension_of
 from usdvol_lint.facts.files.patterns import as_expression, has_frame
 from usdvol_lint.facts.files.states import ON_DISK_OR_PATTERN, AssetState

@@ -7,10 +7,10 @@ import re
 import time
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from functools import cached_property
 from itertools import chain
 from typing import TypeAlias
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.places import folders_above, names_listed
 from usdvol_lint.nearest import are_swapped, closest_match
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any
 
 from pxr import Ar
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.states import ON_DISK
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion

@@ -7,11 +7,11 @@ import os
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from functools import cached_property
 from operator import attrgetter, sub
 
 from pxr import Ar
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.assets import AssetSample, AssetSamples
 from usdvol_lint.facts.files.numbering import Numbering, find_numbering
 from usdvol_lint.facts.files.paths import split_path

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.cached import cached_property
 from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing, column, summary
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint import schema
+from usdvol_lint.cached import cached_property
 from usdvol_lint.deferred import deferred
 from usdvol_lint.facts.found import Wing
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.layers.composition import Composition
 from usdvol_lint.facts.prims.tables import Tables
 from usdvol_lint.facts.usd.arcs import Arcs

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterable
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Sdf, Usd
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.paths import is_uri
 from usdvol_lint.facts.usd.instances import in_prototype
 

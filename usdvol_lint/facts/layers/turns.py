@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
-from functools import cached_property
 from itertools import chain
 from typing import Any
 
 from pxr import Gf, Usd, UsdGeom
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.usd.settled import settle
 
 _CLOSE = 1e-6

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
 from itertools import chain
 from typing import Any, NamedTuple
 
 from pxr import Sdf
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_children, get_path, get_prim_stack
 from usdvol_lint.facts.usd.instances import as_shown, in_prototype, shown
 from usdvol_lint.facts.usd.nodes import nodes_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cached_property
 from math import inf
 from operator import attrgetter
 from typing import Any, NamedTuple
@@ -11,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from pxr import Usd
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.particles import matches
 from usdvol_lint.facts.particles.chunks import Row, Rows, rows_of
 from usdvol_lint.facts.particles.counts import NO_COUNTS

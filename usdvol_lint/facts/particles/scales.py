@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.particles.array import ParticleArray
 from usdvol_lint.facts.particles.arrays import ParticleArrays
 from usdvol_lint.facts.particles.numbers import mean_of, spacing

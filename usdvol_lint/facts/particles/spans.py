@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import cached_property
 from operator import sub
 from typing import Any
 
 from pxr import Usd
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.particles.array import ParticleArray
 from usdvol_lint.facts.usd.moving import advice_on_shift, rate_at_fault
 from usdvol_lint.facts.usd.values import sample_times

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from usdvol_lint import schema
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.prims.attributes import Authored, AuthoredReader, Shape
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.calls import get_path
@@ -155,6 +155,7 @@ class Tables:
         self._authored = authored
         self._chunks = {key: list(_chunks(prims)) for key, prims in kept.items()}
         self._newest: list[Table] = []
+        self._rows_of_newest = 0
         self._last_prim: Any = None
         self._last_found: tuple[Table, int] | None = None
         self.unreadable: list[tuple[Any, Exception]] = []
@@ -244,8 +245,8 @@ class Tables:
 
     def _form(self, prims: Sequence[Any]) -> list[Table]:
         """The tables of some prims; one that can't be read gets a table of its own."""
-        for table in self._newest:
-            table.batch.forget()  # else the results of all queries would stay in memory
+        if self._rows_of_newest + len(prims) > _CHUNK_SIZE:
+            self._forget()
         formed = self._attempt(prims)
         if not formed and len(prims) > 1:
             return [table for prim in prims for table in self._form((prim,))]
@@ -254,8 +255,16 @@ class Tables:
         formed = formed or self._attempt(prims)
         if not formed:
             return [Table(PrimBatch(prims), self._authored)]
-        self._newest = formed
+        self._newest += formed
+        self._rows_of_newest += len(prims)
         return formed
+
+    def _forget(self) -> None:
+        """Lets go of the results of queries, which else would all stay in memory."""
+        for table in self._newest:
+            table.batch.forget()
+        self._newest.clear()
+        self._rows_of_newest = 0
 
     def _attempt(self, prims: Sequence[Any]) -> list[Table]:
         """The tables of some prims, or none if one of the prims can't be read."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from pxr import Pcp, Sdf
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.usd.calls import WITH_INSTANCES, get_prim_stack
 from usdvol_lint.facts.usd.drawn import Drawn
 from usdvol_lint.facts.usd.instances import in_prototype

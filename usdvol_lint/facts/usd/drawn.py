@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
 from itertools import chain, filterfalse
 from typing import Any
 
 from pxr import Usd
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.usd.below import each_below
 from usdvol_lint.facts.usd.calls import (
     DRAWN_BELOW,

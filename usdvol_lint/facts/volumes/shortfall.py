@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache
 from typing import Any, ClassVar, NamedTuple
 
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.assets import AssetSamples
 from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.grids.timelines import Timeline
@@ -57,8 +58,7 @@ class PlacedField:
         shown_at: str,
     ) -> None:
         self._target = target
-        self._paths = paths
-        self._timeline = timeline
+        self._paths, self._timeline = paths, timeline
         self._placement = placement
         self.shown_at = shown_at
         self._transform_times = placement.times

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cached_property
 from typing import Any
 
 from pxr import Usd
 
 from usdvol_lint import schema
+from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.prims.tables import Slot
 from usdvol_lint.facts.usd.below import each_below
 from usdvol_lint.facts.usd.instances import in_prototype, shown
