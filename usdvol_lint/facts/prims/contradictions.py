@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from itertools import repeat
 from typing import Any, NamedTuple
 
@@ -77,7 +78,7 @@ def may_be_mistyped(batch: PrimBatch, authored: Authored) -> list[bool]:
     prim_specs = [stack[0] for stack in batch.stacks]
     differ = [False] * len(prim_specs)
     for name, wanted in authored.types:
-        specs = map(own_attribute, prim_specs, repeat(Sdf.Path(f".{name}")))
+        specs = map(own_attribute, prim_specs, repeat(_path_of(name)))
         types = [None if spec is None else type_of_spec(spec) for spec in specs]
         if types.count(wanted) < len(types):
             differ = [known or own != wanted for known, own in zip(differ, types, strict=True)]
@@ -95,7 +96,7 @@ def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
     stack = get_prim_stack(prim) if types else ()
     for strength, prim_spec in enumerate(stack):
         for name, wanted in types:
-            path = Sdf.Path(f".{name}")
+            path = _path_of(name)
             spec = own_attribute(prim_spec, path)
             if spec is None:
                 spec = prim_spec.GetRelationshipAtPath(path)
@@ -107,6 +108,12 @@ def mistyped(prim: Any, authored: Authored) -> Iterator[Mistyped]:
                     continue
                 only_role = found.type == wanted.type
                 yield Mistyped(get_attribute(prim, name), spec, str(found), str(wanted), only_role)
+
+
+@cache
+def _path_of(name: str) -> Any:
+    """The path of a property that a schema declares, below its prim: to parse one takes long."""
+    return Sdf.Path(f".{name}")
 
 
 def _corrects(stronger: Any, weaker: Any, wanted: Any) -> bool:
