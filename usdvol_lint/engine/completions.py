@@ -24,6 +24,7 @@ from usdvol_lint.engine.spec_parts import (
     has_targets,
     has_type,
     holds_value,
+    is_brought,
     is_def,
     is_field,
     is_in_variant,
@@ -31,7 +32,7 @@ from usdvol_lint.engine.spec_parts import (
 )
 from usdvol_lint.facts import Facts
 from usdvol_lint.facts.prims.tables import Table
-from usdvol_lint.facts.usd.calls import ARCS, get_prim_stack, has_value
+from usdvol_lint.facts.usd.calls import ARCS, get_prim_stack
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.volumes.states import TargetState
@@ -130,11 +131,11 @@ class _Completions:
         return spec.layer in self._paths and spec.specifier == Sdf.SpecifierDef
 
     def _has(self, prim: Any, name: str) -> bool:
-        if name == EXTENT:
+        if name == EXTENT and not prim.GetAttribute(EXTENT).HasAuthoredValue():
             return prim not in self._bare
         if name == COEFFICIENTS and self._facts.particles.material_is_bound(prim):
             return True
-        return any(map(has_value, map(prim.GetAttribute, either(name))))
+        return any(is_brought(prim, each) for each in either(name))
 
     @cached_property
     def _bare(self) -> frozenset[Any]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import cache
 from typing import Any
 
-from pxr import Sdf
+from pxr import Sdf, Usd
 
 from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import own_attribute, own_relationship
@@ -23,6 +23,12 @@ _WANTED = {
     schema.PARTICLE_FIELD: (EXTENT, POSITIONS, COEFFICIENTS, DEGREE),
 }
 """What prims of ours need, by schema; particle arrays may be in half precision instead."""
+
+_TYPES = {
+    name: known.type_name
+    for attributes in schema.ATTRIBUTES.values()
+    for name, known in attributes.items()
+}
 
 
 def wanted(schemas: frozenset[str]) -> list[str]:
@@ -73,10 +79,27 @@ def is_valued(attribute: Any | None) -> bool:
         return False
     value = attribute.default
     if value is not None and not isinstance(value, Sdf.ValueBlock):
-        if isinstance(value, int):
-            return True
-        return bool(value.path if isinstance(value, Sdf.AssetPath) else len(value))
+        return is_filled(value)
     return bool(attribute.HasInfo("timeSamples") or attribute.HasInfo("spline"))
+
+
+def is_filled(value: Any) -> bool:
+    """Whether a value of an attribute that prims of ours need is there and not empty."""
+    if value is None or isinstance(value, int):
+        return value is not None
+    return bool(value.path if isinstance(value, Sdf.AssetPath) else len(value))
+
+
+def is_brought(prim: Any, name: str) -> bool:
+    """Whether a prim of a stage has, at some time, a value of an attribute that is not empty."""
+    attribute = prim.GetAttribute(name)
+    if not attribute.HasAuthoredValue():
+        return False
+    wanted_type = Sdf.ValueTypeNames.Find(_TYPES[name]).type
+    if any(spec.typeName.type != wanted_type for spec in attribute.GetPropertyStack()[:1]):
+        return False
+    times = (Usd.TimeCode.Default(), *attribute.GetTimeSamples())
+    return any(is_filled(attribute.Get(time)) for time in times)
 
 
 def is_in_variant(spec: Any) -> bool:
