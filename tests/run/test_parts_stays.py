@@ -65,7 +65,39 @@ STAYS: dict[str, tuple[Files, list[str]]] = {
             "asset": layer(BASE, ROOT_PRIM),
             "shot": layer(over("smoke", over("density", "asset filePath = @@"), REFERENCE, "def")),
         },
-        ["shot AST001 error"],
+        ["asset AST001 error", "shot AST001 error"],
+    ),
+    "a path that another stage blocks at all times": (
+        {
+            "asset": layer(BASE, ROOT_PRIM),
+            "shot": layer(
+                over(
+                    "smoke",
+                    over("density", "asset filePath.timeSamples = { 1: None }"),
+                    REFERENCE,
+                    "def",
+                )
+            ),
+        },
+        ["asset AST001 error", "shot AST001 error"],
+    ),
+    "a path that another stage brings as a string": (
+        {
+            "asset": layer(BASE, ROOT_PRIM),
+            "shot": layer(
+                over("smoke", over("density", 'string filePath = "./a.vdb"'), REFERENCE, "def")
+            ),
+        },
+        ["asset AST001 error", "shot SCH003 error"],
+    ),
+    "particles that another stage does not bring": (
+        {
+            "asset": layer(
+                splats(f"{EXTENT}\npoint3f[] positions = []\n"), 'defaultPrim = "splats"'
+            ),
+            "shot": layer(over("splats", "", REFERENCE, "def")),
+        },
+        ["asset ARR001 warning", "shot ARR001 warning"],
     ),
     "a shot that lacks what another shot brings to their asset": (
         {
