@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any, NamedTuple
 
+from pxr import Sdf
+
 from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.paths import anchored, extension_of
 from usdvol_lint.facts.files.patterns import as_expression, has_frame
@@ -126,9 +128,14 @@ class AssetSamples(NamedTuple):
 
     @property
     def is_only_declared(self) -> bool:
-        """Whether the stage's own layer declares the attribute, and no layer gives it a value."""
+        """Whether the layer that makes the field declares it, and no layer gives it a value.
+
+        That is the stage's own layer: one that another stage completes is checked as a part.
+        """
         root, specs = self.attribute.GetStage().GetRootLayer(), self.attribute.GetPropertyStack()
-        return not self.samples and any(spec.layer == root for spec in specs)
+        return not self.samples and any(
+            spec.layer == root and spec.owner.specifier == Sdf.SpecifierDef for spec in specs
+        )
 
 
 @dataclass(frozen=True)
