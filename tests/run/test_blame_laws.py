@@ -163,6 +163,7 @@ def Volume "tank"
 {
     rel field:density = </tank/density>
     rel field:heat = </tank/gone>
+    rel field:both = [</tank/density>, </tank/smoke>]
     def OpenVDBAsset "density"
     {
         asset filePath = @./gone.vdb@
@@ -185,14 +186,24 @@ def Volume "tank"
         refers("a", meta="instanceable = true"),
         refers("a", inside='over "density" (\nactive = true\n)\n{\n}'),
         refers("a", inside="rel field:density"),
+        refers("a", inside="append rel field:heat = </a/gone>"),
+        refers("a", inside="delete rel field:heat = </a/other>"),
+        refers("a", inside="prepend rel field:both = </a/smoke>"),
+        refers("a", inside="reorder rel field:both = [</a/smoke>, </a/density>]"),
+        refers("a", inside="append rel field:both = </a/third>"),
         f'def Scope "world"\n{{\n{refers("a")}}}\n',
     ],
-    ids=["type", "type of field", "doc", "child", "instance", "active", "declared", "below"],
+    ids=[
+        *("type", "type of field", "doc", "child", "instance", "active", "declared"),
+        *("target again", "no target", "first target", "order of targets", "one more", "below"),
+    ],
 )
 def test_an_edit_that_mends_nothing_moves_no_blame(edit: str, find: Find, shots: Path) -> None:
     write(shots.parent / "assets", tank=LAYER + BROKEN)
     write(shots, one=STAGE + edit)
     alone = {cause.fingerprint: cause.code for cause in find("assets/tank.usda", rules=ALL)}
-    assert {"AST002", "AST001", "VOL001", "SCH007", "FLD001", "FLD002"} <= set(alone.values())
+    assert {"AST002", "AST001", "VOL001", "VOL004", "SCH007", "FLD001", "FLD002"} <= set(
+        alone.values()
+    )
     edited = find("shots/one.usda", rules=ALL)
     assert {cause.fingerprint: cause.code for cause in edited} == alone

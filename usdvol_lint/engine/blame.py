@@ -8,6 +8,7 @@ from pxr import Sdf, Usd
 
 from usdvol_lint.engine.fallbacks import losing_fallback
 from usdvol_lint.engine.forwards import Forwards
+from usdvol_lint.engine.leading import leading
 from usdvol_lint.engine.saying import has_value, maker, of_prim, saying, weakest, with_metadata
 from usdvol_lint.engine.strength import Opinion, Standing, decisive, path_beside, standing_of
 from usdvol_lint.engine.taking import Edit, Takings
@@ -128,9 +129,10 @@ class Blaming:
             time = None if problem.at_default else problem.times[0]
             if found := self._value(at, time, name, subject):
                 return found
-        spec = next(filter(has_value, get_property_stack(at)), None)
-        if spec is None and _is_relationship(at):
-            spec = weakest(at)
+        if _is_relationship(at):
+            spec = leading(at) or weakest(at)
+        else:
+            spec = next(filter(has_value, get_property_stack(at)), None)
         return Blame(spec or _declared(maker(get_prim(at)), name), name, subject)
 
     def _value(self, attribute: Any, time: float | None, name: str, subject: str) -> Blame | None:
