@@ -62,6 +62,25 @@ def without_commands(json: str) -> str:
     return json.replace("##", "#\\u0023") if "##" in json else json
 
 
+def escaped(json: str) -> str:
+    """JSON without what a terminal or a CI host would take for its own.
+
+    Escaped is what `printable` escapes; lone surrogates would not even be valid UTF-8.
+    """
+    text = without_commands(json)
+    if text.isascii() and "\x7f" not in text:
+        return text
+    are_all_visible = text.replace("\n", "").isprintable()
+    return text if are_all_visible else "".join(map(_visible_in_json, text))
+
+
+def _visible_in_json(char: str) -> str:
+    if char.isprintable() or char == "\n":
+        return char
+    units = char.encode("utf-16-be", "surrogatepass").hex()
+    return "".join(f"\\u{units[at : at + 4]}" for at in range(0, len(units), 4))
+
+
 def _visible(char: str) -> str:
     if char.isprintable():
         return char

@@ -121,6 +121,11 @@ def checked(where: str, entry: Entry) -> Entry:
     """The entry; raises UsageError for one that no run of ours wrote."""
     if entry.code in NOT_IGNORABLE:
         raise UsageError(f"{where}: {entry.code} can't be in a baseline: take the line out")
+    return named_right(where, entry)
+
+
+def named_right(where: str, entry: Entry) -> Entry:
+    """The entry; raises UsageError where its fingerprint is another's, as after an edit by hand."""
     if fingerprint(entry.code, entry.source) != entry.fingerprint:
         said = "the fingerprint is not that of this code, layer, path, property and subject"
         raise UsageError(f"{where}: {said}; --moved OLD=NEW renames layers")

@@ -11,6 +11,7 @@ from usdvol_lint.baseline.file import Baseline
 from usdvol_lint.baseline.fingerprint import fingerprint
 from usdvol_lint.baseline.scope import Scope, lies_in, outermost
 from usdvol_lint.model import UsageError
+from usdvol_lint.paths import SUFFIXES
 from usdvol_lint.words import printable
 
 Move: TypeAlias = tuple[str, str]
@@ -27,8 +28,15 @@ def renamed(baseline: Baseline, moves: Sequence[Move]) -> Baseline:
             said = f"{baseline.file} has no entry of a layer there"
             hint = "write OLD as the baseline has it"
             raise UsageError(f"--moved {printable(old)}={printable(new)}: {said}, {hint}")
+        if _names_layer(old) != _names_layer(new):
+            said = "one of them is a layer and the other a folder"
+            raise UsageError(f"--moved {printable(old)}={printable(new)}: {said}, name both alike")
     moved = by_fingerprint(_in_place(entry, ordered) for entry in entries)
     return baseline._replace(entries=moved, scope=_scope_in_place(baseline.scope, ordered))
+
+
+def _names_layer(place: str) -> bool:
+    return place.removesuffix("]").lower().endswith(SUFFIXES)
 
 
 def _in_place(entry: Entry, moves: Sequence[Move]) -> Entry:

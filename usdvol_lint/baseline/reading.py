@@ -14,6 +14,7 @@ from usdvol_lint.baseline.entry import (
     entry_from_json,
     is_held,
     least_held,
+    named_right,
 )
 from usdvol_lint.baseline.file import FORMAT_KEY, MOST_BYTES, Baseline, check_version, read_lines
 from usdvol_lint.baseline.fingerprint import FINGERPRINT_VERSION
@@ -94,7 +95,7 @@ def _held(file: str, report: dict[str, Any], least: Severity) -> Iterator[Entry]
         where = f"{file}: causes[{number}]"
         if not isinstance(cause, dict):
             raise UsageError(f"{where} must be an object")
-        entry = entry_from_json(where, cause, table_of(where, cause, "source"))
+        entry = named_right(where, entry_from_json(where, cause, table_of(where, cause, "source")))
         state, severity = string(where, cause, "state"), string(where, cause, "severity")
         if state not in set(State) or severity not in LEVELS:
             raise UsageError(f"{where}: 'state' or 'severity' is none that there is")

@@ -93,6 +93,6 @@ def show_settings_as_json(config: Config, settings: Mapping[str, Any]) -> str:
 
 
 def _as_json(value: object) -> str:
-    from usdvol_lint.report.json_report import escaped
+    from usdvol_lint.words import escaped
 
     return escaped(json.dumps(value, indent=2, ensure_ascii=False)) + "\n"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+import posixpath
 from typing import Any
 
 import click
@@ -33,7 +33,7 @@ def prepared(given: dict[str, Any], config: Config) -> Prepared:
     try:
         return prepare(Use(file, given["write_baseline"], given["prune_baseline"], moves))
     except UsageError as error:
-        if given["baseline"] is not None or not file or os.path.exists(file):
+        if given["baseline"] is not None or not file:
             raise
         raise UsageError(f"{config.origins.words('baseline')}: {error}") from error
 
@@ -43,4 +43,4 @@ def _move(pair: str) -> Move:
     old, equals, new = (part.strip().replace("\\", "/").rstrip("/") for part in pair.partition("="))
     if not (old and equals and new):
         raise UsageError(f"--moved {pair}: write it as OLD=NEW, such as assets/smoke=lib/smoke")
-    return old, new
+    return posixpath.normpath(old), posixpath.normpath(new)

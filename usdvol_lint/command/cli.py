@@ -49,7 +49,7 @@ def _complete_from(constant: str) -> Any:
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Exit code: 0 clean, 1 findings at or above --fail-on, 2 the job could not be done.",
 )
-@click.argument("paths", nargs=-1, type=click.Path(), metavar="PATHS...")
+@click.argument("paths", nargs=-1, type=click.Path(readable=False), metavar="PATHS...")
 @click.option("--select", multiple=True, metavar="CODES", shell_complete=_complete_code,
               help="Only these rules: codes, their beginnings, names, families, or ALL.")
 @click.option("--ignore", multiple=True, metavar="CODES", shell_complete=_complete_code,

@@ -20,6 +20,7 @@ from usdvol_lint.config import (
 from usdvol_lint.model import UsageError
 from usdvol_lint.nearest import did_you_mean
 from usdvol_lint.releases import release, required_version
+from usdvol_lint.words import shortened
 
 if TYPE_CHECKING:
     from usdvol_lint.config.per_path import PerPath
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 LONGEST_TIMEOUT = 1_000_000
 _LARGEST = (1 << 63) - 1
+_LONGEST_SHOWN = 100
 """As TOML has it: Python shows no number of some thousand digits."""
 _SIZES = {"": 1, "K": 1 << 10, "M": 1 << 20, "G": 1 << 30, "T": 1 << 40}
 _NO_SIZES = {"auto": None, "none": 0, "0": 0}
@@ -125,8 +127,10 @@ def _pattern(where: str, value: Any) -> str:
 
     try:
         re.compile(_text(where, value))
-    except re.error as error:
-        raise UsageError(f"{where}: {value!r} is no regular expression: {error}") from error
+    except (re.error, RecursionError, OverflowError) as error:
+        why = "it is nested too deep" if isinstance(error, RecursionError) else error
+        shown = shortened(repr(value), _LONGEST_SHOWN)
+        raise UsageError(f"{where}: {shown} is no regular expression: {why}") from error
     return str(value)
 
 

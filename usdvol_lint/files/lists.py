@@ -8,6 +8,8 @@ import sys
 from usdvol_lint.model import UsageError
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+_MOST_BYTES = 256 << 20
+"""A list of a million long paths."""
 _OF_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
@@ -29,12 +31,16 @@ def read_list(name: str) -> tuple[str, ...]:
 
 
 def _bytes(where: str, name: str) -> bytes:
-    if name == "-":
-        if sys.stdin is None:
-            raise UsageError(f"{where}: there is no standard input")
-        return sys.stdin.buffer.read()
     try:
-        with open(name, "rb") as file:
-            return file.read()
+        if name != "-":
+            with open(name, "rb") as file:
+                data = file.read(_MOST_BYTES + 1)
+        elif sys.stdin is None:
+            raise UsageError(f"{where}: there is no standard input")
+        else:
+            data = sys.stdin.buffer.read(_MOST_BYTES + 1)
     except OSError as error:
         raise UsageError(f"{where}: {error.strerror}") from error
+    if len(data) > _MOST_BYTES:
+        raise UsageError(f"{where}: no list of paths has more than {_MOST_BYTES:,} bytes")
+    return data

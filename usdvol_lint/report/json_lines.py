@@ -10,16 +10,9 @@ from collections.abc import Iterator, Mapping
 
 from usdvol_lint.model import Severity
 from usdvol_lint.report import Options, Writer
-from usdvol_lint.report.json_report import (
-    Shared,
-    cause_members,
-    escaped,
-    head,
-    line,
-    place_members,
-    rest,
-)
+from usdvol_lint.report.json_report import Shared, cause_members, head, line, place_members, rest
 from usdvol_lint.results import Cause, Place, Report
+from usdvol_lint.words import escaped
 
 
 class JsonLines(Writer):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from enum import Enum
@@ -17,12 +16,9 @@ from usdvol_lint.model import Completion, Cover, Finding, Severity, Site, Source
 from usdvol_lint.paths import below
 from usdvol_lint.report import Writer
 from usdvol_lint.results import BaselineUse, Cause, Place, Report, RunInfo, StageResult, Summary
-from usdvol_lint.words import without_commands
+from usdvol_lint.words import escaped
 
 SCHEMA_VERSION = "2.0"
-
-# Lone surrogates are not valid UTF-8; a terminal would obey the others instead of showing them.
-_TO_ESCAPE = re.compile(r"[\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff]")
 
 # Larger whole numbers are inexact in readers that take all JSON numbers for doubles.
 _LARGEST_INTEGER = 2**53
@@ -88,14 +84,6 @@ def _value(value: object) -> str:
 def line(value: object) -> str:
     """A value in one line."""
     return escaped(_ENCODE(value))
-
-
-def escaped(json: str) -> str:
-    """JSON without what a terminal or a CI host would take for its own."""
-    text = without_commands(json)
-    if text.isascii() and "\x7f" not in text:
-        return text
-    return _TO_ESCAPE.sub(lambda match: f"\\u{ord(match.group()):04x}", text)
 
 
 def head(report: Report) -> dict[str, object]:
