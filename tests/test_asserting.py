@@ -173,6 +173,7 @@ def test_mistakes_are_no_finding(call: str, words: str, here: Path) -> None:
         ({"statistics": 1}, "statistics must be true or false, not 1"),
         ({"required_version": ">9"}, "required_version is '>9', and this is usdvol-lint"),
         ({"version_pattern": "("}, "version_pattern: '(' is no regular expression"),
+        ({"version_pattern": "(" * 5000}, "is no regular expression: it is nested too deep"),
         ({"today": "x"}, "today must be a date"),
         ({"search_path": ("gone",)}, "search_path: there is no folder 'gone'"),
         ({"path_map": {"": "cache"}}, "path_map has an empty beginning, which every path has"),

@@ -127,11 +127,18 @@ def test_what_was_checked_moves_too(tmp_path: Path) -> None:
     assert lacking(".", to=outside) == f"not checked: {outside}"
 
 
+@pytest.mark.parametrize(("old", "new"), [("a/x.usda", "b"), ("a", "b/x.usda")])
+def test_a_layer_is_no_folder(old: str, new: str, tmp_path: Path) -> None:
+    file = written(tmp_path, cause("a/x.usda"))
+    with pytest.raises(UsageError, match="one of them is a layer and the other a folder"):
+        using(file, moved=((old, new),))
+
+
 @pytest.mark.parametrize("old", ["assets/b", "assets/a", "asset", "a.usda"])
 def test_nothing_is_there(old: str, tmp_path: Path) -> None:
     file = written(tmp_path, cause("assets/a.usda"))
     with pytest.raises(UsageError) as caught:
-        using(file, moved=((old, "x"),))
+        using(file, moved=((old, "x.usda"),))
     assert str(caught.value) == (
-        f"--moved {old}=x: {file} has no entry of a layer there, write OLD as the baseline has it"
+        f"--moved {old}=x.usda: {file} has no entry of a layer there, write OLD as the baseline has it"
     )

@@ -106,6 +106,12 @@ def test_a_report_that_is_none(changes: dict[str, Any], expected: str, tmp_path:
     ("key", "value", "expected"),
     [
         ("state", "odd", "r.json: causes[0]: 'state' or 'severity' is none that there is"),
+        (
+            "code",
+            "AST003",
+            "r.json: causes[0]: the fingerprint is not that of this code, layer, path, property "
+            "and subject; --moved OLD=NEW renames layers",
+        ),
         ("severity", "odd", "r.json: causes[0]: 'state' or 'severity' is none that there is"),
         ("source", 3, "r.json: causes[0]: 'source' must be an object, not 3"),
         (

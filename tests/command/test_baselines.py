@@ -103,6 +103,23 @@ def test_a_report_is_a_baseline(library: Path) -> None:
     assert checked(".", "--baseline", "r.json", "--fail-on-unpruned", cwd=library).code == 1
 
 
+@pytest.mark.parametrize("new", ["mist.usda", "./mist.usda", "gone/../mist.usda/"])
+def test_a_new_name_may_be_spelt_in_any_way(new: str, library: Path) -> None:
+    assert checked(".", "--write-baseline", "b.jsonl", cwd=library).code == 0
+    (library / "fog.usda").rename(library / "mist.usda")
+    assert checked(".", "--baseline", "b.jsonl", cwd=library).code == 1
+    moved = ("--moved", f"fog.usda={new}")
+    assert checked(".", "--baseline", "b.jsonl", *moved, cwd=library).code == 0
+
+
+def test_a_broken_baseline_of_a_configuration_is_told_with_its_key(library: Path) -> None:
+    (library / "usdvol-lint.toml").write_text('baseline = "fog.usda"\n', encoding="utf-8")
+    ran = checked(".", cwd=library)
+    assert ran.code == 2
+    assert "usdvol-lint.toml: baseline" in ran.err
+    assert "fog.usda:1: no JSON, as a baseline is" in ran.err
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

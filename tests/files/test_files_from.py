@@ -34,6 +34,16 @@ def test_lists(
     assert list(read_list("-")) == paths
 
 
+def test_a_list_without_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("usdvol_lint.files.lists._MOST_BYTES", 10)
+    (tmp_path / "list").write_bytes(b"stages.usda\n")
+    with pytest.raises(UsageError, match=r"list: no list of paths has more than 10 bytes"):
+        read_list(str(tmp_path / "list"))
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"stages.usda\n")))
+    with pytest.raises(UsageError, match=r"-: no list of paths has more than 10 bytes"):
+        read_list("-")
+
+
 @pytest.mark.skipif(os.name == "nt", reason="file names are Unicode there")
 def test_bytes_that_are_no_text_are_names_all_the_same(tmp_path: Path) -> None:
     (tmp_path / "list").write_bytes(b"\xff.usda\n")

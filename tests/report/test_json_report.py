@@ -45,7 +45,7 @@ def test_times_are_numbers_of_json() -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["\x7f", "a\x7fé", "\x9b31m", "\u202e", "\u2028", "\udcff", "\u200b"],
+    ["\x7f", "a\x7fé", "\x9b31m", "\u202e", "\u2028", "\udcff", "\u200b", "\ufeff", "\xad"],
     ids=ascii,
 )
 def test_what_a_terminal_would_obey_is_escaped(text: str) -> None:
@@ -54,6 +54,12 @@ def test_what_a_terminal_would_obey_is_escaped(text: str) -> None:
     assert f"\\u{ord(text.strip('aé31m')):04x}" in raw
     assert raw.replace("\n", "").isprintable()
     assert written(subject)["causes"][0]["message"] == text
+
+
+def test_invisible_characters_beyond_16_bits_are_escaped_as_pairs() -> None:
+    subject = report(shown_on("a", TANK._replace(message="a\U000e0041é"), "/A"))
+    assert r"a\udb40\udc41é" in render(subject, "json", Options())
+    assert written(subject)["causes"][0]["message"] == "a\U000e0041é"
 
 
 @pytest.mark.parametrize(
