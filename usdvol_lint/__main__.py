@@ -89,8 +89,10 @@ def _use_utf8() -> None:
 def _print(text: str) -> None:
     try:
         print(text, end="", flush=True)
-    except OSError:  # a reader that left, as `head` does, or a full disk
+    except BrokenPipeError:  # a reader that left, as `head` does
         os._exit(2)
+    except OSError as error:
+        _fail(f"error: can't write to standard output: {error.strerror}", 2)
 
 
 def _fail(words: str, code: int) -> None:

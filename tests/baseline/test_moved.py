@@ -140,5 +140,6 @@ def test_nothing_is_there(old: str, tmp_path: Path) -> None:
     with pytest.raises(UsageError) as caught:
         using(file, moved=((old, "x.usda"),))
     assert str(caught.value) == (
-        f"--moved {old}=x.usda: {file} has no entry of a layer there, write OLD as the baseline has it"
+        f"--moved {old}=x.usda: {file} has no entry of a layer there, "
+        "write OLD as the baseline has it"
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import time
 from collections.abc import Iterator
 
 import pytest
@@ -14,9 +15,15 @@ from usdvol_lint.run.interruption import Interruption
 @pytest.fixture(autouse=True)
 def handlers() -> Iterator[None]:
     """Leaves those of the tests as they were."""
-    names = [getattr(signal, name) for name in interruption._ENDING if hasattr(signal, name)]
+    names = [
+        getattr(signal, name)
+        for name in (*interruption._ENDING, "SIGALRM")
+        if hasattr(signal, name)
+    ]
     before = [signal.getsignal(name) for name in names]
     yield
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, 0)
     for name, handler in zip(names, before, strict=True):
         signal.signal(name, handler)
 
@@ -76,3 +83,23 @@ def test_what_is_ignored_stays_so() -> None:
     signals = listening()
     assert heard(signal.SIGTERM, signal.SIGTERM, signal.SIGTERM) == 3
     assert signals.number == 0
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="nothing wakes us there")
+def test_what_nobody_reads_is_broken_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(interruption, "_STUCK", 0.1)
+    listening()
+    assert heard(signal.SIGTERM) == 1
+    with pytest.raises(KeyboardInterrupt) as raised:
+        time.sleep(10)
+    assert raised.value.args == (signal.SIGTERM,)
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="nothing wakes us there")
+def test_what_makes_progress_is_finished(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(interruption, "_STUCK", 0.1)
+    listening()
+    assert heard(signal.SIGTERM) == 1
+    until = time.process_time() + 0.5
+    while time.process_time() < until:
+        pass

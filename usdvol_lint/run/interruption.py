@@ -14,6 +14,10 @@ _ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
 """Ctrl-C, the end of a job, a terminal that is closed; not every system has all of them."""
 _PATIENCE = 1.0
 """Seconds after which a second signal means that the end takes too long."""
+_STUCK = 3.0
+"""Seconds without work after which nobody reads what is written, as of a pipe without a reader."""
+_WORKS = 0.01
+"""Seconds of the processor's that are work."""
 _ENDED = 128
 
 
@@ -22,7 +26,8 @@ class Interruption:
 
     While it is held, as it is at first, that is later, when it is released or the work is done.
     Else what `stops` the run is called, or KeyboardInterrupt with the number of the signal raised.
-    A second signal does nothing unless it is late, so that no report is cut off; a third one does.
+    A second signal does nothing unless it is late, so that no report is cut off; a third one does,
+    and so does the first where writing makes no progress after it.
     `number` is that of the first signal, 0 until there is one; `is_early` says that stages were
     left out for it.
     """
@@ -32,6 +37,7 @@ class Interruption:
         self.is_early = False
         self._heard = 0
         self._first_at = 0.0
+        self._worked = 0.0
         self._is_held = True
         self._stop: Callable[[], None] | None = None
 
@@ -67,12 +73,27 @@ class Interruption:
 
     def _hear_first(self, number: int) -> None:
         self.number, self._first_at = number, time.monotonic()
+        self._watch()
         if name_of(number) == "SIGHUP":
             _leave_terminal()
         if self._stop:
             self._stop()
         elif not self._is_held:
             raise KeyboardInterrupt(number)
+
+
+    def _watch(self) -> None:
+        """Looks from time to time whether something is still done, where the system can wake us."""
+        if hasattr(signal, "setitimer"):
+            self._worked = time.process_time()
+            signal.signal(signal.SIGALRM, self._look)
+            signal.setitimer(signal.ITIMER_REAL, _STUCK, _STUCK)
+
+    def _look(self, number: int, frame: FrameType | None) -> None:
+        worked = time.process_time()
+        if worked - self._worked < _WORKS:
+            raise KeyboardInterrupt(self.number)
+        self._worked = worked
 
 
 def name_of(number: int) -> str:
