@@ -101,3 +101,5 @@ def test_broken_text_is_one_finding(tmp_path: Path) -> None:
         r"USD can't read what is here: text that is not UTF-8: 'Bohxt\xff\xe9iyl'"
     )
     assert said["suggestion"] == "the layer is probably corrupt: copy or export it again"
+    whole = codes["whole"]
+    assert codes["Bohxtqqiyl"] - Counter(["LNT001"]) == whole, "a type keeps nothing else back"

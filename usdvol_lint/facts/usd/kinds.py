@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any, TypeAlias
@@ -34,7 +35,12 @@ class PrimKinds:
 
     def keys(self, prims: Sequence[Any]) -> list[KindKey]:
         """The keys of many prims' kinds, in a third of the time of asking for each."""
-        types = map(get_type, prims)
+        try:
+            return self._keys(prims, list(map(get_type, prims)))
+        except UnicodeDecodeError:
+            return self._keys(prims, list(map(_decoded_type, prims)))
+
+    def _keys(self, prims: Sequence[Any], types: Sequence[str]) -> list[KindKey]:
         applied = list(map(get_applied, prims))
         if self.knows_particle_fields:
             if not any(applied):
@@ -118,6 +124,15 @@ def type_names(type_name: str) -> frozenset[str]:
     if "VolumeFieldAsset" in names:
         names.add(schema.FIELD_ASSET)  # its name in old USD, which rules subscribe to
     return frozenset(names - {""})
+
+
+def _decoded_type(prim: Any) -> str:
+    """The type of a prim; one that is no text is told as USD tells what it can't decode itself."""
+    try:
+        return str(get_type(prim))
+    except UnicodeDecodeError as error:
+        sys.excepthook(UnicodeDecodeError, error, None)
+        return bytes(error.object).decode("utf-8", "backslashreplace")
 
 
 def raw_apis(prim: Any) -> tuple[str, ...]:
