@@ -10,17 +10,18 @@ def override_ignored(stage: Prim, facts: Facts) -> Problems:
     for instance, overrides in facts.layers.lost_overrides:
         if facts.layers.may_lack_values(instance):
             continue
-        path, at, spec = overrides[0]
-        below = path.MakeRelativePath(instance.GetPath())
-        more = f" and {len(overrides) - 1} more" if len(overrides) > 1 else ""
-        shown = [f"<{facts.prims.shown_path(each)}>" for each in _instances(path, stage.GetStage())]
-        yield Problem(
-            f"{shown[0]} is an instance, so what is said below it is ignored: {str(below)!r}{more}",
-            at=at,
-            spec=spec,
-            against=[(instance, "instanceable")],
-            suggestion=f"say 'instanceable = false' on {' and '.join(shown)}",
-        )
+        for path, at, spec in overrides:
+            below = path.MakeRelativePath(instance.GetPath())
+            shown = [f"<{facts.prims.shown_path(each)}>" for each in _instances(path, stage.GetStage())]
+            yield Problem(
+                f"{shown[0]} is an instance, so what is said below it is ignored: {str(below)!r}",
+                at=at,
+                spec=spec,
+                against=[(instance, "instanceable")],
+                subject="instanceable",
+                fold=shown[0],
+                suggestion=f"say 'instanceable = false' on {' and '.join(shown)}",
+            )
 
 
 def _instances(path: Any, stage: Any) -> list[Prim]:
