@@ -19,6 +19,7 @@ def units_differ(root: Prim, facts: Facts) -> Problems:
             at=unlike.prim,
             spec=unlike.blamed,
             subject=f"{unlike.key} {unlike.layer.GetDisplayName()}",
+            fold=f"{unlike.key} {unlike.layer.identifier}",
             severity=INFO if unlike.is_sublayer else None,
             suggestion=None if unlike.is_sublayer else _advice(told, *unlike.remedies),
         )

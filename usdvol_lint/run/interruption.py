@@ -81,7 +81,6 @@ class Interruption:
         elif not self._is_held:
             raise KeyboardInterrupt(number)
 
-
     def _watch(self) -> None:
         """Looks from time to time whether something is still done, where the system can wake us."""
         if hasattr(signal, "setitimer"):

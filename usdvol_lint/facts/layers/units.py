@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from pxr import UsdGeom
@@ -32,7 +32,8 @@ class UnlikeStage(NamedTuple):
     `key`: the name of that metadata, with the value in the `layer` and that of the `stage`.
     `is_sublayer`: whether no reference or payload brings it, but a sublayer of the stage or of a
     layer that agrees with the stage.
-    `prims`: those of ours that it brings without a rotation or scale up to the root, at least one.
+    `blamed`: the spec with the arc that brings it to a layer which says otherwise.
+    `prims`: those of ours that this brings without a rotation or scale up to the root, one or more.
     """
 
     layer: Any
@@ -40,28 +41,13 @@ class UnlikeStage(NamedTuple):
     said: Any
     stage_says: Any
     is_sublayer: bool
+    blamed: Any
     prims: tuple[Any, ...]
 
     @property
     def prim(self) -> Any:
         """The first of the prims."""
         return self.prims[0]
-
-    @property
-    def blamed(self) -> Any:
-        """The spec with the arc that brings it to a layer which says otherwise."""
-        key, said = self.key, self.said
-
-        def differs(crossing: Crossing) -> bool:
-            other = _said(root_layer(crossing.source), key)
-            return other is not None and not _are_equal(key, said, other)
-
-        arc = next(filter(differs, arcs_from(self.prim, self.layer)), None)
-        if arc is None:
-            return self.prim.GetStage().GetRootLayer().pseudoRoot
-        own = _said(arc.spec.layer, key) if arc.spec else said
-        is_right_there = own is None or not _are_equal(key, said, own)
-        return arc.spec if is_right_there else root_layer(arc.source).pseudoRoot
 
     @property
     def resetting(self) -> Any | None:
@@ -95,8 +81,11 @@ def layers_unlike_stage(stage: Any, tables: Tables) -> tuple[UnlikeStage, ...]:
         ):
             found[layer, key, is_sublayer].append(prim)
     return tuple(
-        UnlikeStage(layer, key, unlike[key][layer], wanted[key], is_sublayer, _sorted(prims))
+        UnlikeStage(
+            layer, key, unlike[key][layer], wanted[key], is_sublayer, blamed, tuple(brought)
+        )
         for (layer, key, is_sublayer), prims in sorted(found.items(), key=_order)
+        for blamed, brought in _by_arc(as_shown(prims), layer, key, unlike[key][layer])
     )
 
 
@@ -120,6 +109,33 @@ def _uncorrected(
                 yield prim, layer, is_sublayer
 
 
+def _by_arc(
+    prims: Iterable[Any], layer: Any, key: str, said: Any
+) -> Iterator[tuple[Any, list[Any]]]:
+    """The specs to blame, each with the prims that it brings, in the order of the first of them."""
+    found: dict[tuple[str, str], tuple[Any, list[Any]]] = {}
+    for prim in prims:
+        spec = _blamed(prim, layer, key, said)
+        _, brought = found.setdefault((spec.layer.identifier, str(spec.path)), (spec, []))
+        brought.append(prim)
+    yield from found.values()
+
+
+def _blamed(prim: Any, layer: Any, key: str, said: Any) -> Any:
+    """The spec with the arc that brings a prim's layer to a layer which says otherwise."""
+
+    def differs(crossing: Crossing) -> bool:
+        other = _said(root_layer(crossing.source), key)
+        return other is not None and not _are_equal(key, said, other)
+
+    arc = next(filter(differs, arcs_from(prim, layer)), None)
+    if arc is None:
+        return prim.GetStage().GetRootLayer().pseudoRoot
+    own = _said(arc.spec.layer, key) if arc.spec else said
+    is_right_there = own is None or not _are_equal(key, said, own)
+    return arc.spec if is_right_there else root_layer(arc.source).pseudoRoot
+
+
 def _add_with_ancestors(path: Any, paths: set[Any]) -> None:
     while path not in paths:
         paths.add(path)
@@ -129,10 +145,6 @@ def _add_with_ancestors(path: Any, paths: set[Any]) -> None:
 def _order(item: tuple[tuple[Any, str, bool], Any]) -> tuple[str, str, bool]:
     layer, key, is_sublayer = item[0]
     return layer.identifier, key, is_sublayer
-
-
-def _sorted(prims: list[Any]) -> tuple[Any, ...]:
-    return tuple(as_shown(prims))
 
 
 def _said_by(stage: Any) -> list[str]:
