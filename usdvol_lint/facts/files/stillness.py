@@ -17,7 +17,7 @@ from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.usd.clips import ClipSet
 from usdvol_lint.facts.usd.instances import on_stage, shown
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
-from usdvol_lint.words import format_time
+from usdvol_lint.words import format_time, quoted
 
 _FEWEST = 5
 """A range of fewer frames than these proves nothing, however well the files fit."""
@@ -257,4 +257,7 @@ def _advice(
         for number, time in times.items()
     ]
     pairs[_MOST:] = ["…"] * (len(pairs) > _MOST)
-    return f"author filePath.timeSamples = {{ {', '.join(pairs)} }}"
+    # Pasted into another layer they would be at other times.
+    is_at_home = opinion.offset.IsIdentity()
+    where = "" if is_at_home else f" in {quoted(opinion.spec.layer.GetDisplayName())}"
+    return f"author filePath.timeSamples = {{ {', '.join(pairs)} }}{where}"
