@@ -8,12 +8,12 @@ from __future__ import annotations
 import inspect
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from functools import cached_property
 from operator import attrgetter
 from pprint import pformat
 from typing import Any
 
 from usdvol_lint import schema
+from usdvol_lint.cached import cached_property
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.trouble import UnreadableStageError
 from usdvol_lint.engine.walk import asked_by, walk

@@ -222,8 +222,10 @@ def test_what_two_layers_say_below_an_instance_are_two(find: Find, shots: Path) 
     write(shots, top=STAGE.replace(META, f"{META}subLayers = [@./layout.usda@]\n") + more)
     [alone] = find("shots/layout.usda", rules=("STG006",))
     causes = find("shots/top.usda", rules=("STG006",))
-    assert alone.source == Source("shots/layout.usda", "/a/tank/density", "fieldName")
+    assert alone.source == Source(
+        "shots/layout.usda", "/a/tank/density", "fieldName", "instanceable"
+    )
     assert {each.source for each in causes} == {
         alone.source,
-        Source("shots/top.usda", "/a/tank", "extent"),
+        Source("shots/top.usda", "/a/tank", "extent", "instanceable"),
     }
