@@ -41,6 +41,14 @@ def test_an_error_that_nobody_can_read_is_no_finding(tmp_path: Path) -> None:
     assert shell("usdvol-lint gone.usda 2>/dev/full", tmp_path).returncode == 2
 
 
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_what_can_not_be_printed_is_said(option: str, tmp_path: Path) -> None:
+    done = shell(f"usdvol-lint {option} >/dev/full", tmp_path)
+    said = "usdvol-lint: error: can't write to standard output: No space left on device\n"
+    assert (done.returncode, done.stderr) == (2, said)
+
+
 @POSIX
 def test_no_handles_left(tmp_path: Path) -> None:
     (tmp_path / "a.usda").write_text(BROKEN)

@@ -28,8 +28,9 @@ if TYPE_CHECKING:
 
 LONGEST_TIMEOUT = 1_000_000
 _LARGEST = (1 << 63) - 1
-_LONGEST_SHOWN = 100
 """As TOML has it: Python shows no number of some thousand digits."""
+_LONGEST_SHOWN = 100
+"""Of a longer pattern the middle is left out in a message."""
 _SIZES = {"": 1, "K": 1 << 10, "M": 1 << 20, "G": 1 << 30, "T": 1 << 40}
 _NO_SIZES = {"auto": None, "none": 0, "0": 0}
 _NO_LEVELS = ("ignore", "ignored", "off", "none", "never", False)

@@ -24,11 +24,7 @@ _WANTED = {
 }
 """What prims of ours need, by schema; particle arrays may be in half precision instead."""
 
-_TYPES = {
-    name: known.type_name
-    for attributes in schema.ATTRIBUTES.values()
-    for name, known in attributes.items()
-}
+_DECLARED = schema.attributes_of(schema.ATTRIBUTES)
 
 
 def wanted(schemas: frozenset[str]) -> list[str]:
@@ -95,7 +91,7 @@ def is_brought(prim: Any, name: str) -> bool:
     attribute = prim.GetAttribute(name)
     if not attribute.HasAuthoredValue():
         return False
-    wanted_type = Sdf.ValueTypeNames.Find(_TYPES[name]).type
+    wanted_type = Sdf.ValueTypeNames.Find(_DECLARED[name].type_name).type
     if any(spec.typeName.type != wanted_type for spec in attribute.GetPropertyStack()[:1]):
         return False
     times = (Usd.TimeCode.Default(), *attribute.GetTimeSamples())

@@ -128,9 +128,9 @@ class AssetSamples(NamedTuple):
 
     @property
     def is_only_declared(self) -> bool:
-        """Whether the layer that makes the field declares it, and no layer gives it a value.
+        """Whether the stage's own layer makes the field and declares it, and none gives it a value.
 
-        That is the stage's own layer: one that another stage completes is checked as a part.
+        Such a layer may be a part that another stage completes; one on top of others is no part.
         """
         root, specs = self.attribute.GetStage().GetRootLayer(), self.attribute.GetPropertyStack()
         return not self.samples and any(
