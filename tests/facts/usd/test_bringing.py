@@ -6,10 +6,17 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from pxr import Usd
+from pxr import Sdf, Usd
 
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
-from usdvol_lint.facts.usd.bringing import arc_that, crossings, from_root, node_above, node_of
+from usdvol_lint.facts.usd.bringing import (
+    arc_losing,
+    arc_that,
+    crossings,
+    from_root,
+    node_above,
+    node_of,
+)
 from usdvol_lint.facts.usd.nodes import nodes_of
 
 LAYERS = {
@@ -48,11 +55,11 @@ def test_crossings_are_the_arcs_into_other_layer_stacks(
     prim = stage.GetPrimAtPath(path)
     spec = prim.GetPrimStack()[-1]
     node = node_of(prim, spec)
-    found = list(crossings(node))
+    found = crossings(node)
     specs = [each.spec for each in found]
     assert [f"{each.layer.GetDisplayName()} {each.path}" for each in specs] == arcs
     assert len({each.key for each in found}) == len(arcs)
-    steps = list(from_root(node))
+    steps = from_root(node)
     assert all(one.parent == other for other, one in pairwise(steps))
 
 
@@ -67,6 +74,29 @@ def test_an_arc_that_is_meant_is_the_one_next_to_the_layer(stage: Usd.Stage) -> 
     assert (of_shot.layer.GetDisplayName(), str(of_shot.path)) == ("shot.usda", "/a/child")
     assert arc_that(prim, heavy, lambda arc: False) is None
     assert arc_that(stage.GetPrimAtPath("/a"), heavy, lambda arc: True) is None
+
+
+def test_the_arc_that_loses_a_path_is_the_first_beyond_which_it_has_no_name(
+    stage: Usd.Stage,
+) -> None:
+    """Its name is another one beyond each arc, as `</heavy/p>` is `</top/p>` in the asset."""
+    Path("piece.usda").write_text(
+        '#usda 1.0\ndef "b" (\n    references = @./asset.usda@</top/p>\n)\n{\n}\n'
+    )
+    other = Usd.Stage.Open("piece.usda")
+    piece = other.GetPrimAtPath("/b")
+    whole = stage.GetPrimAtPath("/a/child/p")
+    for prim, path, expected in (
+        (whole, "/heavy/p", None),
+        (whole, "/heavy/q", None),
+        (whole, "../q", None),
+        (whole, "/outside", ("asset.usda", "/top")),
+        (piece, "/heavy/p/q", None),
+        (piece, "/heavy/q", ("piece.usda", "/b")),
+    ):
+        arc = arc_losing(prim, prim.GetPrimStack()[-1], Sdf.Path(path))
+        found = arc and (arc.layer.GetDisplayName(), str(arc.path))
+        assert found == expected, path
 
 
 def test_the_node_of_a_spec(stage: Usd.Stage) -> None:

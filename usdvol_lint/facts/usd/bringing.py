@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -64,11 +64,13 @@ def path_of_prim(spec: Any) -> Any:
     return path.GetPrimOrPrimVariantSelectionPath() if path.pathElementCount else path
 
 
-def from_root(node: Any) -> Iterator[Any]:
+def from_root(node: Any) -> list[Any]:
     """The nodes from the root to this one, without the root."""
-    if not node.IsRootNode():
-        yield from from_root(node.parent)
-        yield node
+    found = []
+    while not node.IsRootNode():
+        found.append(node)
+        node = node.parent
+    return found[::-1]
 
 
 def as_introduced(node: Any) -> Any:
@@ -79,13 +81,16 @@ def as_introduced(node: Any) -> Any:
     return node
 
 
-def crossings(node: Any) -> Iterator[Crossing]:
+def crossings(node: Any) -> list[Crossing]:
     """The arcs into other layer stacks that lead from the root to a node, in this order."""
+    found = []
     node = as_introduced(node)
-    if not node.IsRootNode():
-        yield from crossings(node.parent)
-        if root_layer(node) != root_layer(node.parent):
-            yield Crossing(node, node.parent)
+    while not node.IsRootNode():
+        parent = node.parent
+        if root_layer(node) != root_layer(parent):
+            found.append(Crossing(node, parent))
+        node = as_introduced(parent)
+    return found[::-1]
 
 
 def root_layer(node: Any) -> Any:
@@ -128,7 +133,7 @@ def losing_spec(prim: Any, spec: Any, says: Callable[[Any], bool]) -> Any | None
         return namer.pseudoRoot
     lost = (
         each.spec
-        for each in reversed(list(crossings(node)))
+        for each in reversed(crossings(node))
         if says(root_layer(each.node)) and not says(root_layer(each.source))
     )
     return next(lost, None)
@@ -138,10 +143,26 @@ def arcs_from(prim: Any, layer: Any) -> list[Crossing]:
     """The arcs on the way from a layer of a prim to the stage."""
     for node in nodes_of(index_of(prim)):
         if layer in node.layerStack.layers:
-            return list(crossings(node))[::-1]
+            return crossings(node)[::-1]
     return []
 
 
 def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
     """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
     return next((each.spec for each in arcs_from(prim, layer) if is_it(each)), None)
+
+
+def arc_losing(prim: Any, spec: Any, path: Any) -> Any | None:
+    """The spec with the first arc, on the way to the stage, that does not bring a path of a spec.
+
+    The path has another name beyond each arc, so all of them are gone through.
+    """
+    path = path.MakeAbsolutePath(path_of_prim(spec).StripAllVariantSelections())
+    node = node_of(prim, spec)
+    while node and not node.IsRootNode():
+        node = as_introduced(node)
+        path = node.mapToParent.MapSourceToTarget(path)
+        if path.isEmpty:
+            return Crossing(node, node.parent).spec
+        node = node.parent
+    return None

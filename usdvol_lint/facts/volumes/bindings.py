@@ -41,16 +41,11 @@ class Binding(NamedTuple):
     @builtins.property
     def losing_arc(self) -> Any:
         """The spec with the arc that loses the first of the targets, or the spec of the target."""
-        from usdvol_lint.facts.usd.bringing import arc_that  # few bindings lose a target
+        from usdvol_lint.facts.usd.bringing import arc_losing  # few bindings lose a target
 
         spec = self.lost[0]
         first = spec.targetPathList.GetAddedOrExplicitItems()[0]
-        path = first.MakeAbsolutePath(spec.path.GetPrimPath())
-
-        def loses(crossing: Any) -> bool:
-            return bool(crossing.node.mapToParent.MapSourceToTarget(path).isEmpty)
-
-        return arc_that(self.property.GetPrim(), spec.layer, loses) or spec
+        return arc_losing(self.property.GetPrim(), spec, first) or spec
 
     @builtins.property
     def target(self) -> Target | None:
