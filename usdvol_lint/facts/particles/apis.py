@@ -11,6 +11,7 @@ from pxr import Usd
 from usdvol_lint import schema, spelling
 from usdvol_lint.facts.particles.removed import RemovedApis, removed_apis
 from usdvol_lint.facts.usd.dropped import DroppedList
+from usdvol_lint.facts.usd.instances import on_stage
 from usdvol_lint.facts.usd.kinds import PrimKinds, is_registered, raw_apis
 
 if TYPE_CHECKING:
@@ -181,10 +182,14 @@ def loss(prim: Any, apis: ParticleApis, names: Iterable[str]) -> Loss:
 
 
 def material_is_bound(prim: Any) -> bool:
-    """Whether a material is bound to the prim, by itself, an ancestor or a collection."""
+    """Whether a material is bound to the prim, by itself, an ancestor or a collection.
+
+    In a prototype that is so where the first instance shows it: what is bound to an instance, its
+    prototype does not have.
+    """
     from pxr import UsdShade  # costs start-up time, and few stages ask
 
-    material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+    material, _ = UsdShade.MaterialBindingAPI(on_stage(prim)).ComputeBoundMaterial()
     return bool(material)
 
 
