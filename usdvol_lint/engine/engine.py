@@ -10,11 +10,13 @@ from pxr import Sdf
 
 from usdvol_lint import schema
 from usdvol_lint.config import Depth
+from usdvol_lint.engine.alone import Alone
 from usdvol_lint.engine.asked_types import idle_rules
 from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.failures import still_holding, unreadable
 from usdvol_lint.engine.opening import Watch
+from usdvol_lint.engine.pieces import Pieces
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
@@ -140,7 +142,7 @@ class Engine:
     ) -> StageReport:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
         depth = self._depth
-        stamp = self._stamp(path)
+        stamp = self._stamp(path, context)
         options = self._active.options
         check = StageCheck(context, self._rules, options, self._assignment, stamp, broken)
         walked = check.walk()
@@ -169,7 +171,8 @@ class Engine:
             completes,
         )
 
-    def _stamp(self, path: str) -> Stamp:
+    def _stamp(self, path: str, context: Context) -> Stamp:
+        alone = Alone(context, self._assignment.asked_for, self._active.options)
         return Stamp(
             self._active,
             self._depth.selections > 0,
@@ -179,6 +182,7 @@ class Engine:
             self._repository,
             path,
             self._texts,
+            Pieces(alone),
         )
 
     def _sent(self, found: Iterable[Stamped]) -> Iterator[Stamped]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from pxr import Usd
 
-from usdvol_lint.engine.blame import Blame, Blaming
+from usdvol_lint.engine.blame import Blame, Blaming, on_arc
 from usdvol_lint.engine.entries import Entries
 from usdvol_lint.engine.layer_names import leads_elsewhere, link_to, real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
@@ -15,9 +15,10 @@ from usdvol_lint.facts.usd.calls import get_name, get_path, get_prim, get_stage
 from usdvol_lint.facts.usd.instances import shown
 from usdvol_lint.layertext.source import LayerTexts, SharedTexts
 from usdvol_lint.model import Cover, Severity, Site, Source
-from usdvol_lint.rule import NotChecked, Problem
+from usdvol_lint.rule import NotChecked, Problem, Rule
 
 if TYPE_CHECKING:
+    from usdvol_lint.engine.pieces import Pieces
     from usdvol_lint.layertext.lines import Position, TextLayer
 
 
@@ -68,6 +69,7 @@ class Sites:
     `stage` is the path of the stage as its user named it.
     `texts` are those that other stages have read too.
     With a `repository`, sites in layers outside it say where the stage's own file brings these in.
+    With `pieces`, what only a piece of a layer lacks is blamed on the arc to it.
     """
 
     def __init__(
@@ -75,7 +77,9 @@ class Sites:
         repository: str | None = None,
         stage: str = "",
         texts: SharedTexts | None = None,
+        pieces: Pieces | None = None,
     ) -> None:
+        self._pieces = pieces
         self._stage = stage
         self._texts = LayerTexts(texts)
         self._entries = Entries(repository, self._texts) if repository else None
@@ -87,14 +91,17 @@ class Sites:
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
         self._blaming.recomposed()
+        if self._pieces:
+            self._pieces.recomposed()
 
-    def locate(self, problem: Problem | NotChecked) -> Located:
+    def locate(self, problem: Problem | NotChecked, rule: Rule | None = None) -> Located:
         """The site of a problem, what is to blame for it, and how many instances show it.
 
         Where looking for it fails, that is its prim: what was found stands all the same.
         """
         prim = get_prim(problem.at)
-        return self.tried(prim, PLACE, self._find, prim, problem) or self._at_prim(prim, problem)
+        found = self.tried(prim, PLACE, self._find, prim, problem, rule)
+        return found or self._at_prim(prim, problem)
 
     def tried(
         self, prim: Any, what: str, find: Callable[..., _Found], *arguments: Any
@@ -122,10 +129,18 @@ class Sites:
         source = Source(real_name(root), path, name, problem.subject)
         return Located(prim, path, site, source, Blame(None), root, 1)
 
-    def _find(self, prim: Any, problem: Problem | NotChecked) -> Located:
+    def _blame(self, rule: Rule | None, problem: Problem | NotChecked, path: str) -> Blame:
+        """What is to blame for a problem of a rule, at a path of the stage."""
+        blame = self._blaming.blame(problem)
+        if rule is None or self._pieces is None or not isinstance(problem, Problem):
+            return blame
+        arc = blame.spec and self._pieces.arc(rule, problem, blame.spec, path)
+        return on_arc(arc, problem) if arc else blame
+
+    def _find(self, prim: Any, problem: Problem | NotChecked, rule: Rule | None) -> Located:
         at = problem.at
         on_stage, instances = shown(prim)
-        blame = self._blaming.blame(problem)
+        blame = self._blame(rule, problem, on_stage)
         spec = blame.spec or None
         blamed = get_stage(prim).GetRootLayer() if spec is None else spec.layer
         layer = self._layer(blamed)

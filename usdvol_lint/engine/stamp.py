@@ -21,6 +21,7 @@ from usdvol_lint.suppressions import InStages
 from usdvol_lint.words import counted, quoted, shortened
 
 if TYPE_CHECKING:
+    from usdvol_lint.engine.pieces import Pieces
     from usdvol_lint.engine.suppressions import Suppressions
 
 
@@ -51,7 +52,7 @@ class Stamp:
     `several_selections` says whether findings need an identity, because more than one variant
     selection is checked; `is_alone` whether no other stage may complete this one.
     `rules` are all there are, by code, and `asked` how suppressions in the stage are taken.
-    `repository`, `stage` and `texts` are as for `Sites`.
+    `repository`, `stage`, `texts` and `pieces` are as for `Sites`.
     """
 
     def __init__(
@@ -64,8 +65,9 @@ class Stamp:
         repository: str | None = None,
         stage: str = "",
         texts: SharedTexts | None = None,
+        pieces: Pieces | None = None,
     ) -> None:
-        self.sites = Sites(repository, stage, texts)
+        self.sites = Sites(repository, stage, texts, pieces)
         self._active = active
         self._several_selections = several_selections
         self._rules = rules
@@ -121,7 +123,7 @@ class Stamp:
     def _stamped(
         self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
     ) -> list[Stamped]:
-        located = self.sites.locate(problem)
+        located = self.sites.locate(problem, rule)
         source = located.source
         if reported_as is not rule and source.layer is not None:
             source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())

@@ -1,0 +1,88 @@
+"""What a rule finds on a layer that is opened by itself: none that is clean so is to blame."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pxr import Usd
+
+from usdvol_lint.engine.walk import walk
+from usdvol_lint.facts import Context, Facts
+from usdvol_lint.facts.usd.bringing import path_of_prim
+from usdvol_lint.facts.usd.calls import get_parent, get_prim, get_prim_stack, is_pseudo_root
+from usdvol_lint.facts.usd.diagnostics import UNREADABLE
+from usdvol_lint.facts.usd.instances import in_prototype
+from usdvol_lint.rule import STAGE, Problem, Rule
+
+
+class Alone:
+    """The layers below one stage, each opened by itself at most once.
+
+    `context` is that of the stage, `asked_for` the schemas of the prims that rules ask for, and
+    `options` those of the rules, by code.
+    """
+
+    def __init__(
+        self, context: Context, asked_for: frozenset[str], options: Mapping[str, Mapping[str, Any]]
+    ) -> None:
+        self._context = context
+        self._asked_for = asked_for
+        self._options = options
+        self._facts: dict[Any, Facts | None] = {}
+        self._of_stages: dict[tuple[Any, str], set[Any]] = {}
+
+    def is_clean(self, rule: Rule, layer: Any, path: Any, spec: Any) -> bool:
+        """Whether a rule finds nothing on a prim of a layer, where a spec makes it, or one above.
+
+        Of what can't be looked at, nothing is known.
+        """
+        facts = self._opened(layer)
+        prim = facts.stage.GetPrimAtPath(path) if facts else None
+        if not facts or not prim or not Usd.PrimDefaultPredicate(prim):
+            return False
+        prim = in_prototype(prim)
+        try:
+            return _is_made_of(prim, spec) and prim not in self._found(rule, layer, prim, facts)
+        except Exception:  # whatever a rule raises: it is reported where the stage is checked
+            return False
+
+    def _opened(self, layer: Any) -> Facts | None:
+        if layer not in self._facts:
+            try:
+                self._facts[layer] = self._facts_of(Usd.Stage.Open(layer))
+            except UNREADABLE:
+                self._facts[layer] = None
+        return self._facts[layer]
+
+    def _facts_of(self, stage: Any) -> Facts:
+        given = self._context
+        context = Context.of(stage, given.depth, telling=given.telling)
+        return Facts(context, walk(stage, self._asked_for, context.kinds))
+
+    def _found(self, rule: Rule, layer: Any, prim: Any, facts: Facts) -> set[Any]:
+        """The prims that a rule finds something on: of those of the stage, or of this one."""
+        if STAGE not in rule.on:
+            return self._run(rule, prim, facts)
+        key = layer, rule.code
+        if key not in self._of_stages:
+            self._of_stages[key] = self._run(rule, facts.stage.GetPseudoRoot(), facts)
+        return self._of_stages[key]
+
+    def _run(self, rule: Rule, prim: Any, facts: Facts) -> set[Any]:
+        found = rule.check(prim, facts, **self._options.get(rule.code, {}))
+        return {
+            get_prim(each.at)
+            for each in found
+            if isinstance(each, Problem) and (each.holds is None or each.holds())
+        }
+
+
+def _is_made_of(prim: Any, spec: Any) -> bool:
+    """Whether a spec, of a prim or a property, is of a prim or of one above it."""
+    own = spec.layer.GetPrimAtPath(path_of_prim(spec))
+    while not is_pseudo_root(prim):
+        if own in get_prim_stack(prim):
+            return True
+        prim = get_parent(prim)
+    return False
