@@ -127,7 +127,8 @@ class _Result:
     VALUED_NAME, which the weakest one has that has a value.
     `spec` names another `Sdf` spec.
     `against` is what contradicts it, as prims, properties, occurrences, or pairs of a prim and such
-    an `of`: then the strongest spec of all is to blame, or the arc that brings them together.
+    an `of`, or a spec of it: then the strongest spec of all is to blame, or the arc that brings
+    them together.
     `machine` says that the machine lacks something, and names it: then no layer is to blame.
     `subject` tells apart what a rule reports of one spec; it holds no number, time or wording, and
     is the name of the API where there is one.

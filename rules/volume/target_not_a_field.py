@@ -23,7 +23,7 @@ def target_not_a_field(volume: Prim, facts: Facts) -> Problems:
             f"'field:{binding.name}' targets <{target.shown}>, which "
             + (f"is of type {type_name!r}, not a field" if type_name else "has no type"),
             at=binding.property,
-            against=[(target.prim, TYPE)],
+            against=[(target.prim, facts.volumes.mistyping(target) or TYPE)],
             suggestion=f"did you mean <{meant}>?" if meant else advice,
             absent=[] if type_name else [lacks(volume, binding.property.GetName())],
         )

@@ -58,7 +58,7 @@ PATH = ("asset", "/tank/density.filePath", "filePath", "")
             shot(meta='prepend apiSchemas = ["MotionAPI"]'),
             "/tank",
             {"of": (APIS, "MotionAPI")},
-            ("shot", "/tank", None, "MotionAPI"),
+            ("asset", "/tank", None, "MotionAPI"),
         ),
         (
             shot(meta='prepend apiSchemas = ["GeomModelAPI"]'),

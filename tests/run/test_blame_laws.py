@@ -185,6 +185,8 @@ def Volume "tank"
         refers("a", meta='doc = "edited"', inside='def Xform "more"\n{\n}'),
         refers("a", meta="instanceable = true"),
         refers("a", inside='over "density" (\nactive = true\n)\n{\n}'),
+        refers("a", inside='over "density"\n{\ntoken fieldClass = "fog"\n}'),
+        refers("a", inside='over "density"\n{\nasset filePath = @../assets/gone.vdb@\n}'),
         refers("a", inside="rel field:density"),
         refers("a", inside="append rel field:heat = </a/gone>"),
         refers("a", inside="delete rel field:heat = </a/other>"),
@@ -194,7 +196,8 @@ def Volume "tank"
         f'def Scope "world"\n{{\n{refers("a")}}}\n',
     ],
     ids=[
-        *("type", "type of field", "doc", "child", "instance", "active", "declared"),
+        *("type", "type of field", "doc", "child", "instance", "active"),
+        *("value again", "path again", "declared"),
         *("target again", "no target", "first target", "order of targets", "one more", "below"),
     ],
 )

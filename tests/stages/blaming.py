@@ -19,7 +19,7 @@ Break: TypeAlias = Callable[[Any, Any], None]
 
 _OF_STAGES = {"ARR027", "AST012", "AST017", "STG007"}
 """They are about the range that the root layer says, which a layer on top has to say again."""
-_OF_RUNS = {"LNT001", "LNT002", "LNT004"}
+_OF_RUNS = {"LNT001", "LNT004"}
 _CARRIED_OVER = (
     *("startTimeCode", "endTimeCode", "timeCodesPerSecond", "framesPerSecond"),
     *("upAxis", "metersPerUnit", "expressionVariables", "defaultPrim"),
@@ -33,6 +33,8 @@ def broken_laws(engine: Engine, path: Path, number: int) -> Iterator[str]:
         yield from blamed_though_clean(engine, path, engine.lint(str(path)).findings)
         if stage := _opened(path):
             yield from moved_by_types_on_top(engine, path, stage)
+            yield from moved_by_saying_it_again(engine, path)
+            yield from blamed_in_a_piece(engine, path, stage, Random(number))
             if number % 2 == 0:
                 yield from blamed_for_a_break_above(engine, path, stage, Random(number))
 
@@ -46,6 +48,27 @@ def blamed_though_clean(engine: Engine, path: Path, findings: Iterable[Finding])
             continue
         if (code, source) not in _blamed(engine.lint(layer).findings, Severity.INFO):
             yield f"{code} is blamed on {source}, which is clean opened alone"
+
+
+def blamed_in_a_piece(engine: Engine, path: Path, stage: Any, random: Random) -> Iterator[str]:
+    """What is blamed on a clean layer once a shot references one prim of it."""
+    paths = [prim.GetPath() for prim in stage.Traverse() if prim.GetTypeName() in _BREAKS]
+    if not paths:
+        return
+    wanted = random.choice(random.choice(paths).GetPrefixes()[1:] or paths)
+    shot = Sdf.Layer.CreateNew(str(path.with_name("with_a_piece.usda")))
+    root = stage.GetRootLayer()
+    for key in filter(root.pseudoRoot.HasInfo, _CARRIED_OVER):
+        shot.pseudoRoot.SetInfo(key, root.pseudoRoot.GetInfo(key))
+    shot.defaultPrim = "Shot"
+    spec = Sdf.CreatePrimInLayer(shot, f"/Shot/{wanted.name}")
+    for each in (spec.nameParent, spec):
+        each.specifier = Sdf.SpecifierDef
+    spec.nameParent.typeName = "Xform"
+    reference = Sdf.Reference(f"./{Path(root.realPath).name}", wanted)
+    spec.referenceList.prependedItems = [reference]
+    shot.Save()
+    yield from blamed_though_clean(engine, Path(shot.realPath), engine.lint(shot.realPath).findings)
 
 
 def _is_part(layer: str, path: str | None) -> bool:
@@ -66,6 +89,25 @@ def moved_by_types_on_top(engine: Engine, path: Path, stage: Any) -> Iterator[st
     for code, source in sorted(before - after, key=str):
         if code not in _OF_STAGES:
             yield f"{code} is no more blamed on {source} below types that say the same"
+
+
+def moved_by_saying_it_again(engine: Engine, path: Path) -> Iterator[str]:
+    """What is blamed on other specs of a layer once one on top says again all that it says."""
+    findings = engine.lint(str(path)).findings
+    for name in sorted({finding.source.layer or "" for finding in findings}):
+        if not name or name.endswith(("]", ".usdz")):
+            continue
+        layer = Sdf.Layer.FindOrOpen(name)
+        above = Path(name).with_name(f"on_top_of_{Path(name).stem}.usda")
+        top = Sdf.Layer.CreateNew(str(above))
+        top.TransferContent(layer)
+        top.subLayerPaths = [f"./{Path(name).name}"]
+        top.Save()
+        before = _blamed(engine.lint(name).findings)
+        after = _blamed(engine.lint(top.realPath).findings)
+        for code, source in sorted(before - after, key=str):
+            if code != "STG007":  # USD takes the range of the root layer and of no other
+                yield f"{code} is no more blamed on {source} below a layer that says the same"
 
 
 def blamed_for_a_break_above(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import takewhile
 from typing import Any, NamedTuple
 
 from pxr import Sdf, Usd
@@ -9,7 +10,14 @@ from pxr import Sdf, Usd
 from usdvol_lint.engine.fallbacks import losing_fallback
 from usdvol_lint.engine.forwards import Forwards
 from usdvol_lint.engine.leading import leading
-from usdvol_lint.engine.saying import has_value, maker, of_prim, saying, weakest, with_metadata
+from usdvol_lint.engine.restating import (
+    VALUES,
+    first_alike,
+    first_to_say,
+    first_with,
+    first_with_clips,
+)
+from usdvol_lint.engine.saying import has_value, maker, of_prim, weakest, with_metadata
 from usdvol_lint.engine.strength import Opinion, Standing, decisive, path_beside, standing_of
 from usdvol_lint.engine.taking import Edit, Takings
 from usdvol_lint.engine.variables import deciding_layer
@@ -25,7 +33,6 @@ from usdvol_lint.facts.usd.calls import (
 )
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
 from usdvol_lint.facts.usd.instances import shown
-from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.rule import NAME, TYPE, VALUED_NAME, NotChecked, Problem
 
 
@@ -115,7 +122,8 @@ class Blaming:
                 return Blame(blocked, str(blocked.name), subject)
             if problem.of == TYPE and (losing := losing_fallback(prim)):
                 return Blame(losing, None, subject or str(prim.GetTypeName()))
-            return Blame(problem.spec or of_prim(prim, problem.of), None, subject)
+            given = problem.spec and first_alike(prim, problem.spec)
+            return Blame(given or of_prim(prim, problem.of), None, subject)
         name = get_name(at)
         if problem.spec:
             return _given(problem, name)
@@ -123,7 +131,7 @@ class Blaming:
             return Blame(
                 weakest(at, problem.of == VALUED_NAME) or maker(get_prim(at)), name, subject
             )
-        if isinstance(problem.of, str) and (spec := saying(problem.of, get_property_stack(at))):
+        if isinstance(problem.of, str) and (spec := first_with(get_property_stack(at), problem.of)):
             return Blame(spec, name, subject)
         if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
             time = None if problem.at_default else problem.times[0]
@@ -132,15 +140,15 @@ class Blaming:
         if _is_relationship(at):
             spec = leading(at) or weakest(at)
         else:
-            spec = next(filter(has_value, get_property_stack(at)), None)
+            spec = first_with(get_property_stack(at), *VALUES)
         return Blame(spec or _declared(maker(get_prim(at)), name), name, subject)
 
     def _value(self, attribute: Any, time: float | None, name: str, subject: str) -> Blame | None:
         """The spec with the value at a time of the stage; of one in clips, that with the clips."""
-        strongest = strongest_opinion(attribute, time)
-        if strongest is None:
+        found = first_to_say(attribute, time)
+        if found is None:
             return None
-        spec, offset = strongest
+        spec, offset = found
         local = None if time is None else offset.GetInverse() * time
         if self._says_variables(attribute) and (
             top := deciding_layer(get_prim(attribute), spec, local)
@@ -153,6 +161,7 @@ class Blaming:
             path = attribute.GetPath().MakeRelativePath(clips.prim.GetPath())
             clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
             bearer, offset = clips.opinion_with(clips.key)
+            bearer = first_with_clips(clips.prim, bearer, offset)
             return Blame(bearer, "clips", subject or str(path), None, offset, clips.named(clip))
         return Blame(spec, name, subject, local, offset)
 
@@ -182,7 +191,7 @@ class Blaming:
         """
         if isinstance(other, tuple):
             at, of = other
-            blame = Blame(with_metadata(at, of))
+            blame = Blame(of if isinstance(of, Sdf.Spec) else with_metadata(at, of))
         elif isinstance(other, Usd.Prim):
             at, blame = other, Blame(maker(other))
         elif isinstance(other, Usd.Property):
@@ -192,6 +201,12 @@ class Blaming:
         else:
             at, blame = other.attribute, self._own(Problem("", at=other))
         return (at, blame) if blame.spec else None
+
+
+def on_arc(arc: Any, problem: Problem | NotChecked) -> Blame:
+    """The blame of a spec for an arc of it that brings too little for what a problem is at."""
+    prim = get_prim(problem.at)
+    return Blame(arc, None, problem.subject or _path_of(problem.at, prim, arc))
 
 
 def _is_relationship(at: Any) -> bool:
@@ -206,7 +221,7 @@ def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
     """The spec that the rule names; for the top of a layer also which sublayer it is about."""
     spec, at, subject = problem.spec, problem.at, problem.subject
     if spec.path != Sdf.Path.absoluteRootPath:
-        return Blame(spec, name, subject)
+        return Blame(first_alike(get_prim(at), spec), name, subject)
     sublayer = _sublayer_with(at, spec.layer)
     subject = subject or sublayer or _path_of(at, at.GetPrim(), spec)
     return Blame(spec, name, subject, asset=sublayer)
@@ -227,8 +242,9 @@ def _blocked(problem: Problem | NotChecked) -> Any | None:
     for prim, name in (lack for part in problem.absent for lack in part):
         prop = prim.GetProperty(name) if Sdf.Path.IsValidNamespacedIdentifier(name) else None
         values = [spec for spec in (prop.GetPropertyStack() if prop else ()) if has_value(spec)]
-        if len(values) > 1 and _is_block(values[0]):
-            return values[0]
+        blocks = list(takewhile(_is_block, values))
+        if blocks and len(values) > len(blocks):
+            return blocks[-1]
     return None
 
 

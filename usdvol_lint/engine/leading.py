@@ -23,8 +23,8 @@ def leading(relationship: Any) -> Any | None:
     every = _targets(prim, specs)
     for number, spec in enumerate(specs[:-1], 1):
         weaker = _targets(prim, specs[number:])
-        is_alike = weaker == every or (len(weaker) > 1 and len(every) > 1)
-        if spec.GetInfo("targetPaths").isExplicit or not is_alike:
+        is_edit = not spec.GetInfo("targetPaths").isExplicit
+        if weaker != every and not (is_edit and len(weaker) > 1 and len(every) > 1):
             return spec
     return specs[-1]
 

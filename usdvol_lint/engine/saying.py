@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any
 
-from pxr import Sdf
-
+from usdvol_lint.engine.restating import first_with, values_of
 from usdvol_lint.facts.usd.calls import (
     get_prim_stack,
     get_property_stack,
@@ -16,8 +15,6 @@ from usdvol_lint.facts.usd.calls import (
 )
 from usdvol_lint.rule import APIS, TYPE
 
-_VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
-
 
 def of_prim(prim: Any, of: Any) -> Any | None:
     if is_pseudo_root(prim):
@@ -26,17 +23,15 @@ def of_prim(prim: Any, of: Any) -> Any | None:
 
 
 def with_metadata(prim: Any, of: Any) -> Any | None:
-    """The strongest spec that says something: TYPE, APIS, `(APIS, name)`, or other metadata."""
+    """The spec that says something: TYPE, APIS, `(APIS, name)`, or other metadata.
+
+    It is the strongest, or the first of several that say the same.
+    """
     if of == TYPE:
         return _typed(prim)
     if isinstance(of, tuple):
-        return next(filter(_lists(of[1]), _stack(prim)), None)
-    return saying(of, _stack(prim)) if of else None
-
-
-def saying(key: str, stack: Iterable[Any]) -> Any | None:
-    """The strongest spec with some metadata."""
-    return next((spec for spec in stack if spec.HasInfo(key)), None)
+        return _listing(of[1], _stack(prim))
+    return first_with(_stack(prim), of) if of else None
 
 
 def maker(prim: Any) -> Any | None:
@@ -63,16 +58,20 @@ def _typed(prim: Any) -> Any | None:
     return found
 
 
-def _lists(api: str) -> Callable[[Any], bool]:
-    """Whether a spec says of an API that it is applied, or not."""
-
-    def lists(spec: Any) -> bool:
+def _listing(api: str, stack: Iterable[Any]) -> Any | None:
+    """The spec that says of an API that it is applied, or that it is not."""
+    found, said = None, None
+    for spec in stack:
         listed = spec.GetInfo(APIS) if spec.HasInfo(APIS) else None
         if listed is None:
-            return False
-        return listed.isExplicit or api in (*listed.GetAppliedItems(), *listed.deletedItems)
-
-    return lists
+            continue
+        is_applied = api in listed.GetAppliedItems()
+        if not (is_applied or listed.isExplicit or api in listed.deletedItems):
+            continue
+        if found and said != is_applied:
+            break
+        found, said = spec, is_applied
+    return found
 
 
 def _stack(prim: Any) -> list[Any]:
@@ -88,5 +87,4 @@ def weakest(prop: Any, is_valued: bool = False) -> Any | None:
 
 
 def has_value(spec: Any) -> bool:
-    is_relationship = isinstance(spec, Sdf.RelationshipSpec)
-    return any(map(spec.HasInfo, _TARGETS if is_relationship else _VALUES))
+    return any(map(spec.HasInfo, values_of(spec)))

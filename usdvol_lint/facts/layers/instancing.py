@@ -108,17 +108,17 @@ def _are_ours(schemas: Iterable[str]) -> bool:
 
 
 def _strong_specs(stack: Iterable[Any]) -> list[Any]:
-    """The specs down to the one that makes the prim an instance; none if a variant says it."""
+    """The specs down to the first that makes the prim an instance; none if a variant says it."""
     specs: list[Any] = []
+    count = 0
     for spec in stack:
-        if spec.path.ContainsPrimVariantSelection():
-            if spec.HasInfo("instanceable"):
-                return []
-            continue
-        specs.append(spec)
-        if spec.HasInfo("instanceable"):
-            return specs
-    return []
+        says = spec.HasInfo("instanceable")
+        if says and (not spec.instanceable or spec.path.ContainsPrimVariantSelection()):
+            break
+        if not spec.path.ContainsPrimVariantSelection():
+            specs.append(spec)
+            count = len(specs) if says else count
+    return specs[:count]
 
 
 def _changed(prim_spec: Any, prim: Any, kinds: PrimKinds) -> Iterator[LostOverride]:

@@ -68,13 +68,13 @@ class TimeRange(NamedTuple):
             return None
         spec, node = own, node_of(prim, own)
         if not _is_wrong_in(node, is_wrong):
-            for arc in reversed(list(crossings(node))):
+            for arc in reversed(crossings(node)):
                 spec, node = arc.spec or spec, arc.source
                 if _is_wrong_in(node, is_wrong):
                     break
         top = root_layer(node)
         if spec.layer != top:
-            return top.pseudoRoot
+            return _saying(node, spec.layer, is_wrong).pseudoRoot
         return None if spec == own else spec
 
     def meeting_value(self, held: Any) -> Any | None:
@@ -118,6 +118,27 @@ def _is_wrong_in(node: Any, is_wrong: Callable[[TimeRange], bool]) -> bool:
     """Whether the layers of a node say a wrong range; what only the stage says, its root does."""
     said = _said_by(node.layerStack.identifier.rootLayer, node.mapToRoot.timeOffset)
     return is_wrong(said) if said else bool(node.IsRootNode())
+
+
+def _saying(node: Any, layer: Any, is_wrong: Callable[[TimeRange], bool]) -> Any:
+    """The layer that says a wrong range first, of those of a node that lead to one of its layers.
+
+    Those above it have it as sublayer, and merely say as much.
+    """
+    stack = node.layerStack
+    found = stack.identifier.rootLayer
+    for tree in _way_to(stack.layerTree, layer):
+        said = _said_by(tree.layer, node.mapToRoot.timeOffset * tree.offset)
+        found = tree.layer if said and is_wrong(said) else found
+    return found
+
+
+def _way_to(tree: Any, layer: Any) -> list[Any]:
+    """The trees of sublayers from one to that of a layer; none if that is not in it."""
+    if tree.layer == layer:
+        return [tree]
+    ways = (_way_to(below, layer) for below in tree.childTrees)
+    return next(([tree, *way] for way in ways if way), [])
 
 
 def _source(attribute: Any, time: float | None) -> tuple[Any, Any | None, Any]:

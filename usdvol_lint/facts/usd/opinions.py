@@ -36,6 +36,11 @@ def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
 
 
 def _strongest(attribute: Any, time: float | None) -> Opinion | None:
+    return next(opinions(attribute, time), None)
+
+
+def opinions(attribute: Any, time: float | None) -> Iterator[Opinion]:
+    """The opinions that have a value at a time of the stage, or by default, strongest first."""
     code, keys = (_DEFAULT, _OF_DEFAULT) if time is None else (time, _OF_TIMES)
     try:
         stack = get_stack_with_offsets(attribute, code)
@@ -43,8 +48,7 @@ def _strongest(attribute: Any, time: float | None) -> Opinion | None:
         stack = get_stack_with_offsets(attribute, _DEFAULT)
     for spec, offset in stack:
         if any(map(spec.HasInfo, keys)):
-            return Opinion(spec, offset)
-    return None
+            yield Opinion(spec, offset)
 
 
 def is_of_retimed_clip(attribute: Any, time: float, opinion: Opinion) -> bool:

@@ -21,6 +21,7 @@ with deferred(globals()):
         placement,
         reading,
         staging,
+        targets,
         usage,
     )
 
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from usdvol_lint.facts.volumes.reading import BindingReader
     from usdvol_lint.facts.volumes.shortfall import Shortfall
     from usdvol_lint.facts.volumes.staging import Staging
+    from usdvol_lint.facts.volumes.targets import Target
     from usdvol_lint.facts.volumes.unmeasured import UnmeasuredGrids
     from usdvol_lint.facts.volumes.usage import UsedFields, Users
 
@@ -101,6 +103,10 @@ class Volumes(Wing):
         """The path of the field that a binding without one was probably intended to target."""
         path = self._field_index.intended_by(binding)
         return instances.shown_path(self._stage, path) if path else None
+
+    def mistyping(self, target: Target) -> Any | None:
+        """The spec that first gave a target a type that no field has; None if none gives it one."""
+        return targets.mistyping(target.prim, self._kinds)
 
     def is_target_of_unknown_type(self, prim: Any) -> bool:
         """Whether a Volume targets a prim whose type is not registered."""

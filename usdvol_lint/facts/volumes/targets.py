@@ -11,6 +11,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.usd.calls import (
     get_parent,
     get_path,
+    get_prim_stack,
     get_stage,
     has_prefix,
     prim_at,
@@ -95,6 +96,19 @@ def read_target(volume: Any, path: Any, kinds: PrimKinds, may_lack: MayLack) -> 
     if state is TargetState.OVER or not (state is TargetState.FIELD or prim.GetTypeName()):
         state = _unless_uncomposed(state, prim, may_lack)
     return Target(path, stage, state, prim, blamed, schemas)
+
+
+def mistyping(prim: Any, kinds: PrimKinds) -> Any | None:
+    """The spec that first gave a prim a type that no field has; None if none gives it one.
+
+    Stronger ones that say another such type merely did not mend it.
+    """
+    found = None
+    for spec in get_prim_stack(prim):
+        if spec.typeName and schema.FIELD in kinds.names((spec.typeName,)):
+            break
+        found = spec if spec.typeName else found
+    return found
 
 
 def _unless_uncomposed(state: TargetState, prim: Any, may_lack: MayLack) -> TargetState:

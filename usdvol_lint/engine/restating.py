@@ -1,0 +1,152 @@
+"""Who said something first: a spec that only says it again is not to blame for it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from pxr import Sdf
+
+from usdvol_lint.facts.usd.calls import (
+    get_parent,
+    get_prim_stack,
+    get_property_stack,
+    is_pseudo_root,
+)
+from usdvol_lint.facts.usd.opinions import Opinion, opinions, strongest_opinion
+
+VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
+"""The metadata in which the value of an attribute is, and of a relationship."""
+_PATHS = (Sdf.ValueTypeNames.Asset, Sdf.ValueTypeNames.AssetArray)
+
+
+def values_of(spec: Any) -> tuple[str, ...]:
+    """The metadata of a property's spec in which its value is."""
+    return _TARGETS if isinstance(spec, Sdf.RelationshipSpec) else VALUES
+
+
+def first_to_say(attribute: Any, time: float | None) -> Opinion | None:
+    """The weakest of the opinions that, from the strongest on, say one value at a time.
+
+    Without those above it the attribute has the same value.
+    """
+    strongest = strongest_opinion(attribute, time)
+    if strongest is None or len(get_property_stack(attribute)) < 2:
+        return strongest  # nearly always
+    every = list(opinions(attribute, time))
+    if strongest not in every:
+        return strongest  # of retimed clips
+    said = _said(strongest, time)
+    alike = strongest
+    for opinion in every[every.index(strongest) + 1 :]:
+        other = _said(opinion, time)
+        if not _are_same(said, other):
+            break
+        alike = opinion
+    return alike
+
+
+def _said(opinion: Opinion, time: float | None) -> tuple[Any, ...]:
+    """What an opinion says at a time of the stage, and at which times it says something."""
+    spec, offset = opinion
+    if time is None or not spec.HasInfo("timeSamples"):
+        return _info(spec, "spline"), _anchored(spec, spec.default)
+    layer, path = spec.layer, spec.path
+    _, before, _ = layer.GetBracketingTimeSamplesForPath(path, offset.GetInverse() * time)
+    times = tuple(offset * each for each in layer.ListTimeSamplesForPath(path))
+    return times, _anchored(spec, layer.QueryTimeSample(path, before))
+
+
+def _anchored(spec: Any, value: Any) -> Any:
+    """A value of a spec; a path as its layer takes it."""
+    is_path = isinstance(value, Sdf.AssetPath)
+    return spec.layer.ComputeAbsolutePath(value.path) if is_path and value.path else value
+
+
+def first_with(specs: Iterable[Any], *keys: str) -> Any | None:
+    """The spec that first had some metadata of those that, from the strongest on, say the same."""
+    found = None
+    for spec in specs:
+        if not any(map(spec.HasInfo, keys)):
+            continue
+        if found and not _are_alike(spec, found, keys):
+            break
+        found = spec
+    return found
+
+
+def first_alike(prim: Any, spec: Any) -> Any:
+    """The first that said all that a spec of a prim says, of one above it, or of a property."""
+    path = spec.path
+    if path.IsPropertyPath():
+        prop, keys = prim.GetProperty(path.name), (*values_of(spec), "typeName")
+        return _first_of(spec, get_property_stack(prop) if prop else (), keys)
+    spec = spec.layer.GetPrimAtPath(path)  # a variant has a prim's spec too
+    keys = tuple(spec.ListInfoKeys())
+    if spec.specifier == Sdf.SpecifierOver and len(keys) < 2:
+        return spec  # it says nothing
+    while not is_pseudo_root(prim) and spec not in get_prim_stack(prim):
+        prim = get_parent(prim)
+    return _first_of(spec, get_prim_stack(prim), keys)
+
+
+def first_with_clips(prim: Any, spec: Any, offset: Any) -> Any:
+    """The first that named the clips of a prim that a spec does, by the same times.
+
+    `offset` leads from these to those of the stage.
+    """
+    stack = [each for each, other in prim.GetPrimStackWithLayerOffsets() if other == offset]
+    return _first_of(spec, stack, ("clips",))
+
+
+def _first_of(spec: Any, stack: Sequence[Any], keys: tuple[str, ...]) -> Any:
+    if len(stack) < 2 or spec not in stack:
+        return spec
+    return first_with(stack[stack.index(spec) :], *keys) or spec
+
+
+def _are_alike(one: Any, other: Any, keys: Iterable[str]) -> bool:
+    """Whether two specs say the same in some metadata."""
+    if not all(_are_same(_said_in(one, key), _said_in(other, key)) for key in keys):
+        return False
+    return not _has_paths(one) or _folder(one) == _folder(other)
+
+
+def _has_paths(spec: Any) -> bool:
+    """Whether a spec may hold paths that lead from the folder of its layer."""
+    if isinstance(spec, Sdf.PrimSpec):
+        return any(map(spec.HasInfo, ("references", "payload", "clips")))
+    return isinstance(spec, Sdf.AttributeSpec) and spec.typeName in _PATHS
+
+
+def _folder(spec: Any) -> str:
+    return os.path.dirname(str(spec.layer.identifier))
+
+
+def _info(spec: Any, key: str) -> Any:
+    return spec.GetInfo(key) if spec.HasInfo(key) else None
+
+
+def _said_in(spec: Any, key: str) -> Any:
+    """Some metadata of a spec; of samples the times and the first one, since all may be large."""
+    if key != "timeSamples" or not spec.HasInfo(key):
+        return _info(spec, key)
+    times = spec.layer.ListTimeSamplesForPath(spec.path)
+    return times, spec.layer.QueryTimeSample(spec.path, times[0])
+
+
+def _are_same(one: Any, other: Any) -> bool:
+    """Whether two values are the same; what is no number is the same as itself."""
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, tuple):
+        return len(one) == len(other) and all(map(_are_same, one, other))
+    if one == other:
+        return True
+    if type(one).__module__ != "pxr.Vt":
+        return type(one).__module__ == "pxr.Gf" and str(one) == str(other)
+    import numpy as np  # takes long, and hardly any stage says an array twice
+
+    numbers, others = np.asarray(one), np.asarray(other)
+    return numbers.dtype.kind == "f" and np.array_equal(numbers, others, equal_nan=True)
