@@ -69,7 +69,7 @@ SILENT = (
     ("SCH004", "ARR001", "ARR001 Right 5"),
     ("SCH004", "ARR004", "SCH004 Wrong 5"),
     ("SCH004", "ARR015", "SCH004 Wrong 5"),
-    ("SCH004", "ARR017", "ARR017 Right 4"),
+    ("SCH004", "ARR017", "ARR017 Right 5"),
     ("SCH004", "ARR020", "ARR020 Right 4"),
     ("SCH004", "ARR021", "ARR021 Right 2"),
     ("SCH004", "AST001", "SCH004 Wrong 1"),

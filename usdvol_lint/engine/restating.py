@@ -82,6 +82,8 @@ def first_alike(prim: Any, spec: Any) -> Any:
     if path.IsPropertyPath():
         prop, keys = prim.GetProperty(path.name), (*values_of(spec), "typeName")
         return _first_of(spec, get_property_stack(prop) if prop else (), keys)
+    if path == Sdf.Path.absoluteRootPath:
+        return spec
     spec = spec.layer.GetPrimAtPath(path)  # a variant has a prim's spec too
     keys = tuple(spec.ListInfoKeys())
     if spec.specifier == Sdf.SpecifierOver and len(keys) < 2:
