@@ -14,7 +14,7 @@ from usdvol_lint.facts.usd.calls import (
     get_property_stack,
     is_pseudo_root,
 )
-from usdvol_lint.facts.usd.opinions import Opinion, opinions, strongest_opinion
+from usdvol_lint.facts.usd.opinions import Opinion, is_of_retimed_clip, opinions, strongest_opinion
 
 VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
 """The metadata in which the value of an attribute is, and of a relationship."""
@@ -31,15 +31,14 @@ def first_to_say(attribute: Any, time: float | None) -> Opinion | None:
 
     Without those above it the attribute has the same value.
     """
-    strongest = strongest_opinion(attribute, time)
-    if strongest is None or len(get_property_stack(attribute)) < 2:
-        return strongest  # nearly always
-    every = list(opinions(attribute, time))
-    if strongest not in every:
-        return strongest  # of retimed clips
-    said = _said(strongest, time)
+    strongest, *others = list(opinions(attribute, time)) or (None,)
+    if strongest is None:
+        return None
+    if time is not None and is_of_retimed_clip(attribute, time, strongest):
+        return strongest_opinion(attribute, time)
+    said = _said(strongest, time) if others else ()
     alike = strongest
-    for opinion in every[every.index(strongest) + 1 :]:
+    for opinion in others:
         other = _said(opinion, time)
         if not _are_same(said, other):
             break

@@ -91,7 +91,7 @@ class TextLayer:
         if enclosing not in self._enclosing:
             self._enclosing[enclosing] = self._scope_at(enclosing)
         scope = self._enclosing[enclosing]
-        return scope.properties.get(name) if scope and name else scope
+        return scope.property(name) if scope and name else scope
 
     def _scope_at(self, path: str) -> _Scope | None:
         """The scope at the path of a prim or variant, or of the layer."""
@@ -148,6 +148,7 @@ class _Scope:
         self._number = number
         self.start = outline.start[number]
         self.body = outline.body[number]
+        self._properties: dict[str, Property | None] = {}
 
     @cached_property
     def assets(self) -> dict[str, int]:
@@ -168,11 +169,18 @@ class _Scope:
                 found.setdefault(f"{{{name}={outline.name(variant)}}}", variant)
         return found
 
+    def property(self, name: str) -> Property | None:
+        """The statements about a property; None if there are none."""
+        if name not in self._properties:
+            about = self._statements.get(name)
+            self._properties[name] = Property(self._outline.data, about) if about else None
+        return self._properties[name]
+
     @cached_property
-    def properties(self) -> dict[str, Property]:
+    def _statements(self) -> dict[str, list[Statement]]:
         data = self._outline.data
         found: dict[str, list[Statement]] = defaultdict(list)
         for span in self._outline.own(self._number, self.body):
             for statement in statements(data, span):
                 found[statement.name].append(statement)
-        return {name: Property(data, about) for name, about in found.items()}
+        return found

@@ -40,6 +40,8 @@ def unexplained(
     explained = set(chain.from_iterable(each.samples for each in others if each))
     if tells("AST008"):
         explained.update(filter(hides_file, missing.samples))
+    if not explained:
+        return missing
     return paths.affected(sample for sample in missing.samples if sample not in explained)
 
 

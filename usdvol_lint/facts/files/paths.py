@@ -30,7 +30,11 @@ def extension_of(path: str) -> str:
 
 def count_names(path: str) -> int:
     """How many names a path has that folders list, so without `.` and `..`."""
-    names = os.path.normpath(path).replace(os.sep, "/").split("/")
+    return _listed(os.path.normpath(path).replace(os.sep, "/").split("/"))
+
+
+def _listed(names: list[str]) -> int:
+    """How many of the names of a path folders list."""
     return len(names) - sum(map(names.count, _UNLISTED))
 
 
@@ -46,7 +50,7 @@ def count_shared(path: str, place: str) -> int:
         if name != other:
             break
         shared += 1
-    return min(count_names(path), shared)
+    return min(count_names(path) if "\\" in path else _listed(names), shared)
 
 
 def is_packaged(path: str) -> bool:
