@@ -18,8 +18,10 @@ from badinput import POSIX, statuses
 from process import PACKS, PROGRAM, ROOT, ROUGH, Ran, environment, run, volume, write
 
 from usdvol_lint.child import start_child
-from usdvol_lint.run import memory
+from usdvol_lint.model import Status
+from usdvol_lint.run import memory, pool
 from usdvol_lint.run.last_words import LastWords
+from usdvol_lint.run.lint import lint
 from usdvol_lint.run.memory import Memory, own_part
 
 GREEDY = ("--isolated", "--pack", PACKS / "greedy", "--select", "GRE", "--output-format", "json")
@@ -241,10 +243,24 @@ def test_a_process_that_is_killed_while_it_starts_is_tried_again(tmp_path: Path)
 
 @posix
 def test_processes_that_never_start(tmp_path: Path) -> None:
-    write(tmp_path, z=volume("z"))
-    ran = run(*ROUGH_ONLY, ".", cwd=tmp_path, env=failing_usd(tmp_path, "True"))
-    assert (ran.code, ran.err) == (2, f"usdvol-lint: error: {KILLED}{MORE}\n")
+    """All stages are in the report, which says why none was looked at."""
+    write(tmp_path, a=volume("a"), z=volume("z"))
+    ran = run(*ROUGH_ONLY, "-j1", ".", cwd=tmp_path, env=failing_usd(tmp_path, "True"))
+    assert (ran.code, ran.err) == (2, "")
     assert (tmp_path / "count").read_text() == "xxxx"
+    why = f"not checked: {KILLED}{MORE}"
+    assert messages(ran) == {"a.usda": [why], "z.usda": [why]}
+    assert ran.json["summary"]["by_status"] == {"unchecked": 2}
+
+
+def test_a_thread_that_never_starts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*arguments: object) -> None:
+        raise RuntimeError("can't start new thread")
+
+    write(tmp_path, a=volume("a"), z=volume("z"))
+    monkeypatch.setattr(pool, "_in_a_thread", fails)
+    stages = lint([str(tmp_path)]).stages
+    assert [stage.status for stage in stages] == [Status.UNCHECKED, Status.UNCHECKED]
 
 
 @posix

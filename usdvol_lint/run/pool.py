@@ -18,7 +18,7 @@ from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.memory import Memory
 from usdvol_lint.run.processors import owned
 from usdvol_lint.run.protocol import SHORT, Setup
-from usdvol_lint.run.supervisor import Worker
+from usdvol_lint.run.supervisor import NoProcessError, Worker
 
 if TYPE_CHECKING:
     import subprocess
@@ -99,16 +99,21 @@ class Pool:
         """Starts to work the queue off with at most `jobs` workers, in threads; does not wait.
 
         `limit` are the seconds that one stage may take, `memory` is what one worker may keep.
-        Raises UsageError if the first worker can't work.
+        Raises UsageError if the first worker can't work; if something keeps ending it, or nothing
+        can be started, that is what is reported on each stage.
         """
         workers = max(1, min(jobs, owned(), self._waiting.qsize()))
         setup = setup._replace(workers=workers)
-        self._first.prepare(setup, _ready_limit(limit), Memory(memory, workers))
         self._able = workers
         try:
+            self._first.prepare(setup, _ready_limit(limit), Memory(memory, workers))
             _in_a_thread(self._work_off, self._first, limit, advance)
-        except RuntimeError as error:
-            raise UsageError(f"no thread can be started{narrow_limits()}") from error
+        except NoProcessError as error:
+            if not error.is_passing:
+                raise
+            return self._refuse(error)
+        except RuntimeError:
+            return self._refuse(UsageError(f"no thread can be started{narrow_limits()}"))
         for number in range(1, workers):
             own = Memory(memory, workers)
             try:
@@ -187,10 +192,11 @@ class Pool:
             self._able -= 1
             if self._able:
                 return
-            self._why_not = error
         self._refuse(error)
 
     def _refuse(self, why: UsageError) -> None:
+        """Reports on each stage that waits, or is still to come, why nobody checks it."""
+        self._why_not = why
         with suppress(queue.Empty):
             while True:
                 path, answer = self._waiting.get_nowait()
