@@ -22,7 +22,7 @@ ENGINE = ROOT / "usdvol_lint"
 RULES = ROOT / "rules"
 
 PACKAGES = (
-    {"words", "nearest", "replacing", "deferred", "cached"},
+    {"words", "nearest", "replacing", "deferred", "cached", "gitignore"},
     {"model"},
     {"results", "releases"},
     {"suppressions"},

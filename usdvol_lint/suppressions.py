@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
+from usdvol_lint.gitignore import spec_of
 from usdvol_lint.model import UsageError
 from usdvol_lint.nearest import did_you_mean
 
@@ -86,9 +87,7 @@ def matching(lines: Sequence[str]) -> Callable[[str], bool]:
 
     Raises ValueError for one that is none.
     """
-    from pathspec import GitIgnoreSpec  # few runs have a pattern
-
-    spec = GitIgnoreSpec.from_lines(lines)
+    spec = spec_of(lines)
     return lambda path: bool(spec.match_file(path))
 
 

@@ -7,12 +7,9 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from itertools import groupby
 from operator import attrgetter
-from typing import TYPE_CHECKING
 
 from usdvol_lint.config import Glob
-
-if TYPE_CHECKING:
-    from pathspec import GitIgnoreSpec
+from usdvol_lint.gitignore import spec_of
 
 
 class Patterns:
@@ -46,9 +43,7 @@ class _Group:
     """The patterns of one folder, in their order."""
 
     def __init__(self, folder: str, patterns: Iterable[str]) -> None:
-        from pathspec import GitIgnoreSpec  # few runs have a pattern
-
-        self._spec: GitIgnoreSpec = GitIgnoreSpec.from_lines(patterns)
+        self._spec = spec_of(patterns)
         self._folders = (os.path.abspath(folder), os.path.realpath(folder))
 
     def verdict(self, path: str) -> bool | None:
