@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from identities import META, STAGE, Find
+from identities import LAYER, META, STAGE, Find, refers
 from process import write
 
 TOP = """#usda 1.0
@@ -97,6 +97,22 @@ CLASSED = """
     }
 """
 INSTANCED = CLASSED.replace("inherits", "instanceable = true\ninherits")
+
+
+PARKED = f"""
+def ParticleField3DGaussianSplat "tank"
+{{
+    float3[] extent = [(0, 0, 0), (1, 1, 1)]
+    point3f[] positions = [(1e8, 1e8, 1e8){", (0.5, 0.5, 0.5)" * 49}]
+    quatf[] orientations = [{", ".join(["(1, 0, 0, 0)"] * 50)}]
+    float3[] scales = [(0.01, 0.01, 0.01){", (0.01, 0.02, 0.01)" * 49}]
+    float[] opacities = [0{"".join(f", 0.{n:02}" for n in range(50, 99))}]
+    uniform int radiance:sphericalHarmonicsDegree = 0
+    float3[] radiance:sphericalHarmonicsCoefficients = [{", ".join(["(1, 1, 1)"] * 50)}]
+}}
+"""
+SEEN = f"float[] opacities = [{', '.join(['1'] * 50)}]"
+ALONE = f"float[] opacities = [1{', 0' * 49}]"
 
 
 def shot(*paths: str, meta: str = "") -> str:
@@ -191,3 +207,23 @@ def test_a_rule_that_fails_on_the_layer_alone_moves_no_blame(
     write(shots, one=shot("/set/smoke"))
     [cause] = find("shots/one.usda", rules=("SCH007",))
     assert cause.source.layer == "assets/set.usda"
+
+
+@pytest.mark.parametrize(
+    ("edit", "code", "path", "name"),
+    [
+        (SEEN, "ARR013", "/a", "opacities"),
+        (ALONE, "ARR020", "/a", "opacities"),
+        (f"{SEEN}\nfloat width = 1", "ARR013", "/a", None),
+    ],
+)
+def test_an_edit_beside_what_a_rule_looks_at_is_to_blame(
+    edit: str, code: str, path: str, name: str | None, find: Find, shots: Path
+) -> None:
+    """The rules tell that they look at positions, and not at which of them are seen."""
+    write(shots.parent / "assets", tank=LAYER + PARKED)
+    write(shots, one=STAGE + refers("a", inside=edit), two=STAGE + refers("a"))
+    assert not find("assets/tank.usda", "shots/two.usda", rules=(code,))
+    [cause] = find("shots/one.usda", rules=(code,))
+    found = cause.source
+    assert (found.layer, found.path, found.property) == ("shots/one.usda", path, name)

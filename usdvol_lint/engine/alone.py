@@ -61,13 +61,14 @@ class Alone:
         return Facts(context, walk(stage, self._asked_for, context.kinds))
 
     def _found(self, rule: Rule, layer: Any, prim: Any, facts: Facts) -> set[Any]:
-        """The prims that a rule finds something on: of those of the stage, or of this one."""
-        if STAGE not in rule.on:
-            return self._run(rule, prim, facts)
-        key = layer, rule.code
-        if key not in self._of_stages:
-            self._of_stages[key] = self._run(rule, facts.stage.GetPseudoRoot(), facts)
-        return self._of_stages[key]
+        """The prims that a rule finds something on, asked about this one, or about the stage."""
+        found = set() if rule.on == (STAGE,) else self._run(rule, prim, facts)
+        if STAGE in rule.on:
+            key = layer, rule.code
+            if key not in self._of_stages:
+                self._of_stages[key] = self._run(rule, facts.stage.GetPseudoRoot(), facts)
+            found |= self._of_stages[key]
+        return found
 
     def _run(self, rule: Rule, prim: Any, facts: Facts) -> set[Any]:
         found = rule.check(prim, facts, **self._options.get(rule.code, {}))

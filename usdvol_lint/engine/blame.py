@@ -203,10 +203,10 @@ class Blaming:
         return (at, blame) if blame.spec else None
 
 
-def on_arc(arc: Any, problem: Problem | NotChecked) -> Blame:
-    """The blame of a spec for an arc of it that brings too little for what a problem is at."""
-    prim = get_prim(problem.at)
-    return Blame(arc, None, problem.subject or _path_of(problem.at, prim, arc))
+def on_other(spec: Any, problem: Problem | NotChecked) -> Blame:
+    """The blame of another spec than those that a problem is of: it makes these wrong."""
+    path = _path_of(problem.at, get_prim(problem.at), spec)
+    return Blame(spec, _property_of(spec), problem.subject or path)
 
 
 def _is_relationship(at: Any) -> bool:

@@ -1,7 +1,8 @@
-"""Pieces of layers that are brought without what they need: then the arc to them is to blame."""
+"""What is clean in its layer and wrong on the stage: an arc to a piece, or an edit, is why."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint.engine.alone import Alone
@@ -15,9 +16,11 @@ if TYPE_CHECKING:
 
 
 class Pieces:
-    """Finds the arcs that bring a piece of a layer: a prim without those above it.
+    """Finds what makes something wrong of a layer that is clean by itself.
 
-    What stands above, such as a bound material or a transform, may be what a rule asks for.
+    That is an arc which brings a piece of it, a prim without those above: what stands there, such
+    as a bound material or a transform, may be what a rule asks for.  Or it is what the stage's own
+    layers say of the same prim, where the rule does not tell that it looks at that.
     """
 
     def __init__(self, alone: Alone) -> None:
@@ -29,16 +32,22 @@ class Pieces:
         """Says that the stage was composed in another way."""
         self._whole.clear()
 
-    def arc(self, rule: Rule, problem: Problem | NotChecked, spec: Any, path: str) -> Any | None:
-        """The spec with the arc to blame for a problem at a path of the stage, in place of `spec`.
+    def instead(
+        self, rule: Rule, problem: Problem | NotChecked, spec: Any, path: str
+    ) -> Any | None:
+        """The spec to blame for a problem at a path of the stage, in place of `spec`.
 
         None if that is to blame itself: nearly always, since its layer is brought as a whole, or
         opened alone has the problem too.
         """
-        if spec.layer in self._local(problem) or self._is_whole(problem, spec, path):
+        local = self._local(problem)
+        if spec.layer in local:
             return None
-        node = _node_with(get_prim(problem.at), spec)
-        arcs = crossings(node) if node else []
+        prim = get_prim(problem.at)
+        if self._is_whole(problem, spec, path):
+            own = [each for each in get_prim_stack(prim) if each.layer in local and each.properties]
+            return self._edit(rule, prim, spec, own) if own else None
+        arcs = _arcs_to(prim, spec)
         if not any(map(_is_to_piece, arcs)):
             return None
         found = None
@@ -48,6 +57,15 @@ class Pieces:
                 break
             found = arc.spec or found
         return found
+
+    def _edit(self, rule: Rule, prim: Any, spec: Any, own: Sequence[Any]) -> Any | None:
+        """What the stage's own specs of a prim say, if nothing is wrong in the layer without it."""
+        for arc in _arcs_to(prim, spec)[:1]:
+            place = arc.node.path.StripAllVariantSelections()
+            if self._alone.is_clean(rule, root_layer(arc.node), place, spec):
+                properties = [each for spec in own for each in spec.properties]
+                return properties[0] if len(properties) == 1 else own[0]
+        return None
 
     def _local(self, problem: Problem | NotChecked) -> frozenset[Any]:
         """The root layer and its sublayers, which no arc brings."""
@@ -76,13 +94,13 @@ class Pieces:
         return self._whole[key]
 
 
-def _node_with(prim: Any, spec: Any) -> Any | None:
-    """The node of a prim that a spec is in, of it or of a prim above it."""
+def _arcs_to(prim: Any, spec: Any) -> list[Crossing]:
+    """The arcs from the root to a spec of a prim, or of one above it."""
     path = path_of_prim(spec)
     for node in nodes_of(index_of(prim)):
         if node.path.HasPrefix(path) and spec.layer in node.layerStack.layers:
-            return node
-    return None
+            return crossings(node)
+    return []
 
 
 def _is_to_piece(arc: Crossing) -> bool:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from pxr import Usd
 
-from usdvol_lint.engine.blame import Blame, Blaming, on_arc
+from usdvol_lint.engine.blame import Blame, Blaming, on_other
 from usdvol_lint.engine.entries import Entries
 from usdvol_lint.engine.layer_names import leads_elsewhere, link_to, real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
@@ -134,8 +134,8 @@ class Sites:
         blame = self._blaming.blame(problem)
         if rule is None or self._pieces is None or not isinstance(problem, Problem):
             return blame
-        arc = blame.spec and self._pieces.arc(rule, problem, blame.spec, path)
-        return on_arc(arc, problem) if arc else blame
+        other = blame.spec and self._pieces.instead(rule, problem, blame.spec, path)
+        return on_other(other, problem) if other else blame
 
     def _find(self, prim: Any, problem: Problem | NotChecked, rule: Rule | None) -> Located:
         at = problem.at
