@@ -91,6 +91,10 @@ class StageCheck:
             yield from self._stamp.stamp(NOT_CHECKED, _cut_short(prim, words))
         yield from self._failed(failures)
         yield from self._stamp.suppressions(facts.stage, failures.prims)
+        yield from self.faults()
+
+    def faults(self) -> Iterator[Stamped]:
+        """What failed beside the rules since it was asked for last."""
         yield from self._failed(Failures())
 
     def _failed(self, failures: Failures) -> Iterator[Stamped]:

@@ -245,7 +245,9 @@ class _Completions:
                 for spec in (each for each in stack if each.layer in overs and is_def(each)):
                     for path in overs[spec.layer].intersection(spec.path.GetPrefixes()):
                         over = spec.layer.GetPrimAtPath(path)
-                        self._add(prim_above(prim, levels_to(spec, over)), over, SPECIFIER)
+                        above = prim_above(prim, levels_to(spec, over))
+                        if above and over in get_prim_stack(above):  # else only a piece is brought
+                            self._add(above, over, SPECIFIER)
 
     def _find_clips(self) -> None:
         """The clip sets of which other specs have a part."""

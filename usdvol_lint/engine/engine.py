@@ -34,6 +34,7 @@ from usdvol_lint.paths import named
 from usdvol_lint.rule import Rule
 from usdvol_lint.suppressions import InStages
 
+_COMPLETED = "what the stage completes of others"
 _SENT_AT_ONCE = 10
 """From this many findings on they are sent in batches."""
 
@@ -150,7 +151,8 @@ class Engine:
         facts = check.facts(walked)
         found += self._sent(chain(check.usd_version(facts), check.idle(facts, self._idle)))
         found += self._sent(check.selection(walked, facts))
-        completes = _completion(facts)
+        completes = stamp.sites.tried(context.stage.GetPseudoRoot(), _COMPLETED, _completion, facts)
+        found += self._sent(check.faults())
         stats = _stats(walked, facts, context.disk)
         particle_fields = facts.particles.statistics() if depth.statistics else None
         if depth.selections:

@@ -94,9 +94,11 @@ def levels_to(spec: Any, above: Any) -> int:
 
 
 def prim_above(prim: Any, levels: int) -> Any:
-    """The prim so many levels above another, where this one is shown first."""
+    """The prim so many levels above another, where this one is shown first; None above the root."""
     prim = on_stage(prim)
     for _ in range(levels):
+        if prim.IsPseudoRoot():
+            return None
         prim = prim.GetParent()
     return prim
 

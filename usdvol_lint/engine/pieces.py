@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer
@@ -13,6 +12,17 @@ from usdvol_lint.facts.usd.nodes import nodes_of
 
 if TYPE_CHECKING:
     from usdvol_lint.rule import NotChecked, Problem, Rule
+
+
+class _Brought(NamedTuple):
+    """How an arc brings a layer.
+
+    `is_whole` is whether a prim at its top stands above what it brings, on the stage too, and
+    `is_edited` whether the stage's own layers say something of it or of what is below.
+    """
+
+    is_whole: bool
+    is_edited: bool
 
 
 class Pieces:
@@ -25,12 +35,12 @@ class Pieces:
 
     def __init__(self, alone: Alone) -> None:
         self._alone = alone
-        self._whole: dict[tuple[str, str, Any], bool] = {}
+        self._known: dict[tuple[str, str, Any], _Brought] = {}
         self._own: frozenset[Any] | None = None
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
-        self._whole.clear()
+        self._known.clear()
 
     def instead(
         self, rule: Rule, problem: Problem | NotChecked, spec: Any, path: str
@@ -44,9 +54,9 @@ class Pieces:
         if spec.layer in local:
             return None
         prim = get_prim(problem.at)
-        if self._is_whole(problem, spec, path):
-            own = [each for each in get_prim_stack(prim) if each.layer in local and each.properties]
-            return self._edit(rule, prim, spec, own) if own else None
+        is_whole, is_edited = self._brought(problem, spec, path)
+        if is_whole:
+            return self._edit(rule, prim, spec, local) if is_edited else None
         arcs = _arcs_to(prim, spec)
         if not any(map(_is_to_piece, arcs)):
             return None
@@ -58,9 +68,10 @@ class Pieces:
             found = arc.spec or found
         return found
 
-    def _edit(self, rule: Rule, prim: Any, spec: Any, own: Sequence[Any]) -> Any | None:
+    def _edit(self, rule: Rule, prim: Any, spec: Any, local: frozenset[Any]) -> Any | None:
         """What the stage's own specs of a prim say, if nothing is wrong in the layer without it."""
-        for arc in _arcs_to(prim, spec)[:1]:
+        own = [each for each in get_prim_stack(prim) if each.layer in local and each.properties]
+        for arc in _arcs_to(prim, spec)[:1] if own else ():
             place = arc.node.path.StripAllVariantSelections()
             if self._alone.is_clean(rule, root_layer(arc.node), place, spec):
                 properties = [each for spec in own for each in spec.properties]
@@ -73,25 +84,28 @@ class Pieces:
             self._own = frozenset(get_stage(problem.at).GetLayerStack())
         return self._own
 
-    def _is_whole(self, problem: Problem | NotChecked, spec: Any, path: str) -> bool:
-        """Whether what stands above a spec in its layer stands above the problem too, to the top.
-
-        It is the same for all that one arc brings, so that USD is hardly ever asked.
-        """
+    def _brought(self, problem: Problem | NotChecked, spec: Any, path: str) -> _Brought:
+        """How a layer comes to where a problem is: the same for all that one arc brings."""
         if path == "/" or spec.path == spec.path.absoluteRootPath:
-            return True
+            return _Brought(is_whole=True, is_edited=False)
         own = str(spec.path.GetPrimPath().StripAllVariantSelections()).split("/")
         names = path.split("/")
         top = len(names) - len(own) + 1
         if top < 1 or names[top + 1 :] != own[2:]:
-            return False
+            return _Brought(is_whole=False, is_edited=False)
         above = "/".join(names[: top + 1])
         key = above, own[1], spec.layer
-        if key not in self._whole:
+        if key not in self._known:
             prim = prim_at(get_stage(problem.at), above)
             stack = get_prim_stack(prim) if prim else ()
-            self._whole[key] = spec.layer.GetPrimAtPath(f"/{own[1]}") in stack
-        return self._whole[key]
+            local = self._local(problem)
+            self._known[key] = _Brought(
+                spec.layer.GetPrimAtPath(f"/{own[1]}") in stack,
+                any(
+                    each.layer in local and (each.properties or each.nameChildren) for each in stack
+                ),
+            )
+        return self._known[key]
 
 
 def _arcs_to(prim: Any, spec: Any) -> list[Crossing]:

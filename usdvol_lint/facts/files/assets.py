@@ -16,6 +16,7 @@ from usdvol_lint.cached import cached_property
 from usdvol_lint.facts.files.paths import anchored, extension_of
 from usdvol_lint.facts.files.patterns import as_expression, has_frame
 from usdvol_lint.facts.files.states import ON_DISK_OR_PATTERN, AssetState
+from usdvol_lint.facts.usd.calls import holder_of
 from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import Occurrences
 from usdvol_lint.words import frame_ranges, quoted
@@ -134,7 +135,7 @@ class AssetSamples(NamedTuple):
         """
         root, specs = self.attribute.GetStage().GetRootLayer(), self.attribute.GetPropertyStack()
         return not self.samples and any(
-            spec.layer == root and spec.owner.specifier == Sdf.SpecifierDef for spec in specs
+            spec.layer == root and holder_of(spec).specifier == Sdf.SpecifierDef for spec in specs
         )
 
 

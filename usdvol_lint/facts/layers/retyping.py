@@ -9,7 +9,7 @@ from typing import Any
 from usdvol_lint import schema
 from usdvol_lint.facts.prims.retyped import Retyped, retyped_ours
 from usdvol_lint.facts.usd.arcs import Layered
-from usdvol_lint.facts.usd.calls import get_type
+from usdvol_lint.facts.usd.calls import get_type, holder_of
 from usdvol_lint.facts.usd.kinds import PrimKinds
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.facts.usd.untyped import GROUP_TYPES
@@ -61,7 +61,7 @@ def _names_file(prim: Any, specs: list[Any], extension: str) -> bool:
     time = next(iter(attribute.GetTimeSamples()), None)
     opinion = strongest_opinion(attribute, time)
     value = attribute.Get() if time is None else attribute.Get(time)
-    is_given = opinion is not None and opinion.spec.owner in specs
+    is_given = opinion is not None and holder_of(opinion.spec) in specs
     return is_given and splitext(getattr(value, "path", ""))[1].lower() == extension
 
 

@@ -12,7 +12,13 @@ from pxr import Sdf
 from usdvol_lint import spelling
 from usdvol_lint.facts.prims.attributes import Authored
 from usdvol_lint.facts.usd.batches import PrimBatch
-from usdvol_lint.facts.usd.calls import get_attribute, get_prim_stack, own_attribute, type_of_spec
+from usdvol_lint.facts.usd.calls import (
+    get_attribute,
+    get_prim_stack,
+    holder_of,
+    own_attribute,
+    type_of_spec,
+)
 from usdvol_lint.facts.usd.values import Values, values_of
 
 
@@ -171,7 +177,7 @@ def _fails_to_override(misspelt: Any, right: Any, wanted: str) -> bool:
     from usdvol_lint.facts.usd.sameness import says_the_same
 
     stack = get_prim_stack(right.GetPrim())
-    is_stronger = stack.index(said[0].owner) < stack.index(held[0].owner)
+    is_stronger = stack.index(holder_of(said[0])) < stack.index(holder_of(held[0]))
     return is_stronger and not says_the_same(said[0], right)
 
 

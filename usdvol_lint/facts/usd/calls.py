@@ -49,6 +49,12 @@ own_targets: Any = Usd.Relationship.GetTargets
 
 prim_at: Any = Usd.Stage.GetPrimAtPath
 
+
+def holder_of(spec: Any) -> Any:
+    """The prim's spec that a property's is in; its `owner` is another kind of spec in a variant."""
+    return spec.layer.GetPrimAtPath(spec.path.GetPrimOrPrimVariantSelectionPath())
+
+
 ARCS = ("references", "payload", "inheritPaths", "specializes")
 """The metadata of a spec that bring it the opinions of other prims."""
 

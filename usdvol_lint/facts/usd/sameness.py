@@ -7,6 +7,7 @@ from typing import Any
 
 from pxr import Ar, Gf, Sdf, Vt
 
+from usdvol_lint.facts.usd.calls import holder_of
 from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.facts.usd.steps import StepSamples
 from usdvol_lint.facts.usd.values import values_of
@@ -62,7 +63,7 @@ def _offset(prim_spec: Any, prim: Any) -> Any:
 
 
 def _said(spec: Any, attribute: Any) -> StepSamples[Any]:
-    offset = _offset(spec.owner, attribute.GetPrim())
+    offset = _offset(holder_of(spec), attribute.GetPrim())
     samples = spec.GetInfo("timeSamples") if spec.HasInfo("timeSamples") else {}
     timed = [(offset * time, samples[time]) for time in sorted(samples)]
     return StepSamples(
