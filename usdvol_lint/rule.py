@@ -125,7 +125,7 @@ class _Result:
     `of` asks for the opinion on something else: on TYPE, on an API, `(APIS, name)`, on metadata by
     its name, also that of a property, or on NAME, which the weakest spec of a property has, or on
     VALUED_NAME, which the weakest one has that has a value.
-    `spec` names another `Sdf` spec.
+    `spec` names another `Sdf` spec, and an `of` beside it the metadata that it is about.
     `against` is what contradicts it, as prims, properties, occurrences, or pairs of a prim and such
     an `of`, or a spec of it: then the strongest spec of all is to blame, or the arc that brings
     them together.

@@ -12,6 +12,7 @@ def clip_manifest_incomplete(root: Prim, facts: Facts) -> Problems:
             found.words,
             at=found.missed[0],
             spec=found.spec,
+            of="clips",
             asset=found.manifest_path,
             severity=None if found.leaves_nothing else WARNING,
             suggestion="write the manifest again, or remove manifestAssetPath: USD then makes one",

@@ -1,6 +1,5 @@
 """AST016: value clips that hold what a volume or particle field needs must arrive there."""
 
-from collections.abc import Sequence
 from typing import Any
 
 from usdvol_lint.rule import ERROR, STAGE, WARNING, Facts, Prim, Problem, Problems, lacks, quoted, rule
@@ -10,8 +9,8 @@ from usdvol_lint.schema import CLIPS
 @rule("AST016", on=STAGE, severity=ERROR, since="0.1")
 def clips_unused(root: Prim, facts: Facts) -> Problems:
     for lost in facts.layers.clip_losses.lost:
-        bearer, them = (f"the clip set {quoted(lost.name)}", "it") if lost.name else ("clips", "them")
-        yield problem(f"{bearer} {lost.fault.what}: USD does not use {them}, and", lost, lost.advice)
+        it, them = (f"the clip set {quoted(lost.name)}", "it") if lost.name else ("clips", "them")
+        yield problem(f"{it} {lost.fault.what}: USD does not use {them}, and", lost, lost.advice, lost.name)
     for left in facts.layers.clip_losses.left_behind:
         advice = f"bring in <{left.path}>, or author its clips here too"
         yield problem(f"an arc to a prim below leaves behind {clips(left)}:", left, advice)
@@ -20,11 +19,13 @@ def clips_unused(root: Prim, facts: Facts) -> Problems:
         yield problem(f"{clips(stopped.carrier)} do not reach into this instance:", stopped, advice)
 
 
-def problem(what: str, lost: Any, advice: str | None) -> Problem:
+def problem(what: str, lost: Any, advice: str | None, name: str = "") -> Problem:
     return Problem(
         f"{what} {effect(lost)}",
         at=lost.prim,
         spec=lost.spec,
+        of=CLIPS,
+        subject=name,
         suggestion=advice,
         severity=None if lost.without_value else WARNING,
         absent=absent(lost),
@@ -37,8 +38,7 @@ def clips(carrier: Any) -> str:
 
 
 def effect(lost: Any) -> str:
-    """What the attributes lack."""
-    missed: Sequence[Any] = lost.without_value or lost.attributes
+    missed: Any = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
     what = "no value" if lost.without_value else "only a default, the same at all times"
     return f"{names} {'has' if len(missed) == 1 else 'have'} {what}"

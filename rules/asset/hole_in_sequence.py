@@ -19,6 +19,7 @@ def hole_in_sequence(field: Prim, facts: Facts) -> Problems:
             times=affected.times,
             asset=holes.clip,
             spec=holes.spec,
+            of="clips",
             fold=facts.files.alike(field),
             suggestion=holes.advice or "write the files that are missing, or leave it, if nothing is to be seen then",
             severity=None if holes.paths else INFO,

@@ -32,6 +32,8 @@ def OpenVDBAsset "tank"
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }
 """
+TURNED = FIELD.replace("double3 xformOp:translate = (nan, 0, 0)", "double xformOp:rotateX = nan")
+TURNED = TURNED.replace("xformOp:translate", "xformOp:rotateX")
 SCALES = "float3[] scales = [(%s, 0.01, 0.01), (0.01, 0.01, 0.01)]"
 NAN = SPLATS.replace("(0.01, 0.01, 0.01), (", "(nan, 0.01, 0.01), (")
 APIS = 'prepend apiSchemas = ["ParticleFieldScaleAttributesAPI"]'
@@ -53,6 +55,12 @@ APIS = 'prepend apiSchemas = ["ParticleFieldScaleAttributesAPI"]'
             "SCH015",
             "double3 xformOp:translate = (nan, 0, 0)",
             "double3 xformOp:translate = (0, nan, 0)",
+        ),
+        (
+            TURNED,
+            "SCH015",
+            "double xformOp:rotateX = nan",
+            "double xformOp:rotateX = inf",
         ),
         (VOLUME % "", "VOL002", 'def Xform "density" {}', None),
     ],
@@ -117,3 +125,46 @@ def test_a_path_from_another_folder_is_another_one(find: Find, shots: Path) -> N
     write(shots, one=STAGE + refers("a", inside="asset filePath = @./gone.vdb@"))
     [shown] = find("shots/one.usda")
     assert shown.source.layer == "shots/one.usda"
+
+
+LOST = 'def Volume "tank" (\n    references = @./gone.usda@\n)\n{\n}\n'
+SETS = """clips = {
+        dictionary one = { asset[] assetPaths = [@./clip.usda@], string primPath = "/tank" }
+        dictionary two = {
+            asset[] assetPaths = [@./clip.usda@]
+            string primPath = "tank"
+            double2[] active = [(1, 0)]
+        }
+    }""".replace(", string", "\n            string")
+
+
+@pytest.mark.parametrize("kind", ["def Volume", "over Volume", "over"])
+def test_an_arc_is_blamed_on_who_had_it_first(kind: str, find: Find, shots: Path) -> None:
+    assets = shots.parent / "assets"
+    above = LAYER.replace("(", "(\nsubLayers = [@./tank.usda@]\n")
+    write(assets, tank=LAYER + LOST, top=above + LOST.replace("def Volume", kind))
+    [alone] = find("assets/tank.usda", rules=("STG001",))
+    [shown] = find("assets/top.usda", rules=("STG001",))
+    assert shown.fingerprint == alone.fingerprint
+
+
+def test_a_range_is_blamed_on_who_said_it_first(find: Find, shots: Path) -> None:
+    for number in range(1, 8):
+        (shots.parent / "assets" / f"puff.{number:04}.vdb").write_bytes(b"x")
+    field = 'def OpenVDBAsset "tank"\n{\nasset filePath = @./puff.0004.vdb@\n}\n'
+    write(shots.parent / "assets", tank=LAYER + field)
+    ranged = STAGE.replace(")", "startTimeCode = 1\nendTimeCode = 7\n)")
+    write(shots, one=ranged + refers("a"))
+    write(shots, two=ranged.replace("(", "(\nsubLayers = [@./one.usda@]\n"))
+    [alone] = find("shots/one.usda", rules=("AST017",))
+    [shown] = find("shots/two.usda", rules=("AST017",))
+    assert shown.fingerprint == alone.fingerprint
+    assert alone.source.layer == "shots/one.usda"
+
+
+def test_two_clip_sets_are_two_causes(find: Find, shots: Path) -> None:
+    field = f'def OpenVDBAsset "tank" (\n{SETS}\n)\n{{\n}}\n'
+    clip = '#usda 1.0\nover "tank"\n{\nasset filePath.timeSamples = { 1: @./a.vdb@ }\n}\n'
+    write(shots.parent / "assets", tank=LAYER + field, clip=clip)
+    causes = find("assets/tank.usda", rules=("AST016",))
+    assert sorted(cause.source.subject for cause in causes) == ["one", "two"]

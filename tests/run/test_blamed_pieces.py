@@ -227,3 +227,67 @@ def test_an_edit_beside_what_a_rule_looks_at_is_to_blame(
     [cause] = find("shots/one.usda", rules=(code,))
     found = cause.source
     assert (found.layer, found.path, found.property) == ("shots/one.usda", path, name)
+
+
+BESIDE = """#usda 1.0
+(
+    defaultPrim = "splats"
+%s
+)
+def Material "look"
+{
+}
+def ParticleField3DGaussianSplat "splats" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    float3[] extent = [(0, 0, 0), (1, 1, 1)]
+    point3f[] positions = [(0.5, 0.5, 0.5)]
+    float3[] scales = [(0.01, 0.01, 0.01)]
+    quatf[] orientations = [(1, 0, 0, 0)]
+    float[] opacities = [0.5]
+    rel material:binding = </look>
+}
+"""
+
+
+@pytest.mark.parametrize("meta", ["", "instanceable = true", 'kind = "subcomponent"'])
+def test_what_lies_beside_a_prim_is_left_behind_by_its_arc(
+    meta: str, find: Find, shots: Path
+) -> None:
+    write(shots.parent / "assets", tank=BESIDE % META)
+    write(shots, one=STAGE + refers("a", meta=meta))
+    assert not find("assets/tank.usda", rules=("ARR017",))
+    [cause] = find("shots/one.usda", rules=("ARR017",))
+    assert (cause.source.layer, cause.source.path) == ("shots/one.usda", "/a")
+
+
+def test_a_component_below_no_model_is_blamed_on_its_arc(find: Find, shots: Path) -> None:
+    """USD looks for the hints of models where all prims above have a kind."""
+    write(shots.parent / "assets", tank=TOP % (META, "", ASSET))
+    arc = refers("a").replace("@../assets/tank.usda@", "@../assets/tank.usda@")
+    write(shots, one=STAGE + arc, two=f'{STAGE}def Xform "world"\n{{\n{arc}}}\n')
+    assert not find("assets/tank.usda", "shots/one.usda", rules=("SCH007",))
+    [cause] = find("shots/two.usda", rules=("SCH007",))
+    assert (cause.source.layer, cause.source.path) == ("shots/two.usda", "/world/a")
+
+
+def test_who_takes_away_a_material_above_is_to_blame(find: Find, shots: Path) -> None:
+    write(shots.parent / "assets", tank=TOP % (META, "", ASSET))
+    write(shots, one=STAGE + refers("a", inside="rel material:binding = None"))
+    [cause] = find("shots/one.usda", rules=("ARR017",))
+    found = cause.source
+    assert (found.layer, found.path, found.property) == (
+        "shots/one.usda",
+        "/a",
+        "material:binding",
+    )
+
+
+def test_pieces_below_an_over_are_checked(find: Find, shots: Path) -> None:
+    over = f'over "library"\n{{\ndef "inner"\n{{\n{ASSET}\n}}\n}}\n'
+    write(
+        shots.parent / "assets", set=TOP % (META, "", over.replace("/set/", "/set/library/inner/"))
+    )
+    write(shots, one=shot("/set/library", "/set/library/inner/smoke"))
+    assert find("shots/one.usda", rules=("ALL",))

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer
-from usdvol_lint.facts.usd.calls import get_prim, get_prim_stack, get_stage, prim_at
+from usdvol_lint.facts.usd.calls import get_parent, get_prim, get_prim_stack, get_stage, prim_at
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
+from usdvol_lint.rule import STAGE
 
 if TYPE_CHECKING:
-    from usdvol_lint.rule import NotChecked, Problem, Rule
+    from usdvol_lint.rule import Problem, Rule
 
 
 class _Brought(NamedTuple):
@@ -42,49 +44,37 @@ class Pieces:
         """Says that the stage was composed in another way."""
         self._known.clear()
 
-    def instead(
-        self, rule: Rule, problem: Problem | NotChecked, spec: Any, path: str
-    ) -> Any | None:
+    def instead(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
         """The spec to blame for a problem at a path of the stage, in place of `spec`.
 
         None if that is to blame itself: nearly always, since its layer is brought as a whole, or
         opened alone has the problem too.
         """
-        local = self._local(problem)
-        if spec.layer in local:
+        if spec.layer in self._local(problem):
+            return None
+        is_whole, is_edited = self._brought(problem, spec, path)
+        if is_whole and not is_edited and not (problem.absent and STAGE in rule.on):
             return None
         prim = get_prim(problem.at)
-        is_whole, is_edited = self._brought(problem, spec, path)
-        if is_whole:
-            return self._edit(rule, prim, spec, local) if is_edited else None
         arcs = _arcs_to(prim, spec)
-        if not any(map(_is_to_piece, arcs)):
+        if not is_whole and not any(map(_is_to_piece, arcs)):
             return None
         found = None
         for arc in reversed(arcs):
             place = arc.node.path.StripAllVariantSelections()
             if not self._alone.is_clean(rule, root_layer(arc.node), place, spec):
                 break
-            found = arc.spec or found
-        return found
+            found = arc
+        edit = _edit(prim, found, self._local(problem)) if found and found is arcs[0] else None
+        return edit or (found and found.spec)
 
-    def _edit(self, rule: Rule, prim: Any, spec: Any, local: frozenset[Any]) -> Any | None:
-        """What the stage's own specs of a prim say, if nothing is wrong in the layer without it."""
-        own = [each for each in get_prim_stack(prim) if each.layer in local and each.properties]
-        for arc in _arcs_to(prim, spec)[:1] if own else ():
-            place = arc.node.path.StripAllVariantSelections()
-            if self._alone.is_clean(rule, root_layer(arc.node), place, spec):
-                properties = [each for spec in own for each in spec.properties]
-                return properties[0] if len(properties) == 1 else own[0]
-        return None
-
-    def _local(self, problem: Problem | NotChecked) -> frozenset[Any]:
+    def _local(self, problem: Problem) -> frozenset[Any]:
         """The root layer and its sublayers, which no arc brings."""
         if self._own is None:
             self._own = frozenset(get_stage(problem.at).GetLayerStack())
         return self._own
 
-    def _brought(self, problem: Problem | NotChecked, spec: Any, path: str) -> _Brought:
+    def _brought(self, problem: Problem, spec: Any, path: str) -> _Brought:
         """How a layer comes to where a problem is: the same for all that one arc brings."""
         if path == "/" or spec.path == spec.path.absoluteRootPath:
             return _Brought(is_whole=True, is_edited=False)
@@ -100,7 +90,7 @@ class Pieces:
             stack = get_prim_stack(prim) if prim else ()
             local = self._local(problem)
             self._known[key] = _Brought(
-                spec.layer.GetPrimAtPath(f"/{own[1]}") in stack,
+                not _has_others(spec.layer) and spec.layer.GetPrimAtPath(f"/{own[1]}") in stack,
                 any(
                     each.layer in local and (each.properties or each.nameChildren) for each in stack
                 ),
@@ -118,6 +108,23 @@ def _arcs_to(prim: Any, spec: Any) -> list[Crossing]:
 
 
 def _is_to_piece(arc: Crossing) -> bool:
-    """Whether an arc leads to a prim that has others above it."""
+    """Whether an arc leads to a prim that has others above or beside it."""
     target = arc.node.GetPathAtIntroduction().StripAllVariantSelections()
-    return bool(target.pathElementCount > 1)
+    return bool(target.pathElementCount > 1 or _has_others(root_layer(arc.node)))
+
+
+def _has_others(layer: Any) -> bool:
+    return len(layer.rootPrims) > 1
+
+
+def _edit(prim: Any, arc: Crossing, local: Container[Any]) -> Any | None:
+    """What some layers say of the properties of a prim, or of the next one up to that of an arc."""
+    paths = (arc.node.path, arc.node.GetPathAtIntroduction())
+    below, top = (path.StripAllVariantSelections().pathElementCount for path in paths)
+    for _ in range(below - top + 1):
+        own = [each for each in get_prim_stack(prim) if each.layer in local and each.properties]
+        if own:
+            properties = [each for spec in own for each in spec.properties]
+            return properties[0] if len(properties) == 1 else own[0]
+        prim = get_parent(prim)
+    return None

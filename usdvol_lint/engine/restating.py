@@ -15,6 +15,7 @@ from usdvol_lint.facts.usd.calls import (
     is_pseudo_root,
 )
 from usdvol_lint.facts.usd.opinions import Opinion, is_of_retimed_clip, opinions, strongest_opinion
+from usdvol_lint.schema import SPECIFIER
 
 VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
 """The metadata in which the value of an attribute is, and of a relationship."""
@@ -75,21 +76,29 @@ def first_with(specs: Iterable[Any], *keys: str) -> Any | None:
     return found
 
 
-def first_alike(prim: Any, spec: Any) -> Any:
-    """The first that said all that a spec of a prim says, of one above it, or of a property."""
+def first_alike(prim: Any, spec: Any, of: str | None = None) -> Any:
+    """The first that said all that a spec of a prim says, of one above it, or of a property.
+
+    With `of` it is about that metadata of a prim alone.
+    """
     path = spec.path
     if path.IsPropertyPath():
-        prop, keys = prim.GetProperty(path.name), (*values_of(spec), "typeName")
-        return _first_of(spec, get_property_stack(prop) if prop else (), keys)
+        prop = prim.GetProperty(path.name)
+        stack = get_property_stack(prop) if prop else ()
+        return _first_of(spec, stack, (*values_of(spec), "typeName"))
     if path == Sdf.Path.absoluteRootPath:
         return spec
     spec = spec.layer.GetPrimAtPath(path)  # a variant has a prim's spec too
-    keys = tuple(spec.ListInfoKeys())
-    if spec.specifier == Sdf.SpecifierOver and len(keys) < 2:
-        return spec  # it says nothing
+    keys = (of,) if of and spec.HasInfo(of) else _keys_of(spec)
     while not is_pseudo_root(prim) and spec not in get_prim_stack(prim):
         prim = get_parent(prim)
-    return _first_of(spec, get_prim_stack(prim), keys)
+    return _first_of(spec, get_prim_stack(prim), keys) if keys else spec
+
+
+def _keys_of(spec: Any) -> tuple[str, ...]:
+    """The metadata by which a prim's spec says something; an `over` says nothing by being one."""
+    is_over = spec.specifier == Sdf.SpecifierOver
+    return tuple(key for key in spec.ListInfoKeys() if not is_over or key != SPECIFIER)
 
 
 def first_with_clips(prim: Any, spec: Any, offset: Any) -> Any:
@@ -146,7 +155,8 @@ def _are_same(one: Any, other: Any) -> bool:
     if one == other:
         return True
     if type(one).__module__ != "pxr.Vt":
-        return type(one).__module__ == "pxr.Gf" and str(one) == str(other)
+        is_number = isinstance(one, float) or type(one).__module__ == "pxr.Gf"
+        return is_number and str(one) == str(other)
     import numpy as np  # takes long, and hardly any stage says an array twice
 
     numbers, others = np.asarray(one), np.asarray(other)

@@ -57,7 +57,6 @@ class TimeRange(NamedTuple):
         from usdvol_lint.facts.usd.bringing import (  # costs start-up time; few need it
             crossings,
             node_of,
-            root_layer,
         )
 
         prim, own, offset = _source(attribute, time)
@@ -72,9 +71,9 @@ class TimeRange(NamedTuple):
                 spec, node = arc.spec or spec, arc.source
                 if _is_wrong_in(node, is_wrong):
                     break
-        top = root_layer(node)
-        if spec.layer != top:
-            return _saying(node, spec.layer, is_wrong).pseudoRoot
+        saying = _saying(node, spec.layer, is_wrong)
+        if saying != spec.layer:
+            return saying.pseudoRoot
         return None if spec == own else spec
 
     def meeting_value(self, held: Any) -> Any | None:
