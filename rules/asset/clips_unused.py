@@ -33,11 +33,11 @@ def problem(what: str, lost: Any, advice: str | None, name: str = "") -> Problem
 
 
 def clips(carrier: Any) -> str:
-    """The clips of a prim in a layer."""
     return f"the value clips of <{carrier.path}> in {quoted(carrier.layer.GetDisplayName())}"
 
 
 def effect(lost: Any) -> str:
+    """What the attributes lack."""
     missed: Any = lost.without_value or lost.attributes
     names = missed[0].GetName() + (f" and {len(missed) - 1} more" if len(missed) > 1 else "")
     what = "no value" if lost.without_value else "only a default, the same at all times"

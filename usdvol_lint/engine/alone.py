@@ -50,7 +50,9 @@ class Alone:
     def _opened(self, layer: Any) -> Facts | None:
         if layer not in self._facts:
             try:
-                self._facts[layer] = self._facts_of(Usd.Stage.Open(layer))
+                loads_none = self._context.depth.load == "none"
+                policy = Usd.Stage.LoadNone if loads_none else Usd.Stage.LoadAll
+                self._facts[layer] = self._facts_of(Usd.Stage.Open(layer, policy))
             except UNREADABLE:
                 self._facts[layer] = None
         return self._facts[layer]

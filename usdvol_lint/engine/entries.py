@@ -30,7 +30,8 @@ class Entries:
         if text is None or spec.layer == root:
             return None
         node = node_with(Opinion(prim, spec))
-        arc = next(iter(crossings(node) if node else ()), None)
+        arcs = crossings(node) if node else []
+        arc = arcs[0] if arcs else None
         holder = arc.spec if arc else spec
         if arc and holder and holder.layer == root:
             position = text.find(str(holder.path), asset=_asset_path(arc, holder))
