@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Container
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from pxr import Sdf
+
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer
 from usdvol_lint.facts.usd.calls import get_parent, get_prim, get_prim_stack, get_stage, prim_at
@@ -114,7 +116,9 @@ def _is_to_piece(arc: Crossing) -> bool:
 
 
 def _has_others(layer: Any) -> bool:
-    return len(layer.rootPrims) > 1
+    """Whether several prims are defined at the top of a layer; of a class its heirs have all."""
+    defined = [prim for prim in layer.rootPrims if prim.specifier == Sdf.SpecifierDef]
+    return len(defined) > 1
 
 
 def _edit(prim: Any, arc: Crossing, local: Container[Any]) -> Any | None:
