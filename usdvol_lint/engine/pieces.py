@@ -40,11 +40,13 @@ class Pieces:
     def __init__(self, alone: Alone) -> None:
         self._alone = alone
         self._known: dict[tuple[str, str, Any], _Brought] = {}
+        self._known_at: dict[tuple[str, str, Any], _Brought] = {}
         self._own: frozenset[Any] | None = None
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
         self._known.clear()
+        self._known_at.clear()
 
     def instead(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
         """The spec to blame for a problem at a path of the stage, in place of `spec`.
@@ -52,9 +54,10 @@ class Pieces:
         None if that is to blame itself: nearly always, since its layer is brought as a whole, or
         opened alone has the problem too.
         """
-        if spec.layer in self._local(problem):
+        layer = spec.layer
+        if layer in (self._own or self._local(problem)):
             return None
-        is_whole, is_edited = self._brought(problem, spec, path)
+        is_whole, is_edited = self._at(problem, spec, layer, path)
         if is_whole and not is_edited and not (problem.absent and STAGE in rule.on):
             return None
         prim = get_prim(problem.at)
@@ -69,6 +72,14 @@ class Pieces:
             found = arc
         edit = _edit(prim, found, self._local(problem)) if found and found is arcs[0] else None
         return edit or (found and found.spec)
+
+    def _at(self, problem: Problem, spec: Any, layer: Any, path: str) -> _Brought:
+        """How the layer of a spec comes to a path: the same for all properties of its prim."""
+        own = str(spec.path)
+        key = own if "{" in own else own.partition(".")[0], path, layer
+        if key not in self._known_at:
+            self._known_at[key] = self._brought(problem, spec, path)
+        return self._known_at[key]
 
     def _local(self, problem: Problem) -> frozenset[Any]:
         """The root layer and its sublayers, which no arc brings."""
