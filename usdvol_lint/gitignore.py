@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Container, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from pathspec import GitIgnoreSpec
 
-_STARS = ("[^/]*", "[^/]+")
+_STARS = {"[^/]*": "[^/]*?", "[^/]+": "[^/]+?"}
 _FOLDERS = {"(?:.+/)?": "(?:.+?/)??", "(?:/.+)?": "(?:/.+?)??"}
-"""What pathspec makes of `**`, and the same that tries the nearest folder first."""
+"""What pathspec makes of `*` and `**`, and the same that tries the least first."""
 _TOKEN = re.compile(
     "|".join(map(re.escape, (*_FOLDERS, *_STARS))) + r"|\[\^?\]?(?:\\.|[^\]\\])*\]|\\.|.", re.DOTALL
 )
@@ -36,7 +36,8 @@ def in_one_pass(regex: str) -> str:
     No class of characters has the slash in it, as in git.
     """
     tokens = [_without_slash(token) for token in _TOKEN.findall(regex)]
-    return "".join(_atomic_folders(_atomic_stars(tokens)))
+    in_names = _committed(tokens, _STARS, ends=("/", *_FOLDERS))
+    return "".join(_committed(in_names, _FOLDERS, then="(?=/)"))
 
 
 def _without_slash(token: str) -> str:
@@ -44,28 +45,21 @@ def _without_slash(token: str) -> str:
     return f"(?!/){token}" if is_class else token
 
 
-def _atomic_stars(tokens: list[str]) -> list[str]:
-    found: list[str] = []
-    star: int | None = None
-    for token in tokens:
-        if token in _STARS:
-            if star is not None:
-                found[star:] = [f"(?>{found[star]}?{''.join(found[star + 1 :])})"]
-            star = len(found)
-        elif token in _FOLDERS or "/" in token[:1]:
-            star = None
-        found.append(token)
-    return found
+def _committed(
+    tokens: list[str], wild: Mapping[str, str], ends: Container[str] = (), then: str = ""
+) -> list[str]:
+    """The tokens, what stands from one that is wild to the next one as a group that is kept.
 
-
-def _atomic_folders(tokens: list[str]) -> list[str]:
+    `ends` are tokens that none of them matches across, `then` is what has to follow a group.
+    """
     found: list[str] = []
-    folders: int | None = None
+    first: int | None = None
     for token in tokens:
-        if token in _FOLDERS:
-            if folders is not None:
-                inside = "".join(found[folders + 1 :])
-                found[folders:] = [f"(?>{_FOLDERS[found[folders]]}{inside}(?=/))"]
-            folders = len(found)
+        if token in wild:
+            if first is not None:
+                found[first:] = [f"(?>{wild[found[first]]}{''.join(found[first + 1 :])}{then})"]
+            first = len(found)
+        elif token in ends:
+            first = None
         found.append(token)
     return found

@@ -175,3 +175,18 @@ def test_what_was_found_stands_where_what_belongs_to_it_is_not(
     assert (failed.site.layer, failed.site.line is None) == ("hostile.usda", where is Sites)
     assert failed.detail
     assert "nowhere" in failed.detail
+
+
+def test_what_a_stage_completes_may_fail(
+    lint: Any, engine: Engine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The findings stand, and that is told."""
+
+    def fails(facts: object) -> None:
+        raise RuntimeError("no such prim")
+
+    monkeypatch.setattr("usdvol_lint.engine.engine._completion", fails)
+    report = lint(world(VOLUME))
+    codes = {each.code for each in report.findings}
+    assert {"VOL001", "LNT002"} <= codes
+    assert report.completes is None

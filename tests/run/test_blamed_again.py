@@ -34,6 +34,8 @@ def OpenVDBAsset "tank"
 """
 TURNED = FIELD.replace("double3 xformOp:translate = (nan, 0, 0)", "double xformOp:rotateX = nan")
 TURNED = TURNED.replace("xformOp:translate", "xformOp:rotateX")
+NAMELESS = 'token fieldName = ""'
+EMPTY = f"{NAMELESS}\ntoken fieldName.timeSamples = {{}}"
 SCALES = "float3[] scales = [(%s, 0.01, 0.01), (0.01, 0.01, 0.01)]"
 NAN = SPLATS.replace("(0.01, 0.01, 0.01), (", "(nan, 0.01, 0.01), (")
 APIS = 'prepend apiSchemas = ["ParticleFieldScaleAttributesAPI"]'
@@ -44,6 +46,7 @@ APIS = 'prepend apiSchemas = ["ParticleFieldScaleAttributesAPI"]'
     [
         (NAN, "ARR007", SCALES % "nan", SCALES % "inf"),
         (FIELD, "FLD001", 'token fieldName = ""', None),
+        (FIELD.replace(NAMELESS, EMPTY), "FLD001", EMPTY, None),
         (
             FIELD,
             "AST002",

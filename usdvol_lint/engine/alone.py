@@ -9,8 +9,13 @@ from pxr import Usd
 
 from usdvol_lint.engine.walk import walk
 from usdvol_lint.facts import Context, Facts
-from usdvol_lint.facts.usd.bringing import path_of_prim
-from usdvol_lint.facts.usd.calls import get_parent, get_prim, get_prim_stack, is_pseudo_root
+from usdvol_lint.facts.usd.calls import (
+    get_parent,
+    get_prim,
+    get_prim_stack,
+    holder_of,
+    is_pseudo_root,
+)
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.facts.usd.instances import in_prototype
 from usdvol_lint.rule import STAGE, Problem, Rule
@@ -30,7 +35,7 @@ class Alone:
         self._asked_for = asked_for
         self._options = options
         self._facts: dict[Any, Facts | None] = {}
-        self._of_stages: dict[tuple[Any, str], set[Any]] = {}
+        self._known: dict[tuple[str, Any], set[Any]] = {}
 
     def is_clean(self, rule: Rule, layer: Any, path: Any, spec: Any) -> bool:
         """Whether a rule finds nothing on a prim of a layer, where a spec makes it, or one above.
@@ -43,7 +48,7 @@ class Alone:
             return False
         prim = in_prototype(prim)
         try:
-            return _is_made_of(prim, spec) and prim not in self._found(rule, layer, prim, facts)
+            return _is_made_of(prim, spec) and prim not in self._found(rule, prim, facts)
         except Exception:  # whatever a rule raises: it is reported where the stage is checked
             return False
 
@@ -62,15 +67,15 @@ class Alone:
         context = Context.of(stage, given.depth, telling=given.telling)
         return Facts(context, walk(stage, self._asked_for, context.kinds))
 
-    def _found(self, rule: Rule, layer: Any, prim: Any, facts: Facts) -> set[Any]:
+    def _found(self, rule: Rule, prim: Any, facts: Facts) -> set[Any]:
         """The prims that a rule finds something on, asked about this one, or about the stage."""
-        found = set() if rule.on == (STAGE,) else self._run(rule, prim, facts)
-        if STAGE in rule.on:
-            key = layer, rule.code
-            if key not in self._of_stages:
-                self._of_stages[key] = self._run(rule, facts.stage.GetPseudoRoot(), facts)
-            found |= self._of_stages[key]
-        return found
+        asked = [facts.stage.GetPseudoRoot()] if STAGE in rule.on else []
+        if rule.on != (STAGE,):
+            asked.append(prim)
+        for each in asked:
+            if (rule.code, each) not in self._known:
+                self._known[rule.code, each] = self._run(rule, each, facts)
+        return set().union(*(self._known[rule.code, each] for each in asked))
 
     def _run(self, rule: Rule, prim: Any, facts: Facts) -> set[Any]:
         found = rule.check(prim, facts, **self._options.get(rule.code, {}))
@@ -83,7 +88,7 @@ class Alone:
 
 def _is_made_of(prim: Any, spec: Any) -> bool:
     """Whether a spec, of a prim or a property, is of a prim or of one above it."""
-    own = spec.layer.GetPrimAtPath(path_of_prim(spec))
+    own = holder_of(spec)
     while not is_pseudo_root(prim):
         if own in get_prim_stack(prim):
             return True

@@ -122,8 +122,7 @@ class Blaming:
                 return Blame(blocked, str(blocked.name), subject)
             if problem.of == TYPE and (losing := losing_fallback(prim)):
                 return Blame(losing, None, subject or str(prim.GetTypeName()))
-            of = problem.of if isinstance(problem.of, str) else None
-            given = problem.spec and first_alike(prim, problem.spec, of)
+            given = problem.spec and first_alike(prim, problem.spec, problem.of)
             return Blame(given or of_prim(prim, problem.of), None, subject)
         name = get_name(at)
         if problem.spec:
@@ -222,8 +221,7 @@ def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
     """The spec that the rule names; for the top of a layer also which sublayer it is about."""
     spec, at, subject = problem.spec, problem.at, problem.subject
     if spec.path != Sdf.Path.absoluteRootPath:
-        of = problem.of if isinstance(problem.of, str) else None
-        return Blame(first_alike(get_prim(at), spec, of), name, subject)
+        return Blame(first_alike(get_prim(at), spec, problem.of), name, subject)
     sublayer = _sublayer_with(at, spec.layer)
     subject = subject or sublayer or _path_of(at, at.GetPrim(), spec)
     return Blame(spec, name, subject, asset=sublayer)

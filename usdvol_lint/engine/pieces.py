@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from itertools import islice
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Sdf
@@ -128,8 +129,8 @@ def _is_to_piece(arc: Crossing) -> bool:
 
 def _has_others(layer: Any) -> bool:
     """Whether several prims are defined at the top of a layer; of a class its heirs have all."""
-    defined = [prim for prim in layer.rootPrims if prim.specifier == Sdf.SpecifierDef]
-    return len(defined) > 1
+    defined = (prim for prim in layer.rootPrims if prim.specifier == Sdf.SpecifierDef)
+    return any(islice(defined, 1, None))
 
 
 def _edit(prim: Any, arc: Crossing, local: Container[Any]) -> Any | None:

@@ -19,6 +19,7 @@ from usdvol_lint.schema import SPECIFIER
 
 VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
 """The metadata in which the value of an attribute is, and of a relationship."""
+_LEADING = ("references", "payload", "clips")
 _PATHS = (Sdf.ValueTypeNames.Asset, Sdf.ValueTypeNames.AssetArray)
 
 
@@ -76,10 +77,10 @@ def first_with(specs: Iterable[Any], *keys: str) -> Any | None:
     return found
 
 
-def first_alike(prim: Any, spec: Any, of: str | None = None) -> Any:
+def first_alike(prim: Any, spec: Any, of: object = None) -> Any:
     """The first that said all that a spec of a prim says, of one above it, or of a property.
 
-    With `of` it is about that metadata of a prim alone.
+    Where `of` is metadata of a prim's spec, it is about that alone.
     """
     path = spec.path
     if path.IsPropertyPath():
@@ -89,7 +90,7 @@ def first_alike(prim: Any, spec: Any, of: str | None = None) -> Any:
     if path == Sdf.Path.absoluteRootPath:
         return spec
     spec = spec.layer.GetPrimAtPath(path)  # a variant has a prim's spec too
-    keys = (of,) if of and spec.HasInfo(of) else _keys_of(spec)
+    keys = (of,) if isinstance(of, str) and spec.HasInfo(of) else _keys_of(spec)
     while not is_pseudo_root(prim) and spec not in get_prim_stack(prim):
         prim = get_parent(prim)
     return _first_of(spec, get_prim_stack(prim), keys) if keys else spec
@@ -116,17 +117,17 @@ def _first_of(spec: Any, stack: Sequence[Any], keys: tuple[str, ...]) -> Any:
     return first_with(stack[stack.index(spec) :], *keys) or spec
 
 
-def _are_alike(one: Any, other: Any, keys: Iterable[str]) -> bool:
+def _are_alike(one: Any, other: Any, keys: Sequence[str]) -> bool:
     """Whether two specs say the same in some metadata."""
     if not all(_are_same(_said_in(one, key), _said_in(other, key)) for key in keys):
         return False
-    return not _has_paths(one) or _folder(one) == _folder(other)
+    return not _has_paths(one, keys) or _folder(one) == _folder(other)
 
 
-def _has_paths(spec: Any) -> bool:
-    """Whether a spec may hold paths that lead from the folder of its layer."""
+def _has_paths(spec: Any, keys: Sequence[str]) -> bool:
+    """Whether some metadata of a spec may hold paths that lead from the folder of its layer."""
     if isinstance(spec, Sdf.PrimSpec):
-        return any(map(spec.HasInfo, ("references", "payload", "clips")))
+        return any(spec.HasInfo(key) for key in _LEADING if key in keys)
     return isinstance(spec, Sdf.AttributeSpec) and spec.typeName in _PATHS
 
 
@@ -143,7 +144,7 @@ def _said_in(spec: Any, key: str) -> Any:
     if key != "timeSamples" or not spec.HasInfo(key):
         return _info(spec, key)
     times = spec.layer.ListTimeSamplesForPath(spec.path)
-    return times, spec.layer.QueryTimeSample(spec.path, times[0])
+    return (*times, *(spec.layer.QueryTimeSample(spec.path, each) for each in times[:1]))
 
 
 def _are_same(one: Any, other: Any) -> bool:

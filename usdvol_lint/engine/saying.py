@@ -13,7 +13,7 @@ from usdvol_lint.facts.usd.calls import (
     get_type,
     is_pseudo_root,
 )
-from usdvol_lint.rule import APIS, TYPE
+from usdvol_lint.rule import APIS
 
 
 def of_prim(prim: Any, of: Any) -> Any | None:
@@ -27,8 +27,6 @@ def with_metadata(prim: Any, of: Any) -> Any | None:
 
     It is the strongest, or the first of several that say the same.
     """
-    if of == TYPE:
-        return _typed(prim)
     if isinstance(of, tuple):
         return _listing(of[1], _stack(prim))
     return first_with(_stack(prim), of) if of else None
@@ -45,17 +43,6 @@ def maker(prim: Any) -> Any | None:
     else:
         typed = [spec for spec in stack if spec.specifier.name == "SpecifierDef"]
     return (typed or stack or [None])[-1]
-
-
-def _typed(prim: Any) -> Any | None:
-    """The spec whose type counts: the last of those that say the same, one after the other."""
-    typed = [spec for spec in _stack(prim) if spec.typeName]
-    found = None
-    for spec in typed:
-        if found and spec.typeName != found.typeName:
-            break
-        found = spec
-    return found
 
 
 def _listing(api: str, stack: Iterable[Any]) -> Any | None:

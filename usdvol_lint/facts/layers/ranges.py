@@ -124,20 +124,13 @@ def _saying(node: Any, layer: Any, is_wrong: Callable[[TimeRange], bool]) -> Any
 
     Those above it have it as sublayer, and merely say as much.
     """
-    stack = node.layerStack
-    found = stack.identifier.rootLayer
-    for tree in _way_to(stack.layerTree, layer):
+    from usdvol_lint.facts.usd.bringing import root_layer, way_to
+
+    found = root_layer(node)
+    for tree in way_to(node, layer):
         said = _said_by(tree.layer, node.mapToRoot.timeOffset * tree.offset)
         found = tree.layer if said and is_wrong(said) else found
     return found
-
-
-def _way_to(tree: Any, layer: Any) -> list[Any]:
-    """The trees of sublayers from one to that of a layer; none if that is not in it."""
-    if tree.layer == layer:
-        return [tree]
-    ways = (_way_to(below, layer) for below in tree.childTrees)
-    return next(([tree, *way] for way in ways if way), [])
 
 
 def _source(attribute: Any, time: float | None) -> tuple[Any, Any | None, Any]:

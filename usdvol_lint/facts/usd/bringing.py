@@ -6,7 +6,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from pxr import Pcp, Sdf
+from pxr import Pcp
 
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
@@ -104,23 +104,20 @@ def naming_sublayer(node: Any, layer: Any, says: Callable[[Any], bool]) -> Any |
     Only what a stage's root layer says of it counts, so that it loses what the sublayer says; this
     is `layer`, or has it as sublayer.
     """
-    way = _way_to(root_layer(node), layer)
+    way = [tree.layer for tree in way_to(node, layer)]
     if not way or says(way[0]):
         return None
     return next((above for above, below in pairwise(way) if says(below)), None)
 
 
-def _way_to(top: Any, layer: Any) -> tuple[Any, ...]:
-    """The layers from one to another that is it, or a sublayer of it; none if it is neither."""
-    waiting: list[tuple[Any, ...]] = [(top,)]
+def way_to(node: Any, layer: Any) -> tuple[Any, ...]:
+    """The `Sdf.LayerTree`s from the top of a node's layers to a layer; none if it is not there."""
+    waiting: list[tuple[Any, ...]] = [(node.layerStack.layerTree,)]
     while waiting:
         way = waiting.pop()
-        if way[-1] == layer:
+        if way[-1].layer == layer:
             return way
-        for path in reversed(way[-1].subLayerPaths):
-            below = Sdf.Layer.FindRelativeToLayer(way[-1], path)
-            if below and below not in way:  # sublayers may go round in a circle
-                waiting.append((*way, below))
+        waiting += ((*way, below) for below in reversed(way[-1].childTrees))
     return ()
 
 
