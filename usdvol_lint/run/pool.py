@@ -29,8 +29,12 @@ _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
 _IDLE = 0.05
 """Seconds after which a worker without a stage looks whether there will be any more."""
-_AHEAD = 8
-"""How many small stages a worker has beside the one that it checks."""
+_AHEAD = 32
+"""How many small stages a worker has at most beside the one that it checks."""
+_AWAKE = 0.0003
+"""An answer that came sooner was there already."""
+_NAP = 0.01
+"""Seconds that answers about small stages may wait: to be woken for each slows the worker down."""
 
 _Stage: TypeAlias = tuple[str, Answer]
 
@@ -161,14 +165,19 @@ class Pool:
             else:
                 self._settle(answer, report)
             seconds = time.perf_counter() - began
+            if _AWAKE < seconds < SHORT:
+                time.sleep(min(_NAP, seconds * len(taken) / 2))
 
     def _take(self, taken: deque[_Stage], seconds: float) -> None:
         """Takes a stage, and more to send ahead if the last one took only so many seconds.
 
-        A worker that has to ask for each small stage waits for a tenth of the time.
+        A worker that has to ask for each small stage waits for a tenth of the time, and one that
+        is sent one path after the other is interrupted by each.
         """
         fair = self._waiting.qsize() // (2 * max(self._able, 1))
         wanted = 1 + (min(_AHEAD, fair) if seconds < SHORT else 0)
+        if len(taken) > wanted // 2:
+            return
         with suppress(queue.Empty):
             while len(taken) < wanted:
                 is_idle = self.expects_more and not taken

@@ -15,6 +15,8 @@ _FLAGS = os.O_RDONLY | sum(
     getattr(os, name, 0) for name in ("O_NONBLOCK", "O_CLOEXEC", "O_NOINHERIT", "O_BINARY")
 )
 _CHUNK = 8192
+_SMALL = 1 << 15
+"""So many bytes at the end of a file are read at once: to ask twice takes longer."""
 _MOST_TEXT = 32 << 20
 """In bytes, of all names in a file: no writer writes as many, and they are kept."""
 _LENGTH = Struct("<I")
@@ -138,7 +140,8 @@ class Window:
         )
 
     def _load(self, count: int) -> None:
-        wanted = min(max(count, _CHUNK), self.size - self.position)
+        left = self.size - self.position
+        wanted = left if left <= _SMALL else min(max(count, _CHUNK), left)
         try:
             if self._start + self.position != self._at:
                 os.lseek(self._descriptor, self._start + self.position, os.SEEK_SET)
