@@ -44,16 +44,23 @@ class Assignment:
         self.asked_for = asked_by(self._rules)
         """The schemas of the prims that are to be handed."""
 
-    def pairs(self, walked: Walked, facts: Facts, failed: Failed) -> Iterator[tuple[Rule, Any]]:
-        """Each rule with each kept prim of its schemas that passes its precondition."""
+    def pairs(
+        self, walked: Walked, facts: Facts, failed: Failed
+    ) -> Iterator[tuple[Rule, Any] | None]:
+        """Each rule with each kept prim of its schemas that passes its precondition.
+
+        None where another stage may go on.
+        """
         for key, chunk in _fields_first(walked, facts):
             wanted = self._subscription(facts.kinds.names(key))
+            yield None
             for prim in chunk.prims:
                 for rule in wanted.always:
                     yield rule, prim
             if wanted.by_keys:
                 for table in facts.tables.tables(chunk):
                     for rules_by_key in wanted.by_keys:
+                        yield None
                         yield from rules_by_key.chosen(table, facts, failed)
 
     def _subscription(self, names: frozenset[str]) -> _Subscription:

@@ -71,11 +71,18 @@ class StageCheck:
         for each in rules:
             yield from self._stamp.stamp(each.rule, each.told_at(facts.stage.GetPseudoRoot()))
 
-    def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped]:
-        """What the rules find under the selection composed now, and where they failed."""
+    def selection(self, walked: Walked, facts: Facts) -> Iterator[Stamped | None]:
+        """What the rules find under the selection composed now, and where they failed.
+
+        None where another stage may go on.
+        """
         self._stamp.recomposed()
         failures = Failures()
-        for rule, prim in self._assigned(walked, facts, failures):
+        for assigned in self._assigned(walked, facts, failures):
+            if assigned is None:
+                yield None
+                continue
+            rule, prim = assigned
             options = self._options.get(rule.code, {})
             try:
                 for problem in rule.check(prim, facts, **options):
@@ -108,7 +115,7 @@ class StageCheck:
     def others(self, selections: OtherSelections, known: set[Identity]) -> Iterator[Stamped]:
         """What only other variant selections show, each with the first selection that shows it."""
         for selection, error in selections:
-            for stamped in self._other(error):
+            for stamped in filter(None, self._other(error)):
                 if stamped.identity not in known:
                     known.add(stamped.identity)
                     yield stamped._replace(finding=self._under(selection, stamped.finding))
@@ -123,7 +130,7 @@ class StageCheck:
         root = self._context.stage.GetRootLayer().realPath
         return finding._replace(absent=absent_under(selection, finding.absent, root))
 
-    def _other(self, fault: Unreadable | None) -> Iterator[Stamped]:
+    def _other(self, fault: Unreadable | None) -> Iterator[Stamped | None]:
         """What the selection composed now shows, or `fault`, which kept USD from composing it."""
         if not fault:
             try:
@@ -139,7 +146,7 @@ class StageCheck:
 
     def _assigned(
         self, walked: Walked, facts: Facts, failures: Failures
-    ) -> Iterator[tuple[Rule, Any]]:
+    ) -> Iterator[tuple[Rule, Any] | None]:
         """Each rule with each prim that it is handed; rules on the stage get the pseudo-root."""
         root = facts.stage.GetPseudoRoot()
 
@@ -149,6 +156,7 @@ class StageCheck:
         yield from self._assignment.pairs(walked, facts, failed)
         for rule in self._rules:
             if STAGE in rule.on:
+                yield None
                 yield rule, root
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from itertools import chain
 
 from pxr import Sdf
@@ -15,12 +15,12 @@ from usdvol_lint.engine.asked_types import idle_rules
 from usdvol_lint.engine.assign import Assignment
 from usdvol_lint.engine.check import StageCheck
 from usdvol_lint.engine.failures import still_holding, unreadable
+from usdvol_lint.engine.lockstep import Course, Steps, take
 from usdvol_lint.engine.opening import Watch
 from usdvol_lint.engine.pieces import Pieces
 from usdvol_lint.engine.stage import open_stage
 from usdvol_lint.engine.stamp import Stamp, Stamped
 from usdvol_lint.engine.trouble import UnreadableStageError, report_trouble
-from usdvol_lint.engine.undecoded import undecoded
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.facts import Context, Facts, Walked
 from usdvol_lint.facts.files.disk import Disk
@@ -94,27 +94,39 @@ class Engine:
 
         `answer` is called with it before the stage is let go, which for a large one takes a while.
         """
-        alive: list[object] = []
-        with undecoded() as broken:
-            report = self._checked(path, alive, broken)
-        answer(report)
-        return report
+        reports: list[StageReport] = []
 
-    def _checked(
-        self, path: str, alive: list[object], broken: list[UnicodeDecodeError]
-    ) -> StageReport:
-        """The same; what takes a while to let go is in `alive` too.
+        def take_over(report: StageReport) -> None:
+            reports.append(report)
+            answer(report)
 
-        `broken` is text that USD could not read until now.
-        """
-        clock = _Stopwatch()
+        self.lint_together((path,), take_over)
+        return reports[0]
+
+    def lint_together(self, paths: Iterable[str], answer: Callable[[StageReport], object]) -> None:
+        """Lints stages that are probably small side by side; `answer` gets the reports in order."""
+        self._known_contents.begin()
+        take(map(self._course, paths), answer)
+
+    def _course(self, path: str) -> Course:
+        course = Course(path, self._send)
+        course.begin(self._steps(course))
+        return course
+
+    def _steps(self, course: Course) -> Steps:
+        """Lints one stage in steps."""
+        path, clock = course.path, course.clock
         try:
             session = Sdf.Layer.CreateAnonymous() if self._depth.selections else None
             stage = open_stage(path, self._depth.load, session, self._watch)
         except UnreadableStageError as error:
-            clock.lap("open")
-            return report_trouble(path, error.trouble, seconds=clock.seconds)
+            trouble = error.trouble
+            stage = None
         clock.lap("open")
+        if stage is None:
+            yield report_trouble(path, trouble, seconds=clock.seconds)
+            return
+        yield None
         context = Context.of(
             stage,
             self._depth,
@@ -124,47 +136,43 @@ class Engine:
             self._telling,
         )
         found: list[Stamped] = []
-        alive += (context, found)
         try:
-            return self._report(path, context, clock, found, broken)
+            yield from self._checked(course, context, found)
+            return
         except UNREADABLE as error:  # where no rule was asked that would have reported it
             trouble = unreadable(error)
         clock.lap("check")
         others = (finding for finding in _still(found) if finding.message != trouble.message)
-        return report_trouble(path, trouble, seconds=clock.seconds, found=others)
+        yield report_trouble(path, trouble, seconds=clock.seconds, found=others)
 
-    def _report(
-        self,
-        path: str,
-        context: Context,
-        clock: _Stopwatch,
-        found: list[Stamped],
-        broken: list[UnicodeDecodeError],
-    ) -> StageReport:
+    def _checked(self, course: Course, context: Context, found: list[Stamped]) -> Steps:
         """The report on a stage that opens; what is found until USD raises is in `found`."""
-        depth = self._depth
-        stamp = self._stamp(path, context)
+        depth, clock = self._depth, course.clock
+        stamp = self._stamp(course.path, context)
         options = self._active.options
-        check = StageCheck(context, self._rules, options, self._assignment, stamp, broken)
+        check = StageCheck(context, self._rules, options, self._assignment, stamp, course.broken)
         walked = check.walk()
         clock.lap("walk")
+        yield None
         facts = check.facts(walked)
-        found += self._sent(chain(check.usd_version(facts), check.idle(facts, self._idle)))
-        found += self._sent(check.selection(walked, facts))
+        told = partial(_told, course, found)
+        yield from told(chain(check.usd_version(facts), check.idle(facts, self._idle)))
+        yield from told(check.selection(walked, facts))
         completes = stamp.sites.tried(context.stage.GetPseudoRoot(), _COMPLETED, _completion, facts)
-        found += self._sent(check.faults())
+        yield from told(check.faults())
         stats = _stats(walked, facts, context.disk)
         particle_fields = facts.particles.statistics() if depth.statistics else None
         if depth.selections:
             clock.lap("check")
             others = OtherSelections(context.stage, context.kinds, depth.selections)
-            found += self._sent(check.others(others, {stamped.identity for stamped in found}))
+            known = {stamped.identity for stamped in found}
+            yield from told(check.others(others, known))
             stats["variant_selections"] = others.composed
             clock.lap("variants")
         findings = in_order(_still(found))
         clock.lap("check")
-        return StageReport(
-            named(path),
+        yield StageReport(
+            named(course.path),
             Status.CHECKED,
             stats,
             findings,
@@ -187,20 +195,26 @@ class Engine:
             Pieces(alone),
         )
 
-    def _sent(self, found: Iterable[Stamped]) -> Iterator[Stamped]:
-        """Sends findings in batches, because a message for each is slow, and passes them on.
 
-        At most a tenth of many is ever unsent, and so lost if the process dies.
-        """
-        unsent: list[Finding] = []
-        for number, stamped in enumerate(found):
-            unsent.append(stamped.finding)
-            if number < _SENT_AT_ONCE or 10 * len(unsent) > number:
-                self._send(unsent)
-                unsent = []
-            yield stamped
-        if unsent:
-            self._send(unsent)
+def _told(course: Course, found: list[Stamped], new: Iterable[Stamped | None]) -> Iterator[None]:
+    """Sends findings in batches, because a message for each is slow; None where there is a step.
+
+    At most a tenth of many is ever unsent, and so lost if the process dies.
+    """
+    unsent: list[Finding] = []
+    number = 0
+    for stamped in new:
+        if stamped is None:
+            yield None
+            continue
+        found.append(stamped)
+        unsent.append(stamped.finding)
+        if number < _SENT_AT_ONCE or 10 * len(unsent) > number:
+            course.send(unsent)
+            unsent = []
+        number += 1
+    if unsent:
+        course.send(unsent)
 
 
 def _completion(facts: Facts) -> Completion | None:
@@ -214,19 +228,6 @@ def _completion(facts: Facts) -> Completion | None:
 
 def _still(found: Iterable[Stamped]) -> Iterator[Finding]:
     return chain.from_iterable(map(still_holding, found))
-
-
-class _Stopwatch:
-    """Wall-clock seconds by phase."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._since = time.perf_counter()
-
-    def lap(self, phase: str) -> None:
-        now = time.perf_counter()
-        self.seconds[phase] = self.seconds.get(phase, 0.0) + now - self._since
-        self._since = now
 
 
 def _stats(walked: Walked, facts: Facts, disk: Disk) -> dict[str, int]:

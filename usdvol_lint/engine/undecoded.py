@@ -3,29 +3,29 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from types import TracebackType
 
 _MOST = 100
 
 
-@contextmanager
-def undecoded() -> Iterator[list[UnicodeDecodeError]]:
-    """The list that what USD can't decode meanwhile is added to, the first of it."""
-    before = sys.excepthook
-    heard: list[UnicodeDecodeError] = []
+class Undecoded:
+    """Meanwhile what USD can't decode is added to the list `heard`, the first of it."""
 
-    def hear(
-        kind: type[BaseException], error: BaseException, traceback: TracebackType | None
+    def __init__(self) -> None:
+        self.heard: list[UnicodeDecodeError] = []
+
+    def __enter__(self) -> Undecoded:
+        self._before = sys.excepthook
+        sys.excepthook = self._hear
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        sys.excepthook = self._before
+
+    def _hear(
+        self, kind: type[BaseException], error: BaseException, traceback: TracebackType | None
     ) -> None:
         if not isinstance(error, UnicodeDecodeError):
-            before(kind, error, traceback)
-        elif len(heard) < _MOST:
-            heard.append(error)
-
-    sys.excepthook = hear
-    try:
-        yield heard
-    finally:
-        sys.excepthook = before
+            self._before(kind, error, traceback)
+        elif len(self.heard) < _MOST:
+            self.heard.append(error)

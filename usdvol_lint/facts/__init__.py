@@ -60,7 +60,6 @@ class Context(NamedTuple):
         """The context of a stage with empty caches, but for `known` and `folders`."""
         kinds = made_of.kinds_on(stage)
         known = known or made_of.KnownContents()
-        known.begin_stage()
         disk = made_of.Disk(folders, made_of.Whereabouts(depth.storage))
         return cls(stage, kinds, depth, disk, known, made_of.UsedFields(), advance, telling)
 

@@ -29,12 +29,8 @@ _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
 _IDLE = 0.05
 """Seconds after which a worker without a stage looks whether there will be any more."""
-_AHEAD = 32
+_AHEAD = int(__import__("os").environ.get("AH", "32"))
 """How many small stages a worker has at most beside the one that it checks."""
-_AWAKE = 0.0003
-"""An answer that came sooner was there already."""
-_NAP = 0.01
-"""Seconds that answers about small stages may wait: to be woken for each slows the worker down."""
 
 _Stage: TypeAlias = tuple[str, Answer]
 
@@ -165,8 +161,6 @@ class Pool:
             else:
                 self._settle(answer, report)
             seconds = time.perf_counter() - began
-            if _AWAKE < seconds < SHORT:
-                time.sleep(min(_NAP, seconds * len(taken) / 2))
 
     def _take(self, taken: deque[_Stage], seconds: float) -> None:
         """Takes a stage, and more to send ahead if the last one took only so many seconds.

@@ -1,6 +1,6 @@
 """The messages between the parent and a worker process, pickled over two pipes.
 
-After `Setup` the parent sends paths, and the worker answers each with `Done`.
+After `Setup` the parent sends paths, and the worker answers each with `Done`, in their order.
 """
 
 from __future__ import annotations
@@ -144,6 +144,12 @@ class Done(NamedTuple):
 
 def _done(order: tuple[int | Finding, ...], path: str, status: str, *rest: Any) -> Done:
     return Done(StageReport(path, _STATUSES[status], *rest), order)
+
+
+class Together(NamedTuple):
+    """That so many stages are looked at side by side from now on; more messages follow."""
+
+    stages: int
 
 
 class GivenUp(NamedTuple):

@@ -31,6 +31,13 @@ class Requests:
             raise message
         return message
 
+    def more(self, most: int) -> list[Any]:
+        """So many messages at most, of those that are there already."""
+        messages: list[Any] = []
+        while self._read and len(messages) < most and not self._read.empty():
+            messages.append(self.next())
+        return messages
+
     def _load(self) -> Any:
         try:
             return pickle.load(self._pipe)

@@ -18,7 +18,16 @@ from usdvol_lint.run.endings import MORE_MEMORY, cause_of, crashed, timed_out, t
 from usdvol_lint.run.last_words import LastWords
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.memory import Memory
-from usdvol_lint.run.protocol import Advance, Done, GivenUp, NewFindings, Ready, Refusal, Setup
+from usdvol_lint.run.protocol import (
+    Advance,
+    Done,
+    GivenUp,
+    NewFindings,
+    Ready,
+    Refusal,
+    Setup,
+    Together,
+)
 from usdvol_lint.run.replies import replies_of, wait_for_end
 from usdvol_lint.words import format_size
 
@@ -31,6 +40,7 @@ _PATIENCE = 5.0
 """Seconds that a process has to go once it was ended; one that waits for a disk goes later."""
 _START_AHEAD = 1.0
 """Seconds that a process has to import USD before it takes the place of one that has grown."""
+_ON_THE_WAY = Together, Advance, NewFindings
 _PASSING = frozenset({errno.EAGAIN, errno.ENOMEM})
 
 
@@ -55,6 +65,8 @@ class Worker:
         self._successor: subprocess.Popen[bytes] | None = None
         self._successor_is_ready_at = 0.0
         self._unanswered: deque[str] = deque()
+        self._together = 0
+        self._alone = 0
         self._is_gone = False
         self._is_over = False
         self._memory = Memory()
@@ -141,23 +153,32 @@ class Worker:
 
         `advance` is called with numbers of samples, as those of a long sequence are read.
         The paths `following` are asked for next: the child has them before it is done.
+        If it goes while it looks at several stages, each of them is looked at alone.
         Raises UsageError if no child can be started any more to check it.
         """
         self._renew()
         began = time.perf_counter()
         found: list[Finding] = []
 
-        def hear(message: Advance | NewFindings) -> None:
+        def hear(message: Together | Advance | NewFindings) -> None:
             if isinstance(message, NewFindings):
                 found.extend(message.findings)
+            elif isinstance(message, Together):
+                self._together = message.stages
             else:
                 advance(message.samples)
 
-        new = (path, *following)[len(self._unanswered) :]
+        asked = (path,) if self._alone else (path, *following)
+        new = asked[len(self._unanswered) :]
         self._unanswered += new
         reply, timed_out = self._ask(new, limit, hear, looks=True)
         self._unanswered.popleft()
         self._is_gone = timed_out or self._deadline.is_over or not isinstance(reply, Done)
+        if self._is_gone and self._together > 1 and not self._is_over:
+            self._alone, self._together = self._together, 0
+            return self.lint(path, limit, advance)
+        self._together = max(self._together - 1, 0)
+        self._alone = max(self._alone - 1, 0)
         if isinstance(reply, Done):
             return reply.with_findings(found)
         if isinstance(reply, GivenUp):
@@ -226,7 +247,7 @@ class Worker:
         self,
         messages: Sequence[Setup | str],
         limit: float,
-        hear: Callable[[Advance | NewFindings], None],
+        hear: Callable[[Together | Advance | NewFindings], None],
         looks: bool,
     ) -> tuple[Any, bool]:
         """The child's next reply, or None if it died or was ended; and whether the limit ended it.
@@ -238,7 +259,7 @@ class Worker:
         try:
             if messages:
                 self._send(messages)
-            while isinstance(reply := pickle.load(self._replies), Advance | NewFindings):
+            while isinstance(reply := pickle.load(self._replies), _ON_THE_WAY):
                 hear(reply)
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
             reply = None

@@ -100,8 +100,8 @@ def test_too_many_boxes_are_forgotten_between_two_stages(monkeypatch: pytest.Mon
     """They are of grids, which they keep alive."""
     known = KnownContents()
     known.boxes[1, None] = Grid("density", "density", "float", "Tree_float_5_4_3"), None
-    known.begin_stage()
+    known.begin()
     assert known.boxes
     monkeypatch.setattr(known_module, "_MOST", 0)
-    known.begin_stage()
+    known.begin()
     assert not known.boxes

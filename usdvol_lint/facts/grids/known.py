@@ -28,8 +28,8 @@ class KnownContents:
         self.classes: dict[Hashable, ContentClass] = {}
         self.boxes: KnownBoxes = {}
 
-    def begin_stage(self) -> None:
-        """Forgets what has become too much; within a stage, equal claims stay the same object."""
+    def begin(self) -> None:
+        """Forgets what is too much, but within no stage: equal claims are one object there."""
         is_full = self.files.size > _MOST_BYTES
         if is_full:
             self.files.forget()
