@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 _START_DELAY = 0.3
 """Seconds before each further worker starts: about what it spends on importing USD."""
+_WORTH_ONE = 400
+"""For so many stages that wait a further worker starts at once, however small they are."""
 _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
 _IDLE = 0.05
@@ -102,7 +104,8 @@ class Pool:
         Raises UsageError if the first worker can't work; if something keeps ending it, or nothing
         can be started, that is what is reported on each stage.
         """
-        workers = max(1, min(jobs, owned(), self._waiting.qsize()))
+        waiting = self._waiting.qsize()
+        workers = max(1, min(jobs, owned(), waiting))
         setup = setup._replace(workers=workers)
         self._able = workers
         try:
@@ -116,20 +119,21 @@ class Pool:
             return self._refuse(UsageError(f"no thread can be started{narrow_limits()}"))
         for number in range(1, workers):
             own = Memory(memory, workers)
+            delay = _START_DELAY * max(0, number - waiting // _WORTH_ONE)
             try:
-                _in_a_thread(self._join_later, number, setup, limit, advance, own)
+                _in_a_thread(self._join_later, delay, setup, limit, advance, own)
             except RuntimeError:
                 self._give_up(UsageError(f"no thread can be started{narrow_limits()}"))
 
     def _join_later(
         self,
-        number: int,
+        delay: float,
         setup: Setup,
         limit: float,
         advance: Callable[[int], None],
         memory: Memory,
     ) -> None:
-        time.sleep(_START_DELAY * number)
+        time.sleep(delay)
         if self._closed or self._is_done():
             return
         worker = Worker()
