@@ -52,6 +52,23 @@ class NoProcessError(UsageError):
         self.is_passing = is_passing
 
 
+class _Heard:
+    """What a child says before it answers: findings, and how many stages it looks at together."""
+
+    def __init__(self, advance: Callable[[int], None]) -> None:
+        self.findings: list[Finding] = []
+        self.together = 0
+        self._advance = advance
+
+    def __call__(self, message: Together | Advance | NewFindings) -> None:
+        if isinstance(message, NewFindings):
+            self.findings.extend(message.findings)
+        elif isinstance(message, Together):
+            self.together = message.stages
+        else:
+            self._advance(message.samples)
+
+
 class Worker:
     """One child process, replaced by a new one when it died, was ended or has grown.
 
@@ -65,7 +82,7 @@ class Worker:
         self._successor: subprocess.Popen[bytes] | None = None
         self._successor_is_ready_at = 0.0
         self._unanswered: deque[str] = deque()
-        self._together = 0
+        self._together = 0  # of those that are not answered, the first
         self._alone = 0
         self._is_gone = False
         self._is_over = False
@@ -92,6 +109,7 @@ class Worker:
         self._process = child
         self._replies = replies_of(child)
         self._unanswered.clear()
+        self._together = 0
         self._is_gone = False
         self._memory.begin()
 
@@ -158,34 +176,28 @@ class Worker:
         """
         self._renew()
         began = time.perf_counter()
-        found: list[Finding] = []
-
-        def hear(message: Together | Advance | NewFindings) -> None:
-            if isinstance(message, NewFindings):
-                found.extend(message.findings)
-            elif isinstance(message, Together):
-                self._together = message.stages
-            else:
-                advance(message.samples)
-
+        heard = _Heard(advance)
         asked = (path,) if self._alone else (path, *following)
         new = asked[len(self._unanswered) :]
         self._unanswered += new
-        reply, timed_out = self._ask(new, limit, hear, looks=True)
+        reply, timed_out = self._ask(new, limit, heard, looks=True)
         self._unanswered.popleft()
+        self._together = heard.together or self._together
         self._is_gone = timed_out or self._deadline.is_over or not isinstance(reply, Done)
         if self._is_gone and self._together > 1 and not self._is_over:
-            self._alone, self._together = self._together, 0
+            self._alone = self._together
             return self.lint(path, limit, advance)
         self._together = max(self._together - 1, 0)
         self._alone = max(self._alone - 1, 0)
         if isinstance(reply, Done):
-            return reply.with_findings(found)
+            return reply.with_findings(heard.findings)
         if isinstance(reply, GivenUp):
             return reply.report
         seconds = {"total": time.perf_counter() - began}
         status = Status.TIMED_OUT if timed_out else Status.CRASHED
-        return report_trouble(path, self._trouble(timed_out, limit), status, seconds, found)
+        return report_trouble(
+            path, self._trouble(timed_out, limit), status, seconds, heard.findings
+        )
 
     def _renew(self) -> None:
         """Puts a new child in the place of one that has gone, or has grown: that starts ahead."""

@@ -29,6 +29,7 @@ def facts_of(known: KnownContents, file: Path, text: str) -> tuple[Facts, list[A
     """The facts of a new stage, and its fields."""
     file.write_text(text, encoding="utf-8")
     opened = Usd.Stage.Open(str(file))
+    known.begin()
     facts = Facts(Context.of(opened, known=known), walk(opened, asked_by([]), PrimKinds()))
     return facts, opened.GetPrimAtPath("/cloud").GetChildren()
 
