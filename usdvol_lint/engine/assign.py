@@ -10,7 +10,7 @@ from types import NoneType
 from typing import Any, TypeAlias
 
 from usdvol_lint import schema
-from usdvol_lint.engine.failures import PACK_FAILURES
+from usdvol_lint.engine.trouble import PACK_FAILURES
 from usdvol_lint.engine.walk import asked_by
 from usdvol_lint.facts import Facts, Walked
 from usdvol_lint.facts.prims.tables import Chunk, Table

@@ -8,10 +8,11 @@ from typing import Any
 from usdvol_lint import schema
 from usdvol_lint.engine.asked_types import IdleRule
 from usdvol_lint.engine.assign import Assignment, Options
-from usdvol_lint.engine.failures import PACK_FAILURES, Failures
+from usdvol_lint.engine.failures import Failures
 from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.lacking import absent_under
-from usdvol_lint.engine.stamp import Stamp, Stamped
+from usdvol_lint.engine.stamp import Found, Stamp, Stamped
+from usdvol_lint.engine.trouble import PACK_FAILURES
 from usdvol_lint.engine.usd_version import usd_version
 from usdvol_lint.engine.variants import OtherSelections
 from usdvol_lint.engine.walk import walk
@@ -21,6 +22,10 @@ from usdvol_lint.facts.usd.instances import cut_short
 from usdvol_lint.model import Finding
 from usdvol_lint.packs.catalog import NOT_CHECKED, USD_TOO_OLD
 from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
+
+_UNSTAMPED = 0.05
+"""So much of what was found may be lost if the process dies, before it was made findings of."""
+_MOST_UNSTAMPED = 100
 
 
 class StageCheck:
@@ -78,17 +83,22 @@ class StageCheck:
         """
         self._stamp.recomposed()
         failures = Failures()
-        for assigned in self._assigned(walked, facts, failures):
-            if assigned is None:
-                yield None
-                continue
-            rule, prim = assigned
-            options = self._options.get(rule.code, {})
-            try:
-                for problem in rule.check(prim, facts, **options):
-                    yield from self._stamp.stamp(rule, problem)
-            except PACK_FAILURES as error:  # reported, and the other rules go on
-                failures.add(rule, prim, error)
+        new: list[Found] = []
+        number = 0
+        try:
+            for found in self._problems(walked, facts, failures):
+                if found is None:
+                    yield None
+                    continue
+                new.append(found)
+                number += 1
+                if len(new) > min(_UNSTAMPED * number, _MOST_UNSTAMPED):
+                    yield from self._stamp.stamp_all(new, failures.add)
+                    new = []
+        except UNREADABLE:
+            yield from self._stamp.stamp_all(new, failures.add)
+            raise
+        yield from self._stamp.stamp_all(new, failures.add)
         for prim, fault in facts.tables.unreadable:
             failures.add(NOT_CHECKED, prim, fault)
         for text in self._broken:
@@ -99,6 +109,20 @@ class StageCheck:
         yield from self._failed(failures)
         yield from self._stamp.suppressions(facts.stage, failures.prims)
         yield from self.faults()
+
+    def _problems(self, walked: Walked, facts: Facts, failures: Failures) -> Iterator[Found | None]:
+        """What the rules yield; None where another stage may go on."""
+        for assigned in self._assigned(walked, facts, failures):
+            if assigned is None:
+                yield None
+                continue
+            rule, prim = assigned
+            options = self._options.get(rule.code, {})
+            try:
+                for problem in rule.check(prim, facts, **options):
+                    yield rule, prim, problem
+            except PACK_FAILURES as error:  # reported, and the other rules go on
+                failures.add(rule, prim, error)
 
     def faults(self) -> Iterator[Stamped]:
         """What failed beside the rules since it was asked for last."""

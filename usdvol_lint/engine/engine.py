@@ -199,7 +199,7 @@ class Engine:
 def _told(course: Course, found: list[Stamped], new: Iterable[Stamped | None]) -> Iterator[None]:
     """Sends findings in batches, because a message for each is slow; None where there is a step.
 
-    At most a tenth of many is ever unsent, and so lost if the process dies.
+    At most a twentieth of many is ever unsent, and so lost if the process dies.
     """
     unsent: list[Finding] = []
     number = 0
@@ -209,7 +209,7 @@ def _told(course: Course, found: list[Stamped], new: Iterable[Stamped | None]) -
             continue
         found.append(stamped)
         unsent.append(stamped.finding)
-        if number < _SENT_AT_ONCE or 10 * len(unsent) > number:
+        if number < _SENT_AT_ONCE or 20 * len(unsent) > number:
             course.send(unsent)
             unsent = []
         number += 1

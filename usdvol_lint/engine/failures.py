@@ -9,7 +9,7 @@ from usdvol_lint.engine.identity import Identity
 from usdvol_lint.engine.messages import messages
 from usdvol_lint.engine.site import Sites
 from usdvol_lint.engine.stamp import Stamped
-from usdvol_lint.engine.trouble import Trouble
+from usdvol_lint.engine.trouble import PACK_FAILURES, Trouble
 from usdvol_lint.facts.usd.diagnostics import (
     BROKEN_TEXT,
     Unreadable,
@@ -21,8 +21,6 @@ from usdvol_lint.model import Cover, Finding, Severity
 from usdvol_lint.packs.catalog import NOT_CHECKED, RULE_FAILED, STAGE_UNREADABLE, help_for
 from usdvol_lint.rule import NotChecked, Rule
 
-PACK_FAILURES = (Exception, KeyboardInterrupt)
-"""What the code of a rule pack may raise without ending the process."""
 _LONGEST_MESSAGE = 300
 _OF_THE_STAGE = "the layer is probably corrupt: copy or export it again"
 _OF_THE_RULE = "a bug of the rule, not of the stage; --verbose shows the traceback"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from pxr import Usd
@@ -12,7 +12,7 @@ from usdvol_lint.engine.entries import Entries
 from usdvol_lint.engine.layer_names import leads_elsewhere, link_to, real_name, shown_name
 from usdvol_lint.facts.usd.bringing import path_of_prim
 from usdvol_lint.facts.usd.calls import get_name, get_path, get_prim, get_stage
-from usdvol_lint.facts.usd.instances import shown
+from usdvol_lint.facts.usd.instances import Shown, shown
 from usdvol_lint.layertext.source import LayerTexts, SharedTexts
 from usdvol_lint.model import Cover, Severity, Site, Source
 from usdvol_lint.rule import NotChecked, Problem, Rule
@@ -99,9 +99,23 @@ class Sites:
 
         Where looking for it fails, that is its prim: what was found stands all the same.
         """
-        prim = get_prim(problem.at)
-        found = self.tried(prim, PLACE, self._find, prim, problem, rule)
-        return found or self._at_prim(prim, problem)
+        return self.locate_all([(problem, rule)])[0]
+
+    def locate_all(
+        self, problems: Sequence[tuple[Problem | NotChecked, Rule | None]]
+    ) -> list[Located]:
+        """The same of many problems, one step of all after the other."""
+        tried = self.tried
+        prims = [get_prim(problem.at) for problem, _ in problems]
+        blamed = [
+            tried(prim, PLACE, self._blame_shown, prim, problem, rule)
+            for prim, (problem, rule) in zip(prims, problems, strict=True)
+        ]
+        return [
+            (by and tried(prim, PLACE, self._find, prim, problem, *by))
+            or self._at_prim(prim, problem)
+            for prim, (problem, _), by in zip(prims, problems, blamed, strict=True)
+        ]
 
     def tried(
         self, prim: Any, what: str, find: Callable[..., _Found], *arguments: Any
@@ -129,18 +143,22 @@ class Sites:
         source = Source(real_name(root), path, name, problem.subject)
         return Located(prim, path, site, source, Blame(None), root, 1)
 
-    def _blame(self, rule: Rule | None, problem: Problem | NotChecked, path: str) -> Blame:
-        """What is to blame for a problem of a rule, at a path of the stage."""
+    def _blame_shown(
+        self, prim: Any, problem: Problem | NotChecked, rule: Rule | None
+    ) -> tuple[Shown, Blame]:
+        """How the prim of a problem of a rule is shown, and what is to blame for it."""
+        where = shown(prim)
         blame = self._blaming.blame(problem)
         if rule is None or self._pieces is None or not isinstance(problem, Problem):
-            return blame
-        other = blame.spec and self._pieces.instead(rule, problem, blame.spec, path)
-        return on_other(other, problem) if other else blame
+            return where, blame
+        other = blame.spec and self._pieces.instead(rule, problem, blame.spec, where.path)
+        return where, on_other(other, problem) if other else blame
 
-    def _find(self, prim: Any, problem: Problem | NotChecked, rule: Rule | None) -> Located:
+    def _find(
+        self, prim: Any, problem: Problem | NotChecked, where: Shown, blame: Blame
+    ) -> Located:
         at = problem.at
-        on_stage, instances = shown(prim)
-        blame = self._blame(rule, problem, on_stage)
+        on_stage, instances = where
         spec = blame.spec or None
         blamed = get_stage(prim).GetRootLayer() if spec is None else spec.layer
         layer = self._layer(blamed)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from usdvol_lint.cached import cached_property
 from usdvol_lint.engine.identity import Identity, identity
 from usdvol_lint.engine.lacking import absent_of
 from usdvol_lint.engine.parts import parts_of
 from usdvol_lint.engine.site import Located, Sites, cover_of
+from usdvol_lint.engine.trouble import PACK_FAILURES
 from usdvol_lint.facts.usd.calls import is_in_prototype
 from usdvol_lint.layertext.source import SharedTexts
-from usdvol_lint.model import Cover, Finding, Severity, Source
+from usdvol_lint.model import Cover, Finding, Severity
 from usdvol_lint.packs.activation import ActiveRules
 from usdvol_lint.packs.catalog import NOT_CHECKED, UNUSED_SUPPRESSION, help_for
 from usdvol_lint.rule import NotChecked, Problem, Rule
@@ -44,6 +45,20 @@ class Stamped(NamedTuple):
     finding: Finding
     identity: Identity
     holds: Callable[[], bool] | None = None
+
+
+Found: TypeAlias = tuple[Rule, Any, "Problem | NotChecked"]
+"""What a rule yields, and the prim that it was asked about."""
+Failed: TypeAlias = Callable[[Rule, Any, BaseException], None]
+
+
+class _Part(NamedTuple):
+    """A problem of one opinion: of which rule, and under which it is reported, and how severe."""
+
+    rule: Rule
+    reported_as: Rule
+    problem: Problem | NotChecked
+    severity: Severity
 
 
 class Stamp:
@@ -81,18 +96,38 @@ class Stamp:
 
         return Suppressions(self._rules, self._asked)
 
-    def stamp(self, rule: Rule, problem: Problem | NotChecked) -> Iterable[Stamped]:
+    def stamp(self, rule: Rule, problem: Problem | NotChecked) -> list[Stamped]:
         """The finding; none if LNT005, which reports what was not checked, is switched off."""
+        return self._stamped(self._parts(rule, problem))
+
+    def stamp_all(self, found: Sequence[Found], failed: Failed) -> list[Stamped]:
+        """The findings of many problems: each step is taken for all before the next one.
+
+        So what a step needs is at hand.  `failed` is called with what is raised for one of them.
+        """
+        faults = len(self.sites.faults)
+        try:
+            parts = [self._parts(rule, problem) for rule, _, problem in found]
+            return self._stamped(list(chain.from_iterable(parts)))
+        except PACK_FAILURES:  # it is raised again for the one that is to blame
+            del self.sites.faults[faults:]
+        stamped: list[Stamped] = []
+        for rule, prim, problem in found:
+            try:
+                stamped += self.stamp(rule, problem)
+            except PACK_FAILURES as error:
+                failed(rule, prim, error)
+        return stamped
+
+    def _parts(self, rule: Rule, problem: Problem | NotChecked) -> list[_Part]:
+        """A problem, in parts that are of one opinion each; none where nobody wants to hear it."""
         reported_as = NOT_CHECKED if isinstance(problem, NotChecked) else rule
         severity = self._active.severities.get(reported_as.code)
         if severity is None:
-            return ()
+            return []
         if problem.at_default and problem.times:
-            parts = parts_of(problem)
-            return chain.from_iterable(
-                self._stamped(rule, reported_as, part, severity) for part in parts
-            )
-        return self._stamped(rule, reported_as, problem, severity)
+            return [_Part(rule, reported_as, each, severity) for each in parts_of(problem)]
+        return [_Part(rule, reported_as, problem, severity)]
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
@@ -120,34 +155,21 @@ class Stamp:
     def _unused(self, stage: Any) -> list[Problem]:
         return list(self._suppressions.unused(stage, self._active.severities))
 
-    def _stamped(
-        self, rule: Rule, reported_as: Rule, problem: Problem | NotChecked, severity: Severity
-    ) -> list[Stamped]:
-        located = self.sites.locate(problem, rule)
-        source = located.source
-        if reported_as is not rule and source.layer is not None:
-            source = source._replace(subject=f"{rule.code} {source.subject}".rstrip())
-        finding = self._finding(reported_as, problem, severity, located, source)
-        same = identity(rule, problem, located.blame.spec) if self._several_selections else ()
-        as_shown = self.sites.tried(located.prim, _SUPPRESSED, self._as_shown, finding, located)
-        if as_shown is None:
-            as_shown = [_shown_by(finding, located.instances)]
+    def _stamped(self, parts: Sequence[_Part]) -> list[Stamped]:
+        places = self.sites.locate_all([(part.problem, part.rule) for part in parts])
+        findings = list(map(self._finding, parts, places))
         return [
-            Stamped(
-                shown, (*same, shown.ignored) if same and shown.ignored else same, problem.holds
-            )
-            for shown in as_shown
+            stamped
+            for part, located, finding in zip(parts, places, findings, strict=True)
+            for stamped in self._as_told(part, located, finding)
         ]
 
-    def _finding(
-        self,
-        rule: Rule,
-        problem: Problem | NotChecked,
-        severity: Severity,
-        located: Located,
-        source: Source,
-    ) -> Finding:
+    def _finding(self, part: _Part, located: Located) -> Finding:
         tried, prim, blame = self.sites.tried, located.prim, located.blame
+        of, rule, problem, severity = part
+        source = located.source
+        if rule is not of and source.layer is not None:
+            source = source._replace(subject=f"{of.code} {source.subject}".rstrip())
         clip = ""
         if blame.clip and blame.clip.rpartition("/")[2] not in problem.message:
             clip = f" (in the clip {quoted(blame.clip)})"
@@ -170,6 +192,20 @@ class Stamp:
             None,
             problem.since,
         )
+
+    def _as_told(self, part: _Part, located: Located, finding: Finding) -> list[Stamped]:
+        """The finding as it is told, with its identity if that will be asked for."""
+        as_shown = self.sites.tried(located.prim, _SUPPRESSED, self._as_shown, finding, located)
+        if as_shown is None:
+            as_shown = [_shown_by(finding, located.instances)]
+        holds = part.problem.holds
+        if not self._several_selections:
+            return [Stamped(shown, (), holds) for shown in as_shown]
+        same = identity(part.rule, part.problem, located.blame.spec)
+        return [
+            Stamped(shown, (*same, shown.ignored) if same and shown.ignored else same, holds)
+            for shown in as_shown
+        ]
 
     def _as_shown(self, finding: Finding, located: Located) -> list[Finding]:
         """The finding, or one for each reason why some of its instances are ignored."""

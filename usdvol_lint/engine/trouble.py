@@ -9,6 +9,9 @@ from usdvol_lint.model import Cover, Finding, Severity, Site, Source, StageRepor
 from usdvol_lint.packs.catalog import STAGE_UNREADABLE, help_for
 from usdvol_lint.paths import canonical, display_beside, named
 
+PACK_FAILURES = (Exception, KeyboardInterrupt)
+"""What the code of a rule pack may raise without ending the process."""
+
 
 class Trouble(NamedTuple):
     """Why a stage was not checked; `layer`, `line` and `column` are where text does not parse.
