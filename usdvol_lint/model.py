@@ -5,6 +5,7 @@ from __future__ import annotations
 import builtins
 from collections.abc import Iterable, Mapping
 from enum import IntEnum, StrEnum
+from operator import eq, itemgetter
 from typing import NamedTuple, TypeAlias
 
 from usdvol_lint.words import frame_ranges
@@ -199,7 +200,10 @@ class StageReport(NamedTuple):
 
 def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     """The findings of a stage by prim, property and place, without duplicates."""
-    return tuple(sorted(dict.fromkeys(findings), key=_order))
+    keyed = sorted(((_order(each), each) for each in findings), key=itemgetter(0))
+    orders, ordered = zip(*keyed, strict=True) if keyed else ((), ())
+    # To hash them takes as long as to sort them, and equal ones lie beside each other.
+    return tuple(dict.fromkeys(ordered)) if any(map(eq, orders, orders[1:])) else ordered
 
 
 def _order(finding: Finding) -> tuple[object, ...]:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from enum import Enum
-from functools import cache
+from functools import cache, lru_cache
 from json.encoder import encode_basestring as _text
 from pathlib import PurePath
 from typing import Any, NamedTuple
@@ -25,6 +25,8 @@ _LARGEST_INTEGER = 2**53
 
 # Indented JSON is written by Python code, which takes ten times as long as what C writes at once:
 # so each stage and each cause is a line.
+_MOST_TEXTS = 4096
+"""So many texts that recur, such as names of properties, are kept as they are written."""
 _ENCODE = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
 
 _LABELS = {severity: severity.label for severity in Severity}
@@ -33,8 +35,10 @@ _LABELS = {severity: severity.label for severity in Severity}
 class Shared(NamedTuple):
     """What many causes have in common, each written once in a report."""
 
+    rule: Callable[[str, str], str]
     cover: Callable[[Cover], str]
     times: Callable[[tuple[float, ...], bool], str]
+    text: Callable[[str | None], str]
     file: Callable[[str], str]
 
     @classmethod
@@ -42,8 +46,10 @@ class Shared(NamedTuple):
         from usdvol_lint.baseline.cover import cover_as_json
 
         return cls(
+            cache(lambda code, name: f'"code": {_text(code)}, "name": {_text(name)}'),
             cache(lambda cover: _ENCODE(cover_as_json(cover))),
             cache(_times),
+            lru_cache(_MOST_TEXTS)(_optional),
             cache(lambda layer: _text(below(layer, report.root))),
         )
 
@@ -195,12 +201,12 @@ def cause_members(cause: Cause, places: Iterable[Place], shared: Shared) -> str:
     was = "null" if cause.was is None else shared.cover(cause.was)
     told = ", ".join([f"{{{place_members(each, first, shared)}}}" for each in places])
     return (
-        f'"fingerprint": {_text(cause.fingerprint)}, "code": {_text(first.code)}, '
-        f'"name": {_text(first.name)}, "severity": "{_LABELS[cause.severity]}", '
+        f'"fingerprint": "{cause.fingerprint}", {shared.rule(first.code, first.name)}, '
+        f'"severity": "{_LABELS[cause.severity]}", '
         f'"state": "{cause.state}", "was": {was}, "reason": {_optional(cause.reason)}, '
         f'"message": {_text(first.message)}, "suggestion": {_optional(first.suggestion)}, '
-        f'"help": {_optional(first.help)}, "cover": {shared.cover(cause.cover)}, '
-        f'"fold": {_optional(first.fold)}, "source": {_source(cause.source, first, shared)}, '
+        f'"help": {shared.text(first.help)}, "cover": {shared.cover(cause.cover)}, '
+        f'"fold": {shared.text(first.fold)}, "source": {_source(cause.source, first, shared)}, '
         f'"excerpt": {_excerpt(first.site)}, "count": {cause.count}, "places": [{told}]'
     )
 
@@ -211,8 +217,8 @@ def _source(source: Source, first: Finding, shared: Shared) -> str:
     line, column = (None, None) if layer is None else (site.line, site.column)
     below_root = "null" if file is None else shared.file(file)
     return (
-        f'{{"layer": {_optional(layer)}, "file": {below_root}, "path": {_optional(source.path)}, '
-        f'"property": {_optional(source.property)}, "subject": {_text(source.subject)}, '
+        f'{{"layer": {shared.text(layer)}, "file": {below_root}, "path": {_optional(source.path)}, '
+        f'"property": {shared.text(source.property)}, "subject": {_text(source.subject)}, '
         f'"line": {_number(line)}, "column": {_number(column)}}}'
     )
 
@@ -230,7 +236,7 @@ def place_members(place: Place, first: Finding, shared: Shared) -> str:
     site = finding.site
     said = (
         f'"stage": {stage}, "prim": {_optional(site.prim)}, '
-        f'"property": {_optional(site.property)}, "variant": {_optional(site.variant)}, '
+        f'"property": {shared.text(site.property)}, "variant": {_optional(site.variant)}, '
         f'{shared.times(site.times, site.at_default)}, "severity": "{_LABELS[finding.severity]}"'
     )
     if finding.message != first.message:

@@ -269,16 +269,17 @@ def _cause(gathered: _Gathered) -> Cause:
     places = gathered.left or gathered.suppressed
     assert places
     reason = places.first[0].finding.ignored
-    return Cause(
-        fingerprint=fingerprint(code, source),
-        severity=places.severity,
-        source=source,
-        cover=places.cover,
-        places=tuple(places.first),
-        count=places.count,
-        state=State.NEW if reason is None else State.SUPPRESSED,
-        reason=reason,
-        here=places.here,
+    return Cause(  # by positions, because to name so many takes as long as to make it
+        fingerprint(code, source),
+        places.severity,
+        source,
+        places.cover,
+        tuple(places.first),
+        places.count,
+        State.NEW if reason is None else State.SUPPRESSED,
+        None,
+        reason,
+        places.here,
     )
 
 

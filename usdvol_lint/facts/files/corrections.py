@@ -72,7 +72,7 @@ def find_absence(
     missing = disk.first_missing(path)
     folder, name = os.path.split(missing)
     below = path[len(missing) :]
-    if os.path.isfile(folder):
+    if disk.is_file(folder):
         return _absence_below_file(folder, path, authored)
     similar = None if corrected else _closest_name(disk, folder, name, not_meant)
     has_file = bool(similar) and os.path.exists(f"{folder}/{similar}{below}")
@@ -83,12 +83,12 @@ def find_absence(
         corrected = _with_end(authored, name + below, similar + below if has_file else similar)
     if below and not corrected and not moved:
         moved = tuple(_in_folders_of(disk, folder, name + below, authored))
-    return Absence(_reason(path, missing, authored, reader), corrected, moved)
+    return Absence(_reason(disk, path, missing, authored, reader), corrected, moved)
 
 
-def _reason(path: str, missing: str, authored: str, reader: str) -> str:
+def _reason(disk: Disk, path: str, missing: str, authored: str, reader: str) -> str:
     """Why nothing is at a path of which this is the topmost part that is missing."""
-    if os.path.islink(missing):
+    if disk.is_link(missing):
         return f": {_broken_link(missing)}"
     below = path[len(missing) :]
     led_to = os.path.normpath(os.path.join(os.path.dirname(reader), authored))

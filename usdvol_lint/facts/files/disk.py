@@ -42,6 +42,8 @@ class Disk:
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._siblings: dict[str, tuple[str, ...]] = {}
         self._tried: set[tuple[str, str]] = set()
+        self._files: dict[str, bool] = {}
+        self._links: dict[str, bool] = {}
         self._names_left = _NAMES_TRIED
 
     @property
@@ -67,6 +69,18 @@ class Disk:
         if folder not in self._missing:
             self._missing[folder] = _first_missing(folder)
         return self._missing[folder] or path
+
+    def is_file(self, path: str) -> bool:
+        """Whether a file is at an absolute path; many paths go through one that is no folder."""
+        if path not in self._files:
+            self._files[path] = os.path.isfile(path)
+        return self._files[path]
+
+    def is_link(self, path: str) -> bool:
+        """Whether a link is at an absolute path; many paths go through one that leads nowhere."""
+        if path not in self._links:
+            self._links[path] = os.path.islink(path)
+        return self._links[path]
 
     def missing_in_package(self, package: str, inner: str) -> str | None:
         """The topmost folder that a package lacks above a path in it, if it lacks one.

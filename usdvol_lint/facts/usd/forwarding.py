@@ -19,6 +19,9 @@ class Forwarding:
 
     def targets(self, relationship: Any) -> list[Any]:
         """What USD calls the forwarded targets."""
+        own = own_targets(relationship)
+        if len(own) == 1 and own[0].IsPrimPath():
+            return list(own)  # nearly always
         end = self._end(relationship)
         path = end.GetPath()
         if path not in self._targets:

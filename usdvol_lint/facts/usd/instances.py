@@ -57,6 +57,8 @@ class _Prototypes:
         self.cut: dict[Any, str] = {}
 
 
+_PROTOTYPE = "/__Prototype_"
+"""How the paths of prototypes begin, and of what a user may call so."""
 _PROTOTYPES: WeakKeyDictionary[Any, _Prototypes] = WeakKeyDictionary()
 
 
@@ -186,6 +188,8 @@ def path_in_prototype(prim: Any) -> str:
 
 def shown_path(stage: Any, path: Any) -> str:
     """A path, of a prim or of none, with a prototype replaced by the first of its instances."""
+    if not str(path).startswith(_PROTOTYPE):
+        return str(path)
     root = path.GetPrefixes()[0] if path.pathElementCount else path
     prim = stage.GetPrimAtPath(root)
     if not prim or not prim.IsInPrototype():
