@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from usdvol_lint import schema
 from usdvol_lint.cached import cached_property
 from usdvol_lint.deferred import deferred
+from usdvol_lint.facts.files.states import AssetState
 from usdvol_lint.facts.found import Wing, column, fact, summary
 
 with deferred(globals()):
@@ -126,8 +127,16 @@ class Files(Wing):
     def missing(self, field: Any) -> Affected | None:
         """The missing files of `filePath` but those of which another rule tells why."""
         return absences.unexplained(
-            self.paths(field), lambda: self.recased(field), self._has_packages, self.tables.tells
+            self.paths(field),
+            self._missing(field),
+            lambda: self.recased(field),
+            self._has_packages,
+            self.tables.tells,
         )
+
+    @fact
+    def _missing(self, field: Any) -> Affected | None:
+        return self.paths(field).of(AssetState.MISSING)
 
     @fact
     def missing_folder(self, field: Any) -> str | None:
@@ -150,7 +159,7 @@ class Files(Wing):
     @fact
     def recased(self, field: Any) -> Recased | None:
         """The samples of `filePath` that differ by case from the names on disk."""
-        return letter_case.recased(self.paths(field), self._disk)
+        return letter_case.recased(self.paths(field), self._missing(field), self._disk)
 
     def outside_package(self, field: Any) -> Affected | None:
         """The samples of `filePath` authored in a package whose files lie outside it."""

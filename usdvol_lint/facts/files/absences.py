@@ -22,16 +22,16 @@ _ANY = "write or copy it there, or name a file that is there"
 
 def unexplained(
     paths: AssetSamples,
+    missing: Affected | None,
     recased: Callable[[], Recased | None],
     has_packages: bool,
     tells: Callable[[str], bool],
 ) -> Affected | None:
-    """The missing files but those of which another rule tells why they are not found.
+    """The missing files of paths but those of which another rule tells why they are not found.
 
     Their paths are malformed, have another case than the disk, or lead out of their package.
     `recased`: asks for the samples of another case; `tells`: as `Tables.tells`.
     """
-    missing = paths.of(AssetState.MISSING)
     if missing is None:
         return None
     in_other_case = recased() if tells("AST009") else None

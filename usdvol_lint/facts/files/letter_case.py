@@ -23,12 +23,14 @@ class Recased(NamedTuple):
     path: str
 
 
-def recased(paths: AssetSamples, disk: Disk) -> Recased | None:
+def recased(paths: AssetSamples, missing: Affected | None, disk: Disk) -> Recased | None:
     """The samples whose file, or a folder that they name, has another case on disk.
+
+    `missing` are those of them at whose path nothing is.
 
     Paths that resolve are looked at only where the file system ignores case.
     """
-    folders = _Folders(paths, disk)
+    folders = _Folders(paths, missing, disk)
     affected = paths.affected(filter(folders.have_another_case, paths.samples))
     if affected is None:
         return None
@@ -50,8 +52,9 @@ class _Folder(NamedTuple):
 class _Folders:
     """The folders of the samples' files, each looked at once, however many samples there are."""
 
-    def __init__(self, paths: AssetSamples, disk: Disk) -> None:
+    def __init__(self, paths: AssetSamples, missing: Affected | None, disk: Disk) -> None:
         self._paths = paths
+        self._missing = missing
         self._disk = disk
         self._layers = SampleLayers(paths)
         self._known: dict[tuple[str, str, float | None], _Folder | None] = {}
@@ -73,6 +76,8 @@ class _Folders:
 
     def absolute(self, sample: AssetSample) -> str:
         """The absolute path of a sample."""
+        if self._missing and sample is self._missing.first:
+            return self._missing.place  # which whoever tells of it asks for too
         return sample.resolved or self._paths.anchored(sample)
 
     def _look(self, sample: AssetSample, folder_path: str) -> _Folder | None:
