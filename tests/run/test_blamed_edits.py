@@ -92,6 +92,7 @@ def test_an_edit_is_to_blame_where_the_asset_alone_is_clean(
     [cause] = find("shots/one.usda", rules=(code,))
     source = cause.source
     assert (source.layer, source.path, source.subject) == ("shots/one.usda", path, subject)
+    assert cause.first.message.endswith(" ('tank.usda' by itself has no such problem)")
     write(shots, two=STAGE.replace(META, f"{META}subLayers = [@./one.usda@]\n"))
     assert [each.source for each in find("shots/two.usda", rules=(code,))] == [source]
 
@@ -116,6 +117,17 @@ def test_an_edit_that_takes_away_nothing_moves_no_blame(
     [alone] = find("assets/tank.usda", rules=("VOL001", "VOL002"))
     [shown] = find("shots/one.usda", rules=("VOL001", "VOL002"))
     assert shown.fingerprint == alone.fingerprint
+    assert "by itself" not in shown.first.message
+
+
+def test_an_edit_in_the_same_layer_says_nothing_of_it_by_itself(find: Find, shots: Path) -> None:
+    """Which is not clean."""
+    other = f'def "other" (\n{LOOK % "none"}\nreferences = </tank>\n)\n{{\n}}\n'
+    write(shots.parent / "assets", tank=LAYER + CHOICE % TWO_LOOKS % (FIELD, "") + other)
+    write(shots, one=STAGE + refers("a", "../assets/tank.usda@</other>", "").replace(">@", ">"))
+    [cause] = find("shots/one.usda", rules=("VOL001",))
+    assert (cause.source.layer, cause.source.path) == ("assets/tank.usda", "/other")
+    assert "by itself" not in cause.first.message
 
 
 def test_the_selection_of_a_set_is_to_blame_in_all_shots(find: Find, shots: Path) -> None:

@@ -155,6 +155,7 @@ def test_a_piece_is_blamed_on_its_arc(
     assert not find("assets/set.usda", "shots/two.usda", rules=(code,))
     [cause] = find("shots/one.usda", rules=(code,))
     assert (cause.source.layer, cause.source.path) == ("shots/one.usda", "/piece_0")
+    assert cause.first.message.endswith(" ('set.usda' by itself has no such problem)")
 
 
 def test_two_pieces_are_two_causes(find: Find, shots: Path) -> None:
@@ -179,6 +180,7 @@ def test_what_is_wrong_in_the_layer_itself_stays_its_own(
     [shown] = find("shots/one.usda", rules=("SCH007",))
     assert shown.fingerprint == alone.fingerprint
     assert shown.source.layer == "assets/set.usda"
+    assert "by itself" not in shown.first.message
 
 
 def test_a_piece_in_an_asset_is_blamed_on_the_asset_and_not_on_the_shot(

@@ -43,6 +43,7 @@ class Blame(NamedTuple):
     there to the stage's; both are None where the problem is at no time, or the spec holds no value.
     `property` and `subject` tell what it is about at the spec; `clip` is the clip that holds the
     value where the spec is the one with the clips, `asset` a path to look for in the spec.
+    `clean` is the name of the layer that has no such problem by itself: the spec is what makes one.
     """
 
     spec: Any | None
@@ -52,6 +53,7 @@ class Blame(NamedTuple):
     offset: Any | None = None
     clip: str | None = None
     asset: str | None = None
+    clean: str = ""
 
 
 class Blaming:
@@ -84,7 +86,7 @@ class Blaming:
         if _is_relationship(at):
             others += self._forwards.behind(at, self._standing)
         if edit := self._edit(problem, own):
-            others.append((edit.prim, Blame(edit.spec)))
+            others.append((edit.prim, Blame(edit.spec, clean=_name_beside(edit.spec, edit.kept))))
         if own.spec is None or not others:
             return own
         opinions = [Opinion(get_prim(each), blame.spec) for each, blame in others]
@@ -203,10 +205,16 @@ class Blaming:
         return (at, blame) if blame.spec else None
 
 
-def on_other(spec: Any, problem: Problem | NotChecked) -> Blame:
-    """The blame of another spec than those that a problem is of: it makes these wrong."""
+def on_other(spec: Any, problem: Problem | NotChecked, clean: Any) -> Blame:
+    """The blame of another spec than the `clean` one that a problem is of: it makes that wrong."""
     path = _path_of(problem.at, get_prim(problem.at), spec)
-    return Blame(spec, _property_of(spec), problem.subject or path)
+    subject = problem.subject or path
+    return Blame(spec, _property_of(spec), subject, clean=_name_beside(spec, clean))
+
+
+def _name_beside(spec: Any, other: Any) -> str:
+    """The name of the layer of another spec; empty if it is the same layer."""
+    return "" if spec.layer == other.layer else str(other.layer.GetDisplayName())
 
 
 def _is_relationship(at: Any) -> bool:

@@ -152,7 +152,7 @@ class Sites:
         if rule is None or self._pieces is None or not isinstance(problem, Problem):
             return where, blame
         other = blame.spec and self._pieces.instead(rule, problem, blame.spec, where.path)
-        return where, on_other(other, problem) if other else blame
+        return where, on_other(other, problem, blame.spec) if other else blame
 
     def _find(
         self, prim: Any, problem: Problem | NotChecked, where: Shown, blame: Blame

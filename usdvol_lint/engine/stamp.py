@@ -170,9 +170,11 @@ class Stamp:
         source = located.source
         if rule is not of and source.layer is not None:
             source = source._replace(subject=f"{of.code} {source.subject}".rstrip())
-        clip = ""
+        beside = ""
         if blame.clip and blame.clip.rpartition("/")[2] not in problem.message:
-            clip = f" (in the clip {quoted(blame.clip)})"
+            beside = f" (in the clip {quoted(blame.clip)})"
+        elif blame.clean:
+            beside = f" ({quoted(blame.clean)} by itself has no such problem)"
         own = rule.severity if problem.severity is None else min(rule.severity, problem.severity)
         cover = tried(prim, _REACH, cover_of, problem, blame, own) or Cover(own)
         absent = () if self._is_alone else tried(prim, _ABSENT, absent_of, problem)
@@ -180,7 +182,7 @@ class Stamp:
             rule.code,
             rule.name,
             self._lowered(severity, problem, rule.code),
-            shortened(problem.message + clip, _LONGEST),
+            shortened(problem.message + beside, _LONGEST),
             located.site,
             source,
             cover,
