@@ -40,6 +40,44 @@ def test_who_names_a_sublayer_loses_what_it_says(
     assert (bare.source.layer, bare.count) == ("assets/bare.usda", 2)
 
 
+def take(name: str) -> str:
+    return VARIABLE.replace("cloud", name)
+
+
+def test_other_variables_than_those_of_a_sublayer_are_to_blame(find: Find, shots: Path) -> None:
+    """USD does not read those of the sublayer, by which it is clean opened alone."""
+    write(shots.parent / "assets", tank=LAYER.replace(META, META + VARIABLE) + TAKING)
+    write(shots, one=on_top("../assets/tank.usda", take("gone")))
+    write(shots, again=on_top("./one.usda", take("gone")), right=on_top("./one.usda", VARIABLE))
+    assert not find("assets/tank.usda", "shots/right.usda")
+    [cause] = find("shots/one.usda", "shots/again.usda")
+    assert (cause.source.layer, cause.source.path, cause.count) == ("shots/one.usda", "/", 2)
+    assert cause.source.subject == "/tank/density.filePath"
+
+
+@pytest.mark.parametrize("again", ["gone", "lost"])
+def test_variables_that_mend_nothing_move_no_blame(again: str, find: Find, shots: Path) -> None:
+    """Said again, or others that lead to no file either; by a sublayer, and through an arc."""
+    write(shots.parent / "assets", tank=LAYER.replace(META, META + take("gone")) + TAKING)
+    write(shots, one=on_top("../assets/tank.usda", take(again)))
+    write(shots, two=STAGE.replace(META, META + take(again)) + refers("a"))
+    write(shots, three=on_top("./two.usda", take(again)))
+    [alone] = find("assets/tank.usda")
+    [cause] = find("assets/tank.usda", "shots/one.usda", "shots/two.usda", "shots/three.usda")
+    assert (cause.fingerprint, cause.count) == (alone.fingerprint, 4)
+
+
+def test_the_same_variables_again_are_not_to_blame_for_what_a_file_lacks(
+    find: Find, shots: Path
+) -> None:
+    other = TAKING.replace('fieldName = "density"', 'fieldName = "smoke"')
+    write(shots.parent / "assets", tank=LAYER.replace(META, META + VARIABLE) + other)
+    write(shots, one=on_top("../assets/tank.usda", VARIABLE))
+    [alone] = find("assets/tank.usda", rules=("GRD003",))
+    [cause] = find("shots/one.usda", rules=("GRD003",))
+    assert cause.fingerprint == alone.fingerprint
+
+
 def test_layers_in_a_circle_end(find: Find, shots: Path) -> None:
     asset = LAYER.replace(META, META + VARIABLE) + TAKING
     turning = asset.replace(META, f"{META}subLayers = [@../shots/one.usda@]\n")

@@ -25,7 +25,7 @@ _NAME = re.compile(r"[^/{}]+")
 _BLOCK_SIZE = 1 << 9
 
 
-@dataclass(slots=True, order=True)  # to freeze each of many takes longer than to find it
+@dataclass(slots=True, order=True, unsafe_hash=True)  # frozen, each takes longer to make
 class Position:
     """A position in a text, 1-based, and what stands there; the column counts characters."""
 
