@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
-from itertools import islice
+from collections.abc import Container, Iterator
+from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Sdf
 
 from usdvol_lint.engine.alone import Alone
-from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer
-from usdvol_lint.facts.usd.calls import get_parent, get_prim, get_prim_stack, get_stage, prim_at
+from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer, way_to
+from usdvol_lint.facts.usd.calls import (
+    get_parent,
+    get_path,
+    get_prim,
+    get_prim_stack,
+    get_stage,
+    prim_at,
+)
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
 from usdvol_lint.rule import STAGE
@@ -42,12 +49,14 @@ class Pieces:
         self._alone = alone
         self._known: dict[tuple[str, str, Any], _Brought] = {}
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
+        self._known_edits: dict[tuple[str, Any], list[tuple[Any, Any]]] = {}
         self._own: frozenset[Any] | None = None
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
         self._known.clear()
         self._known_at.clear()
+        self._known_edits.clear()
 
     def instead(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
         """The spec to blame for a problem at a path of the stage, in place of `spec`.
@@ -57,7 +66,7 @@ class Pieces:
         """
         layer = spec.layer
         if layer in (self._own or self._local(problem)):
-            return None
+            return self._on_top(rule, problem, spec, path)
         is_whole, is_edited = self._at(problem, spec, layer, path)
         if is_whole and not is_edited and not (problem.absent and STAGE in rule.on):
             return None
@@ -71,8 +80,26 @@ class Pieces:
             if not self._alone.is_clean(rule, root_layer(arc.node), place, spec):
                 break
             found = arc
-        edit = _edit(prim, found, self._local(problem)) if found and found is arcs[0] else None
-        return edit or (found and found.spec)
+        if not found or found is not arcs[0]:
+            return found and found.spec
+        return _edit(prim, self._local(problem), _levels_below(found)) or found.spec
+
+    def _on_top(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
+        """What stronger layers of the stage say, where a sublayer by itself has no such problem."""
+        layer, root = spec.layer, get_stage(problem.at).GetRootLayer()
+        if path == "/" or layer == root:
+            return None
+        if (path, layer) not in self._known_edits:
+            self._known_edits[path, layer] = list(_edits_on_top(get_prim(problem.at), layer))
+        edits, place = self._known_edits[path, layer], path_of_prim(spec)
+        if not edits or not self._alone.is_clean(rule, layer, place, spec):
+            return None
+        wrong = (
+            edit
+            for above, edit in edits
+            if above == root or not self._alone.is_clean(rule, above, place, spec)
+        )
+        return next(wrong, None)
 
     def _at(self, problem: Problem, spec: Any, layer: Any, path: str) -> _Brought:
         """How the layer of a spec comes to a path: the same for all properties of its prim."""
@@ -133,14 +160,35 @@ def _has_others(layer: Any) -> bool:
     return any(islice(defined, 1, None))
 
 
-def _edit(prim: Any, arc: Crossing, local: Container[Any]) -> Any | None:
-    """What some layers say of the properties of a prim, or of the next one up to that of an arc."""
+def _levels_below(arc: Crossing) -> int:
+    """How many prims what an arc brings lies below its top."""
     paths = (arc.node.path, arc.node.GetPathAtIntroduction())
     below, top = (path.StripAllVariantSelections().pathElementCount for path in paths)
-    for _ in range(below - top + 1):
-        own = [each for each in get_prim_stack(prim) if each.layer in local and each.properties]
+    return int(below - top)
+
+
+def _edit(prim: Any, layers: Container[Any], levels: int) -> Any | None:
+    """What some layers say of the properties of a prim, or of the next one up so many levels."""
+    for _ in range(levels + 1):
+        own = [each for each in get_prim_stack(prim) if each.layer in layers and each.properties]
         if own:
             properties = [each for spec in own for each in spec.properties]
             return properties[0] if len(properties) == 1 else own[0]
         prim = get_parent(prim)
     return None
+
+
+def _edits_on_top(prim: Any, layer: Any) -> Iterator[tuple[Any, Any]]:
+    """What layers of the stage say of a prim, or of those above it, on top of one of its sublayers.
+
+    Each layer that has the sublayer, the next one first, with the edit that comes in there: its own
+    or one of a sublayer on top of that.
+    """
+    order = get_stage(prim).GetLayerStack()
+    way = [tree.layer for tree in way_to(index_of(prim).rootNode, layer)]
+    levels = get_path(prim).pathElementCount - 1
+    for below, above in pairwise(reversed(way)):
+        new = order[order.index(above) : order.index(below)]
+        edits = (_edit(prim, (each,), levels) for each in reversed(new))
+        if edit := next(filter(None, edits), None):
+            yield above, edit
