@@ -91,7 +91,7 @@ class Pieces:
             return None
         if (path, layer) not in self._known_edits:
             self._known_edits[path, layer] = list(_edits_on_top(get_prim(problem.at), layer))
-        edits, place = self._known_edits[path, layer], path_of_prim(spec)
+        edits, place = self._known_edits[path, layer], Sdf.Path(path)
         if not edits or not self._alone.is_clean(rule, layer, place, spec):
             return None
         wrong = (
