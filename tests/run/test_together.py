@@ -14,6 +14,7 @@ from process import ROUGH, run, volume, write
 
 from usdvol_lint.model import StageReport, Status
 from usdvol_lint.run import worker
+from usdvol_lint.run.group import Group
 from usdvol_lint.run.protocol import Done, Together
 
 ROUGH_ONLY = ("--isolated", "--pack", ROUGH, "--select", "RGH", "--output-format", "json")
@@ -50,10 +51,17 @@ class Engine:
         self.asked: list[Sequence[str]] = []
         self._clock = clock
 
-    def lint_together(self, paths: Sequence[str], answer: Callable[[StageReport], None]) -> None:
+    def lint_together(
+        self,
+        paths: Sequence[str],
+        answer: Callable[[StageReport], None],
+        parted: Callable[[], None],
+    ) -> None:
         self.asked.append(paths)
         for path in paths:
             self._clock[0] += 1.0 if "slow" in path else 0.001
+            if "slow" in path:
+                parted()
             answer(StageReport(path, Status.CHECKED))
 
 
@@ -114,11 +122,11 @@ def test_the_first_stage_shows_whether_they_are_small(monkeypatch: pytest.Monkey
 
 
 def test_stages_that_take_long_are_looked_at_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    together, sent = answered(monkeypatch, "a", "slow b", "c", "d", "e", "f")
+    together, sent = answered(monkeypatch, "a", "b", "slow c", "d", "e", "f")
     assert together == [1, 5]
-    *_, first, rest = sent
-    # What takes long to come is sent as it comes.
-    assert (paths_of(first), paths_of(rest)) == (["slow b"], ["c", "d", "e", "f"])
+    # What takes long to come is sent as it comes, after that they go on one after the other.
+    assert [paths_of(each) for each in sent[2:]] == [["b"], ["slow c"], ["d"], ["e"], ["f"]]
+    assert sent[2][-1] == Together(1)
     together, _ = answered(monkeypatch, "slow a", "slow b", "c", "d", "e")
     assert together == [1, 1, 1, 2]
 
@@ -129,3 +137,16 @@ def test_stages_that_may_not_be_concerned_are_asked_one_by_one(
     together, sent = answered(monkeypatch, *"abcd", concerns=lambda path: path != "b")
     assert together == [1, 1, 1]
     assert [paths_of(each) for each in sent] == [["a"], ["b"], ["c"], ["d"]]
+
+
+def test_stages_together_have_little_time_before_each_has_its_own() -> None:
+    """Else one that never ends would take its limit twice."""
+    group = Group()
+    assert (group.limit(300), group.asked("a", "b")) == (300, ("a", "b"))
+    group.of = 2
+    assert (group.limit(300), group.limit(2), group.asked("a", "b")) == (5, 2, ("a", "b"))
+    assert group.take_apart()
+    for _ in range(2):
+        assert (group.limit(300), group.asked("a", "b"), group.take_apart()) == (300, ("a",), False)
+        group.answered()
+    assert group.asked("c", "d") == ("c", "d")

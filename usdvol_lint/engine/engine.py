@@ -103,10 +103,18 @@ class Engine:
         self.lint_together((path,), take_over)
         return reports[0]
 
-    def lint_together(self, paths: Iterable[str], answer: Callable[[StageReport], object]) -> None:
-        """Lints stages that are probably small side by side; `answer` gets the reports in order."""
+    def lint_together(
+        self,
+        paths: Iterable[str],
+        answer: Callable[[StageReport], object],
+        parted: Callable[[], object] = lambda: None,
+    ) -> None:
+        """Lints stages that are probably small side by side; `answer` gets the reports in order.
+
+        `parted` is called where they go on one after the other, since one takes long.
+        """
         self._known_contents.begin()
-        take(map(self._course, paths), answer)
+        take(map(self._course, paths), answer, parted)
 
     def _course(self, path: str) -> Course:
         course = Course(path, self._send)

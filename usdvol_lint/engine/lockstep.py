@@ -83,10 +83,15 @@ class Course:
         self._steps.close()
 
 
-def take(courses: Iterable[Course], answer: Callable[[StageReport], object]) -> None:
+def take(
+    courses: Iterable[Course],
+    answer: Callable[[StageReport], object],
+    parted: Callable[[], object] = lambda: None,
+) -> None:
     """Takes stages to their ends, side by side until a step takes long.
 
-    `answer` is called with the reports in the order of the stages, each before its stage is let go.
+    `answer` is called with the reports in the order of the stages, each before its stage is let go;
+    `parted` once they go on one after the other.
     """
     ahead = deque(courses)
     ahead[0].lead()
@@ -98,7 +103,9 @@ def take(courses: Iterable[Course], answer: Callable[[StageReport], object]) -> 
                 if course.report is None:
                     undecoded.heard = course.broken
                     before, now = now, course.go_on(now)
-                    is_long = is_long or now - before > _LONG
+                    if not is_long and now - before > _LONG:
+                        is_long = True
+                        parted()
                 if is_long:
                     break
             while ahead and (report := ahead[0].report):

@@ -60,6 +60,14 @@ class Deadline:
             if self._at < self._wakes_at:
                 self._changed.notify()
 
+    def move(self, seconds: float) -> None:
+        """Lets the time run anew, unless it is over: for the same stage, or several at once."""
+        with self._lock:
+            if self._at != _UNLIMITED:
+                self._at = time.monotonic() + seconds
+                if self._at < self._wakes_at:
+                    self._changed.notify()
+
     def clear(self) -> None:
         """Stops the time: whether it is expired does not change any more."""
         with self._lock:  # the thread notices once it wakes

@@ -147,7 +147,10 @@ def _done(order: tuple[int | Finding, ...], path: str, status: str, *rest: Any) 
 
 
 class Together(NamedTuple):
-    """That so many stages are looked at side by side from now on; more messages follow."""
+    """That so many stages are looked at side by side from now on; more messages follow.
+
+    Of one it says that those which were are looked at one after the other.
+    """
 
     stages: int
 

@@ -12,9 +12,11 @@ from typing import IO, TYPE_CHECKING, Any
 
 from usdvol_lint.child import kill_child, start_child
 from usdvol_lint.engine.trouble import Trouble, report_trouble
-from usdvol_lint.model import Finding, StageReport, Status, UsageError
+from usdvol_lint.model import StageReport, Status, UsageError
 from usdvol_lint.run.deadline import Deadline
 from usdvol_lint.run.endings import MORE_MEMORY, cause_of, crashed, timed_out, too_large
+from usdvol_lint.run.group import Group
+from usdvol_lint.run.heard import Heard
 from usdvol_lint.run.last_words import LastWords
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.memory import Memory
@@ -52,23 +54,6 @@ class NoProcessError(UsageError):
         self.is_passing = is_passing
 
 
-class _Heard:
-    """What a child says before it answers: findings, and how many stages it looks at together."""
-
-    def __init__(self, advance: Callable[[int], None]) -> None:
-        self.findings: list[Finding] = []
-        self.together = 0
-        self._advance = advance
-
-    def __call__(self, message: Together | Advance | NewFindings) -> None:
-        if isinstance(message, NewFindings):
-            self.findings.extend(message.findings)
-        elif isinstance(message, Together):
-            self.together = message.stages
-        else:
-            self._advance(message.samples)
-
-
 class Worker:
     """One child process, replaced by a new one when it died, was ended or has grown.
 
@@ -82,8 +67,7 @@ class Worker:
         self._successor: subprocess.Popen[bytes] | None = None
         self._successor_is_ready_at = 0.0
         self._unanswered: deque[str] = deque()
-        self._together = 0  # of those that are not answered, the first
-        self._alone = 0
+        self._group = Group()
         self._is_gone = False
         self._is_over = False
         self._memory = Memory()
@@ -109,7 +93,7 @@ class Worker:
         self._process = child
         self._replies = replies_of(child)
         self._unanswered.clear()
-        self._together = 0
+        self._group.of = 0
         self._is_gone = False
         self._memory.begin()
 
@@ -176,19 +160,15 @@ class Worker:
         """
         self._renew()
         began = time.perf_counter()
-        heard = _Heard(advance)
-        asked = (path,) if self._alone else (path, *following)
-        new = asked[len(self._unanswered) :]
+        heard = Heard(advance, lambda stages: self._begin_group(stages, limit))
+        new = self._group.asked(path, *following)[len(self._unanswered) :]
         self._unanswered += new
-        reply, timed_out = self._ask(new, limit, heard, looks=True)
+        reply, timed_out = self._ask(new, self._group.limit(limit), heard, looks=True)
         self._unanswered.popleft()
-        self._together = heard.together or self._together
         self._is_gone = timed_out or self._deadline.is_over or not isinstance(reply, Done)
-        if self._is_gone and self._together > 1 and not self._is_over:
-            self._alone = self._together
+        if self._is_gone and not self._is_over and self._group.take_apart():
             return self.lint(path, limit, advance)
-        self._together = max(self._together - 1, 0)
-        self._alone = max(self._alone - 1, 0)
+        self._group.answered()
         if isinstance(reply, Done):
             return reply.with_findings(heard.findings)
         if isinstance(reply, GivenUp):
@@ -198,6 +178,11 @@ class Worker:
         return report_trouble(
             path, self._trouble(timed_out, limit), status, seconds, heard.findings
         )
+
+    def _begin_group(self, stages: int, limit: float) -> None:
+        """Hears that so many stages are looked at together from now on."""
+        self._group.of = stages
+        self._deadline.move(self._group.limit(limit))
 
     def _renew(self) -> None:
         """Puts a new child in the place of one that has gone, or has grown: that starts ahead."""

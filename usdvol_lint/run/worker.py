@@ -101,7 +101,7 @@ def _answer(
         others = requests.more(_TOGETHER - 1) if seconds < _SMALL and not concerns else ()
         answers.begin(1 + len(others))
         began = time.perf_counter()
-        engine.lint_together((path, *others), end)
+        engine.lint_together((path, *others), end, answers.part)
         seconds = (time.perf_counter() - began) / (1 + len(others))
         garbage.collect()
 
@@ -173,6 +173,12 @@ class _Answers:
         if stages > 1:
             _send(self._replies, Together(stages))
             self._told = time.perf_counter()
+
+    def part(self) -> None:
+        """Says that they are looked at one after the other from now on."""
+        if self._together > 1:
+            self._together = 1
+            _send(self._replies, Together(1))
 
     def advance(self, samples: int) -> None:
         self._say(Advance(samples))
