@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import chain
 from typing import Any
 
 from pxr import Usd
@@ -35,7 +36,7 @@ class Alone:
         self._asked_for = asked_for
         self._options = options
         self._facts: dict[Any, Facts | None] = {}
-        self._known: dict[tuple[str, Any], set[Any]] = {}
+        self._known: dict[tuple[str, Any], list[Problem]] = {}
 
     def is_clean(self, rule: Rule, layer: Any, path: Any, spec: Any) -> bool:
         """Whether a rule finds nothing on a prim of a layer, where a spec makes it, or one above.
@@ -43,14 +44,30 @@ class Alone:
         Of what can't be looked at, nothing is known.
         """
         facts = self._opened(layer)
-        prim = facts.stage.GetPrimAtPath(path) if facts else None
-        if not facts or not prim or not Usd.PrimDefaultPredicate(prim):
+        prim = self._prim_at(facts, path)
+        if not facts or prim is None:
             return False
-        prim = in_prototype(prim)
         try:
-            return _is_made_of(prim, spec) and prim not in self._found(rule, prim, facts)
+            return _is_made_of(prim, spec) and not self._found(rule, prim, facts)
         except Exception:  # whatever a rule raises: it is reported where the stage is checked
             return False
+
+    def alike(self, rule: Rule, layer: Any, path: Any, problem: Problem) -> Problem | None:
+        """What a rule finds on a prim of a layer that is like a problem found on the stage."""
+        facts = self._opened(layer)
+        prim = self._prim_at(facts, path)
+        if not facts or prim is None:
+            return None
+        try:
+            found = self._found(rule, prim, facts)
+        except Exception:  # the same
+            return None
+        return next((each for each in found if _key(each) == _key(problem)), None)
+
+    def _prim_at(self, facts: Facts | None, path: Any) -> Any | None:
+        """The drawn prim at a path, or the one in a prototype that it shows."""
+        prim = facts.stage.GetPrimAtPath(path) if facts else None
+        return in_prototype(prim) if prim and Usd.PrimDefaultPredicate(prim) else None
 
     def _opened(self, layer: Any) -> Facts | None:
         if layer not in self._facts:
@@ -67,23 +84,29 @@ class Alone:
         context = Context.of(stage, given.depth, telling=given.telling)
         return Facts(context, walk(stage, self._asked_for, context.kinds))
 
-    def _found(self, rule: Rule, prim: Any, facts: Facts) -> set[Any]:
-        """The prims that a rule finds something on, asked about this one, or about the stage."""
+    def _found(self, rule: Rule, prim: Any, facts: Facts) -> list[Problem]:
+        """What a rule finds on a prim, asked about this one, or about the stage."""
         asked = [facts.stage.GetPseudoRoot()] if STAGE in rule.on else []
         if rule.on != (STAGE,):
             asked.append(prim)
         for each in asked:
             if (rule.code, each) not in self._known:
                 self._known[rule.code, each] = self._run(rule, each, facts)
-        return set().union(*(self._known[rule.code, each] for each in asked))
+        found = chain.from_iterable(self._known[rule.code, each] for each in asked)
+        return [each for each in found if get_prim(each.at) == prim]
 
-    def _run(self, rule: Rule, prim: Any, facts: Facts) -> set[Any]:
+    def _run(self, rule: Rule, prim: Any, facts: Facts) -> list[Problem]:
         found = rule.check(prim, facts, **self._options.get(rule.code, {}))
-        return {
-            get_prim(each.at)
+        return [
+            each
             for each in found
             if isinstance(each, Problem) and (each.holds is None or each.holds())
-        }
+        ]
+
+
+def _key(problem: Problem) -> tuple[str, str]:
+    """What a problem of a rule is about, on one prim."""
+    return problem.at.GetName() if isinstance(problem.at, Usd.Property) else "", problem.subject
 
 
 def _is_made_of(prim: Any, spec: Any) -> bool:

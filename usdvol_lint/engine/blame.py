@@ -44,6 +44,7 @@ class Blame(NamedTuple):
     `property` and `subject` tell what it is about at the spec; `clip` is the clip that holds the
     value where the spec is the one with the clips, `asset` a path to look for in the spec.
     `clean` is the name of the layer that has no such problem by itself: the spec is what makes one.
+    `beside` are the specs of the weaker opinions that it contradicts.
     """
 
     spec: Any | None
@@ -54,6 +55,7 @@ class Blame(NamedTuple):
     clip: str | None = None
     asset: str | None = None
     clean: str = ""
+    beside: tuple[Any, ...] = ()
 
 
 class Blaming:
@@ -89,15 +91,20 @@ class Blaming:
             others.append((edit.prim, Blame(edit.spec, clean=_name_beside(edit.spec, edit.kept))))
         if own.spec is None or not others:
             return own
-        opinions = [Opinion(get_prim(each), blame.spec) for each, blame in others]
-        found = decisive([Opinion(prim, own.spec), *opinions])
+        opinions = [
+            Opinion(prim, own.spec),
+            *(Opinion(get_prim(each), blame.spec) for each, blame in others),
+        ]
+        found = decisive(opinions)
+        beside = tuple(each.spec for each in opinions if each.spec != found.spec)
         if found.spec == own.spec:
-            return own
+            return own._replace(beside=beside)
         theirs = next((blame for _, blame in others if blame.spec == found.spec), Blame(found.spec))
         path = "" if problem.subject else _path_of(at, prim, found.spec)
         name = theirs.property if theirs.clip else _property_of(found.spec)
         name = name or (None if path else own.property)
-        return theirs._replace(property=name, subject=problem.subject or path or theirs.subject)
+        subject = problem.subject or path or theirs.subject
+        return theirs._replace(property=name, subject=subject, beside=beside)
 
     def _standing(self, relationship: Any) -> tuple[Blame, Standing] | None:
         """What is to blame for where a relationship leads, and how it stands."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from pxr import Sdf
 
 from usdvol_lint.engine.alone import Alone
+from usdvol_lint.engine.already import Already
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer, way_to
 from usdvol_lint.facts.usd.calls import (
     get_parent,
@@ -47,6 +48,7 @@ class Pieces:
 
     def __init__(self, alone: Alone) -> None:
         self._alone = alone
+        self.already = Already(alone)
         self._known: dict[tuple[str, str, Any], _Brought] = {}
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
         self._known_edits: dict[tuple[str, Any], list[tuple[Any, Any]]] = {}
