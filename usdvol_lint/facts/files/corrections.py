@@ -123,6 +123,8 @@ def correct_case(disk: Disk, path: str, authored: str) -> str | None:
         package, inner = Ar.SplitPackageRelativePathOuter(path)
         actual = disk.listing(package).by_case.get(inner.lower(), inner)
         return _with_inner(authored, inner, actual) if actual != inner else None
+    if not disk.has_folder(os.path.dirname(path), os.path.dirname(authored)):
+        return None  # as for many files that lie in one
     count = count_shared(authored, path)
     found = disk.in_case(path, count)
     if found is None or found == path:

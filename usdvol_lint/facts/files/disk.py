@@ -10,7 +10,7 @@ from pxr import Ar
 
 from usdvol_lint.config import Storage
 from usdvol_lint.facts.files.folders import Folders, Listing
-from usdvol_lint.facts.files.paths import is_packaged
+from usdvol_lint.facts.files.paths import count_shared, is_packaged
 from usdvol_lint.facts.files.places import folders_above
 from usdvol_lint.facts.files.states import FileFault
 from usdvol_lint.facts.files.storage import Whereabouts
@@ -42,6 +42,7 @@ class Disk:
         self._in_case: dict[tuple[str, int], str | None] = {}
         self._siblings: dict[str, tuple[str, ...]] = {}
         self._tried: set[tuple[str, str]] = set()
+        self._has_folder: dict[tuple[str, str], bool] = {}
         self._files: dict[str, bool] = {}
         self._links: dict[str, bool] = {}
         self._names_left = _NAMES_TRIED
@@ -135,6 +136,14 @@ class Disk:
         for key in reversed(unknown):
             actual = self._in_case[key] = self._with_name_in_case(actual, key[0])
         return actual
+
+    def has_folder(self, folder: str, authored: str) -> bool:
+        """Whether a folder is there in any case of the names that its path as authored has."""
+        key = folder, authored
+        if key not in self._has_folder:
+            found = self.in_case(folder, count_shared(authored, folder))
+            self._has_folder[key] = found is not None
+        return self._has_folder[key]
 
     def _with_name_in_case(self, folder: str | None, path: str) -> str | None:
         """The name of a path as a folder spells it, behind that of the folder."""

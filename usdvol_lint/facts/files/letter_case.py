@@ -12,7 +12,7 @@ from usdvol_lint.facts.files.assets import Affected, AssetSample, AssetSamples
 from usdvol_lint.facts.files.corrections import correct_case
 from usdvol_lint.facts.files.disk import Disk
 from usdvol_lint.facts.files.origins import SampleLayers
-from usdvol_lint.facts.files.paths import count_shared, split_path
+from usdvol_lint.facts.files.paths import count_shared, is_packaged, split_path
 from usdvol_lint.facts.files.states import ON_DISK
 
 
@@ -30,6 +30,10 @@ def recased(paths: AssetSamples, missing: Affected | None, disk: Disk) -> Recase
 
     Paths that resolve are looked at only where the file system ignores case.
     """
+    if missing and len(paths.samples) == 1 and not is_packaged(missing.place):
+        authored, _ = split_path(missing.first.path)
+        if not disk.has_folder(os.path.dirname(missing.place), authored):
+            return None  # as for many files that lie in one
     folders = _Folders(paths, missing, disk)
     affected = paths.affected(filter(folders.have_another_case, paths.samples))
     if affected is None:
