@@ -10,11 +10,16 @@ _LOOKED_AT = 4 * _LONGEST
 _BEFORE = 60
 """How many characters before the mark are shown where a line is too long to be shown whole."""
 _MORE = "…"
+_SPACE = ord(" ")
 
 
 def excerpt(data: bytes, start: int, offset: int) -> Excerpt:
     """The line that begins at `start`, and the column of `offset` in what is shown of it."""
     end = data.find(b"\n", offset, offset + _LOOKED_AT)
+    line = data[start:end]
+    if 0 <= end <= start + _LONGEST and line.isascii() and data[offset] > _SPACE:  # nearly always
+        text = line.decode("ascii").lstrip()
+        return Excerpt(text.rstrip("\r"), offset - end + len(text) + 1)
     before = data[start:offset].decode("utf-8", "replace").removeprefix("\ufeff").lstrip()
     after = data[offset : end if end >= 0 else offset + _LOOKED_AT].decode("utf-8", "replace")
     after = after.rstrip("\r")

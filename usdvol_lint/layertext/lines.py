@@ -124,12 +124,16 @@ class TextLayer:
 
     def _position(self, offset: int, mark: int | None) -> Position:
         """The position of an offset; `mark` is where its value begins, if that is in its line."""
-        start = self._data.rfind(b"\n", 0, offset) + 1
-        text = self._data[start:offset].decode("utf-8", "replace")
-        column = len(text.removeprefix("\ufeff")) + 1
-        if mark is None or self._data.find(b"\n", offset, mark) >= 0:
+        data = self._data
+        start = data.rfind(b"\n", 0, offset) + 1
+        if mark is None or data.find(b"\n", offset, mark) >= 0:
             mark = offset
-        return Position(self._line(offset), column, excerpt(self._data, start, mark))
+        before = data[start:offset]
+        if before.isascii():
+            column = offset - start + 1
+        else:
+            column = len(before.decode("utf-8", "replace").removeprefix("\ufeff")) + 1
+        return Position(self._line(offset), column, excerpt(data, start, mark))
 
     def _line(self, offset: int) -> int:
         before = self._lines_before_block
