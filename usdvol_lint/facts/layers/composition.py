@@ -144,5 +144,7 @@ def _as_walked(lacking: Iterable[MissingLayer | EmptyArc]) -> frozenset[Any]:
 
 
 def _is_at_or_below(prim: Any, paths: frozenset[Any]) -> bool:
+    if not paths:
+        return False  # nearly always
     path = in_prototype(prim).GetPath()
     return not paths.isdisjoint([Sdf.Path.absoluteRootPath, *path.GetPrefixes()])

@@ -98,6 +98,7 @@ class FieldBindings(NamedTuple):
     def marks(self, volume: Any) -> frozenset[Enum]:
         """The states of all targets, and what else preconditions test (`BindingMark`)."""
         marks: set[Enum] = set()
+        own = get_path(volume)
         for _, name, is_relationship, targets, emptiness, *_ in self.bindings:
             if emptiness:
                 marks.add(emptiness)
@@ -107,7 +108,7 @@ class FieldBindings(NamedTuple):
                 marks.add(BindingMark.SEVERAL_TARGETS)
             else:
                 marks.add(targets[0].state)
-                if not has_prefix(targets[0].path, get_path(volume)):
+                if not has_prefix(targets[0].path, own):
                     marks.add(BindingMark.OUTSIDE)
             if ":" in name:
                 marks.add(BindingMark.NESTED)

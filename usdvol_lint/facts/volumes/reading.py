@@ -84,22 +84,22 @@ class BindingReader:
         for prop in get_properties(volume):
             name = get_name(prop)
             if name.startswith(schema.FIELD_NAMESPACE):
-                bindings.append(self._binding(prop, name[len(schema.FIELD_NAMESPACE) :], may_lack))
+                name = name[len(schema.FIELD_NAMESPACE) :]
+                bindings.append(self._binding(volume, prop, name, may_lack))
             elif isinstance(prop, Usd.Relationship):
                 others.append(prop)
         undeclared = tuple(_undeclared(others, bindings, self._kinds)) if others else ()
         return FieldBindings(tuple(bindings), undeclared)
 
-    def _binding(self, prop: Any, name: str, may_lack: MayLack) -> Binding:
+    def _binding(self, volume: Any, prop: Any, name: str, may_lack: MayLack) -> Binding:
         if not isinstance(prop, Usd.Relationship):
             return Binding(prop, name, False)
-        stage = get_stage(prop)
         paths = self._forwarding.targets(prop)
         if paths:
-            volume = prop.GetPrim()
             targets = tuple([read_target(volume, path, self._kinds, may_lack) for path in paths])
             return Binding(prop, name, True, targets)
         emptiness, lost = why_empty(prop, self._reasons)
+        stage = get_stage(prop)
         forwards_to = "".join(shown_path(stage, path) for path in prop.GetTargets()[:1])
         return Binding(prop, name, True, (), emptiness, lost, forwards_to)
 
