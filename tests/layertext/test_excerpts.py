@@ -63,5 +63,6 @@ def test_a_long_line_is_shown_around_its_mark(
 
 def test_characters_of_several_bytes_are_not_cut() -> None:
     """Where a line goes on for long, no more of it is read than can be shown."""
+    assert found(f"{'煙' * 100}¦{'é' * 60}") == Excerpt("煙" * 100 + "é" * 60, 101)
     shown = found(f"¦{'煙' * 5000}")
     assert shown == Excerpt("煙" * 159 + "…", 1)
