@@ -31,8 +31,8 @@ _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
 _IDLE = 0.05
 """Seconds after which a worker without a stage looks whether there will be any more."""
-_AHEAD = int(__import__("os").environ.get("AH", "32"))
-"""How many small stages a worker has at most beside the one that it checks."""
+_AHEAD = 64
+"""How many small stages a worker has at most beside those that it checks: it never waits."""
 
 _Stage: TypeAlias = tuple[str, Answer]
 
