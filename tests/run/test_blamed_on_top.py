@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 from identities import CLEAN, LAYER, META, SPLATS, STAGE, Find, refers
-from process import write
+from process import ASSETS, write
 
 CENTIMETRES = LAYER.replace("metersPerUnit = 1", "metersPerUnit = 0.01") + CLEAN
 SCALED = 'float3 xformOp:scale = (0.01, 0.01, 0.01)\ntoken[] xformOpOrder = ["xformOp:scale"]\n'
@@ -86,3 +87,68 @@ def test_where_no_edit_makes_it_wrong_the_sublayer_stays_to_blame(
     write(base, one=on_top("./hiding.usda"))
     [cause] = find("shots/one.usda", rules=("STG009",))
     assert (cause.source.layer, cause.source.path) == ("shots/wrong.usda", "/set")
+
+
+FIELD = CLEAN[CLEAN.index("    def OpenVDBAsset") : CLEAN.rindex("}")]
+SHIFT = (
+    'double3 xformOp:translate = (10, 0, 0)\nuniform token[] xformOpOrder = ["xformOp:translate"]'
+)
+APART = f"""{STAGE}
+def Volume "tank"
+{{
+    float3[] extent = [(0, 0, 0), (1, 1, 1)]
+    rel field:density = </fields/density>
+    {SHIFT}
+}}
+def Xform "fields"
+{{
+    {SHIFT}
+{FIELD}
+}}
+class "_look"
+{{
+}}
+def Scope "set" (
+    inherits = </_look>
+)
+{{
+    rel unbound = </tank>
+}}
+"""
+STOPPED = 'over "fields"\n{\ntoken[] xformOpOrder = []\n}\n'
+GONE = 'over "tank" (\nactive = false\n)\n{\n}\n'
+RETYPED = 'def OpenVDBAsset "set"\n{\n}\n'
+
+
+@pytest.mark.parametrize(
+    ("said", "code", "path", "property_"),
+    [
+        (STOPPED, "VOL013", "/fields", "xformOpOrder"),  # of a prim that the problem is not at
+        (GONE, "VOL012", "/", None),  # of another prim, which no rule tells of
+        (RETYPED, "FLD008", "/set", None),  # by the type alone
+    ],
+)
+def test_an_edit_of_another_prim_is_to_blame_and_one_of_metadata(
+    said: str, code: str, path: str, property_: str | None, find: Find, shots: Path
+) -> None:
+    measured = APART.replace("rel unbound = </tank>", "float3[] extent = [(0, 0, 0), (1, 1, 1)]")
+    write(shots, apart=measured, one=on_top("./apart.usda", said=said))
+    shutil.copy(ASSETS / "cloud.vdb", shots)
+    assert find("shots/apart.usda", rules=(code,)) == []
+    [cause] = find("shots/one.usda", rules=(code,))
+    source = cause.source
+    assert (source.layer, source.path, source.property) == ("shots/one.usda", path, property_)
+    assert cause.first.site.line == {"VOL013": 10, "VOL012": 6, "FLD008": 8}[code]
+    write(shots, again=on_top("./one.usda", said=said))
+    assert [each.source for each in find("shots/again.usda", rules=(code,))] == [source]
+
+
+def test_what_is_said_beside_a_piece_pulls_no_blame_from_its_arc(find: Find, shots: Path) -> None:
+    piece = STAGE + refers("density", "./tank.usda@</tank/density>").replace(">@", ">")
+    write(shots, tank=LAYER + CLEAN, base=piece)
+    note = 'over "density"\n{\ncustom string note = "x"\n}\n'
+    write(shots, one=on_top("./base.usda", said=note))
+    [alone] = find("shots/base.usda", rules=("VOL012",))
+    assert (alone.source.layer, alone.source.path) == ("shots/base.usda", "/density")
+    [cause] = find("shots/one.usda", rules=("VOL012",))
+    assert cause.fingerprint == alone.fingerprint

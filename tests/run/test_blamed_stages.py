@@ -32,8 +32,9 @@ def test_who_names_a_sublayer_loses_what_it_says(
     write(shots.parent / "assets", tank=tank, bare=LAYER + asset)
     write(shots, one=on_top("../assets/tank.usda"), two=on_top("./one.usda"))
     write(shots, right=on_top("../assets/tank.usda", said), bare=on_top("../assets/bare.usda"))
+    write(shots, again=on_top("./one.usda") + asset)
     assert find("assets/tank.usda", "shots/right.usda", rules=(code,)) == []
-    [cause] = find("shots/one.usda", "shots/two.usda", rules=(code,))
+    [cause] = find("shots/one.usda", "shots/two.usda", "shots/again.usda", rules=(code,))
     source = cause.source
     assert (source.layer, source.path, source.subject) == ("shots/one.usda", "/", subject)
     [bare] = find("shots/bare.usda", "assets/bare.usda", rules=(code,))

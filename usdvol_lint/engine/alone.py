@@ -87,7 +87,7 @@ class Alone:
     def _found(self, rule: Rule, prim: Any, facts: Facts) -> list[Problem]:
         """What a rule finds on a prim, asked about this one, or about the stage."""
         asked = [facts.stage.GetPseudoRoot()] if STAGE in rule.on else []
-        if rule.on != (STAGE,):
+        if not facts.kinds.names(facts.kinds.key(prim)).isdisjoint(rule.on):
             asked.append(prim)
         for each in asked:
             if (rule.code, each) not in self._known:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import takewhile
 from typing import Any, NamedTuple
 
@@ -215,8 +216,10 @@ class Blaming:
 def on_other(spec: Any, problem: Problem | NotChecked, clean: Any) -> Blame:
     """The blame of another spec than the `clean` one that a problem is of: it makes that wrong."""
     path = _path_of(problem.at, get_prim(problem.at), spec)
-    subject = problem.subject or path
-    return Blame(spec, _property_of(spec), subject, clean=_name_beside(spec, clean))
+    subject, asset = problem.subject or path, None
+    if spec.path == Sdf.Path.absoluteRootPath:
+        asset = _sublayer_path(spec.layer, (clean.layer,))
+    return Blame(spec, _property_of(spec), subject, asset=asset, clean=_name_beside(spec, clean))
 
 
 def _name_beside(spec: Any, other: Any) -> str:
@@ -245,11 +248,13 @@ def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
 def _sublayer_with(at: Any, layer: Any) -> str | None:
     """The path by which a layer names the sublayer with the strongest value of a property."""
     stack = at.GetPropertyStack() if isinstance(at, Usd.Property) else ()
-    holders = [spec.layer for spec in stack if has_value(spec)][:1]
-    for path in layer.subLayerPaths:
-        if Sdf.Layer.FindRelativeToLayer(layer, path) in holders:
-            return str(path)
-    return None
+    return _sublayer_path(layer, [spec.layer for spec in stack if has_value(spec)][:1])
+
+
+def _sublayer_path(layer: Any, wanted: Sequence[Any]) -> str | None:
+    """The path by which a layer names one of some others as a sublayer."""
+    paths = layer.subLayerPaths
+    return next((str(p) for p in paths if Sdf.Layer.FindRelativeToLayer(layer, p) in wanted), None)
 
 
 def _blocked(problem: Problem | NotChecked) -> Any | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Callable, Container, Iterator
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -10,6 +10,7 @@ from pxr import Sdf
 
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.engine.already import Already
+from usdvol_lint.engine.restating import keys_of
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer, way_to
 from usdvol_lint.facts.usd.calls import (
     get_parent,
@@ -82,8 +83,8 @@ class Pieces:
             if not self._alone.is_clean(rule, root_layer(arc.node), place, spec):
                 break
             found = arc
-        if not found or found is not arcs[0]:
-            return found and found.spec
+        if not found or found is not arcs[0] or not is_whole:
+            return found and found.spec  # what stands beside a piece is lacking, whatever is edited
         return _edit(prim, self._local(problem), _levels_below(found)) or found.spec
 
     def _on_top(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
@@ -96,12 +97,19 @@ class Pieces:
         edits, place = self._known_edits[path, layer], Sdf.Path(path)
         if not edits or not self._alone.is_clean(rule, layer, place, spec):
             return None
-        wrong = (
-            edit
-            for above, edit in edits
-            if above == root or not self._alone.is_clean(rule, above, place, spec)
-        )
-        return next(wrong, None)
+        for above, edit in edits:
+            if above == root or not self._alone.is_clean(rule, above, place, spec):
+                return edit or self._edit_beside(problem, layer, above) or above.pseudoRoot
+        return None
+
+    def _edit_beside(self, problem: Problem, layer: Any, above: Any) -> Any | None:
+        """What comes in with a layer above, of a prim that the problem's is held against."""
+        for other in problem.against:
+            at = other[0] if isinstance(other, tuple) else getattr(other, "attribute", other)
+            for each, edit in _edits_on_top(get_prim(at), layer):
+                if edit and each == above:
+                    return edit
+        return None
 
     def _at(self, problem: Problem, spec: Any, layer: Any, path: str) -> _Brought:
         """How the layer of a spec comes to a path: the same for all properties of its prim."""
@@ -162,6 +170,10 @@ def _has_others(layer: Any) -> bool:
     return any(islice(defined, 1, None))
 
 
+def _properties(spec: Any) -> Any:
+    return spec.properties
+
+
 def _levels_below(arc: Crossing) -> int:
     """How many prims what an arc brings lies below its top."""
     paths = (arc.node.path, arc.node.GetPathAtIntroduction())
@@ -169,10 +181,12 @@ def _levels_below(arc: Crossing) -> int:
     return int(below - top)
 
 
-def _edit(prim: Any, layers: Container[Any], levels: int) -> Any | None:
+def _edit(
+    prim: Any, layers: Container[Any], levels: int, counts: Callable[[Any], Any] = _properties
+) -> Any | None:
     """What some layers say of the properties of a prim, or of the next one up so many levels."""
     for _ in range(levels + 1):
-        own = [each for each in get_prim_stack(prim) if each.layer in layers and each.properties]
+        own = [each for each in get_prim_stack(prim) if each.layer in layers and counts(each)]
         if own:
             properties = [each for spec in own for each in spec.properties]
             return properties[0] if len(properties) == 1 else own[0]
@@ -180,17 +194,22 @@ def _edit(prim: Any, layers: Container[Any], levels: int) -> Any | None:
     return None
 
 
-def _edits_on_top(prim: Any, layer: Any) -> Iterator[tuple[Any, Any]]:
+def _edits_on_top(prim: Any, layer: Any) -> Iterator[tuple[Any, Any | None]]:
     """What layers of the stage say of a prim, or of those above it, on top of one of its sublayers.
 
     Each layer that has the sublayer, the next one first, with the edit that comes in there: its own
-    or one of a sublayer on top of that.
+    or one of a sublayer on top of that; None where what they say is of other prims.
     """
     order = get_stage(prim).GetLayerStack()
     way = [tree.layer for tree in way_to(index_of(prim).rootNode, layer)]
     levels = get_path(prim).pathElementCount - 1
     for below, above in pairwise(reversed(way)):
         new = order[order.index(above) : order.index(below)]
-        edits = (_edit(prim, (each,), levels) for each in reversed(new))
-        if edit := next(filter(None, edits), None):
-            yield above, edit
+        if any(each.rootPrims for each in new):
+            edits = (_edit(prim, (each,), levels, _says) for each in reversed(new))
+            yield above, next(filter(None, edits), None)
+
+
+def _says(spec: Any) -> bool:
+    """Whether a spec of a prim says more than that there is one."""
+    return bool(spec.properties or keys_of(spec))

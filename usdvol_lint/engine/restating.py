@@ -90,13 +90,13 @@ def first_alike(prim: Any, spec: Any, of: object = None) -> Any:
     if path == Sdf.Path.absoluteRootPath:
         return spec
     spec = spec.layer.GetPrimAtPath(path)  # a variant has a prim's spec too
-    keys = (of,) if isinstance(of, str) and spec.HasInfo(of) else _keys_of(spec)
+    keys = (of,) if isinstance(of, str) and spec.HasInfo(of) else keys_of(spec)
     while not is_pseudo_root(prim) and spec not in get_prim_stack(prim):
         prim = get_parent(prim)
     return _first_of(spec, get_prim_stack(prim), keys) if keys else spec
 
 
-def _keys_of(spec: Any) -> tuple[str, ...]:
+def keys_of(spec: Any) -> tuple[str, ...]:
     """The metadata by which a prim's spec says something; an `over` says nothing by being one."""
     is_over = spec.specifier == Sdf.SpecifierOver
     return tuple(key for key in spec.ListInfoKeys() if not is_over or key != SPECIFIER)
