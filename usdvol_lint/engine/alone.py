@@ -87,8 +87,7 @@ class Alone:
     def _found(self, rule: Rule, prim: Any, facts: Facts) -> list[Problem]:
         """What a rule finds on a prim, asked about this one, or about the stage."""
         asked = [facts.stage.GetPseudoRoot()] if STAGE in rule.on else []
-        if not facts.kinds.names(facts.kinds.key(prim)).isdisjoint(rule.on):
-            asked.append(prim)
+        asked += _asked_about(rule, prim, facts)
         for each in asked:
             if (rule.code, each) not in self._known:
                 self._known[rule.code, each] = self._run(rule, each, facts)
@@ -102,6 +101,15 @@ class Alone:
             for each in found
             if isinstance(each, Problem) and (each.holds is None or each.holds())
         ]
+
+
+def _asked_about(rule: Rule, prim: Any, facts: Facts) -> list[Any]:
+    """The prim, or the next one above it that a rule is handed and may find something below."""
+    while not is_pseudo_root(prim):
+        if not facts.kinds.names(facts.kinds.key(prim)).isdisjoint(rule.on):
+            return [prim]
+        prim = get_parent(prim)
+    return []
 
 
 def _key(problem: Problem) -> tuple[str, str]:
