@@ -67,6 +67,8 @@ class Pieces:
         None if that is to blame itself: nearly always, since its layer is brought as a whole, or
         opened alone has the problem too.
         """
+        if not rule.on:
+            return None  # what the engine tells, no prim is handed to
         layer = spec.layer
         if layer in (self._own or self._local(problem)):
             return self._on_top(rule, problem, spec, path)
