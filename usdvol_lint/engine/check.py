@@ -25,7 +25,7 @@ from usdvol_lint.rule import STAGE, NotChecked, Problem, Rule
 
 _UNSTAMPED = 0.05
 """So much of what was found may be lost if the process dies, before it was made findings of."""
-_MOST_UNSTAMPED = 100
+_MOST_UNSTAMPED = 300
 
 
 class StageCheck:

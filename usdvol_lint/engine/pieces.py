@@ -54,6 +54,7 @@ class Pieces:
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
         self._known_edits: dict[tuple[str, Any], list[tuple[Any, Any]]] = {}
         self._own: frozenset[Any] | None = None
+        self._root: Any | None = None
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
@@ -91,8 +92,8 @@ class Pieces:
 
     def _on_top(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
         """What stronger layers of the stage say, where a sublayer by itself has no such problem."""
-        layer, root = spec.layer, get_stage(problem.at).GetRootLayer()
-        if path == "/" or layer == root:
+        layer = spec.layer
+        if layer == self._root or path == "/":
             return None
         if (path, layer) not in self._known_edits:
             self._known_edits[path, layer] = list(_edits_on_top(get_prim(problem.at), layer))
@@ -100,7 +101,7 @@ class Pieces:
         if not edits or not self._alone.is_clean(rule, layer, place, spec):
             return None
         for above, edit in edits:
-            if above == root or not self._alone.is_clean(rule, above, place, spec):
+            if above == self._root or not self._alone.is_clean(rule, above, place, spec):
                 return edit or self._edit_beside(problem, layer, above) or above.pseudoRoot
         return None
 
@@ -124,7 +125,8 @@ class Pieces:
     def _local(self, problem: Problem) -> frozenset[Any]:
         """The root layer and its sublayers, which no arc brings."""
         if self._own is None:
-            self._own = frozenset(get_stage(problem.at).GetLayerStack())
+            stage = get_stage(problem.at)
+            self._own, self._root = frozenset(stage.GetLayerStack()), stage.GetRootLayer()
         return self._own
 
     def _brought(self, problem: Problem, spec: Any, path: str) -> _Brought:
