@@ -149,15 +149,18 @@ class Pool:
         taken: deque[_Stage] = deque()
         seconds = 0.0
         while not self._closed:
+            before = len(taken)
             self._take(taken, seconds)
             if not taken:
                 if self._is_done():
                     return
                 continue
+            new = len(taken) > before
             path, answer = stage = taken.popleft()
+            following = [each for each, _ in taken] if new else ()
             began = time.perf_counter()
             try:
-                report = worker.lint(path, limit, advance, [each for each, _ in taken])
+                report = worker.lint(path, limit, advance, following)
             except UsageError as error:
                 return self._give_up(error, stage, *taken)
             except Exception as error:  # raised again where the result is asked for
