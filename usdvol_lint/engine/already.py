@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from typing import TYPE_CHECKING, Any
 
 from usdvol_lint.engine.alone import Alone
@@ -23,6 +24,8 @@ class Already:
 
     def __init__(self, alone: Alone) -> None:
         self._alone = alone
+        self._blaming: dict[Any, Blaming] = defaultdict(Blaming)
+        """By layer: each is a stage of its own, of which some is looked up once."""
 
     def blame(self, rule: Rule, problem: Problem, blame: Blame) -> Blame | None:
         """What is to blame in the layer of the other side; None where that is clean by itself."""
@@ -43,7 +46,7 @@ class Already:
             layer = other.layer if is_sublayer else root_layer(node)
             place = node.path.StripAllVariantSelections()
             alike = self._alone.alike(rule, layer, place, problem)
-            found = alike and Blaming().blame(alike)
+            found = alike and self._blaming[layer].blame(alike)
             if found:
                 offset = node.mapToRoot.timeOffset
                 return found._replace(offset=offset * found.offset if found.offset else None)

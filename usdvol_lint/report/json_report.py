@@ -23,10 +23,10 @@ SCHEMA_VERSION = "2.0"
 # Larger whole numbers are inexact in readers that take all JSON numbers for doubles.
 _LARGEST_INTEGER = 2**53
 
-# Indented JSON is written by Python code, which takes ten times as long as what C writes at once:
-# so each stage and each cause is a line.
 _MOST_TEXTS = 4096
 """So many texts that recur, such as names of properties, are kept as they are written."""
+# Indented JSON is written by Python code, which takes ten times as long as what C writes at once:
+# so each stage and each cause is a line.
 _ENCODE = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
 
 _LABELS = {severity: severity.label for severity in Severity}
