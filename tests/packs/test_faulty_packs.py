@@ -68,6 +68,22 @@ def test_what_is_no_text_is_a_fault_of_the_rule(problem: str, tmp_path: Path) ->
     )
 
 
+def test_what_no_finding_can_be_made_of_takes_no_other_along(tmp_path: Path) -> None:
+    """Findings are made in batches: those beside it stand, and the rule failed on one prim."""
+    pack = tmp_path / "pack"
+    pack.mkdir()
+    severity = "'high' if volume.GetName() == 'v90' else None"
+    problem = f"'seen', at=volume, severity={severity}"
+    (pack / "faulty.py").write_text(RULE.format(problem=problem), encoding="utf-8")
+    volumes = "".join(f'def Volume "v{number}"\n{{\n}}\n' for number in range(100))
+    (tmp_path / "many.usda").write_text(f"#usda 1.0\n{volumes}", encoding="utf-8")
+    shown = ("--select", "FLT", "--output-format", "json", "many.usda")
+    ran = run("--isolated", "--pack", pack, *shown, cwd=tmp_path)
+    found = [(each["code"], each["prim"]) for each in ran.stages[0]["findings"]]
+    seen = [("FLT001", f"/v{number}") for number in range(100) if number != 90]
+    assert sorted(found) == sorted([*seen, ("LNT002", "/v90")])
+
+
 @pytest.mark.parametrize(
     ("text", "encoding"),
     [
