@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from usdvol_lint.config import Config
 from usdvol_lint.engine import lockstep
+from usdvol_lint.engine.assign import Assignment
+from usdvol_lint.engine.engine import Engine
 from usdvol_lint.engine.lockstep import Course, Steps, take
 from usdvol_lint.model import StageReport, Status
+from usdvol_lint.packs.activation import activate
+from usdvol_lint.packs.catalog import Catalog
 
 
 def report(path: str) -> StageReport:
@@ -129,3 +135,28 @@ def test_the_time_of_a_stage_is_its_own(monkeypatch: pytest.MonkeyPatch) -> None
         "a": {"open": pytest.approx(0.001), "check": pytest.approx(0.004)},
         "b": {"open": pytest.approx(0.004), "check": pytest.approx(0.016)},
     }
+
+
+def test_what_was_found_before_usd_raises_is_kept(
+    catalog: Catalog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also what no finding was made of yet."""
+    fields = "".join(
+        f'def OpenVDBAsset "f{number}"\n{{\nasset filePath = @./gone.vdb@\n}}\n'
+        for number in range(60)
+    )
+    stage = tmp_path / "stage.usda"
+    stage.write_text(f"#usda 1.0\n{fields}", encoding="utf-8")
+    pairs = Assignment.pairs
+
+    def raising(*asked: Any) -> Iterator[Any]:
+        yield from pairs(*asked)
+        raise UnicodeDecodeError("utf-8", b"\xff", 0, 1, "no")
+
+    config = Config(select=("AST002",))
+    whole = Engine(catalog.rules, activate(config, catalog)).lint(str(stage)).findings
+    monkeypatch.setattr(Assignment, "pairs", raising)
+    cut = Engine(catalog.rules, activate(config, catalog)).lint(str(stage)).findings
+    assert len(whole) == 60
+    assert set(whole) < set(cut)
+    assert {each.code for each in set(cut) - set(whole)} == {"LNT001"}
