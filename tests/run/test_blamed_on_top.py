@@ -125,7 +125,7 @@ RETYPED = 'def OpenVDBAsset "set"\n{\n}\n'
     [
         (STOPPED, "VOL013", "/fields", "xformOpOrder"),  # of a prim that the problem is not at
         (GONE, "VOL012", "/", None),  # of another prim, which no rule tells of
-        (RETYPED, "FLD008", "/set", None),  # by the type alone
+        (RETYPED, "FLD008", "/set", "extent"),  # by the type alone
     ],
 )
 def test_an_edit_of_another_prim_is_to_blame_and_one_of_metadata(

@@ -64,6 +64,15 @@ class Alone:
             return None
         return next((each for each in found if _key(each) == _key(problem)), None)
 
+    def sleeps(self, layer: Any, path: Any) -> bool:
+        """Whether a prim of a layer, or one above it, is inactive, so that no rule looks at it."""
+        facts = self._opened(layer)
+        if not facts:
+            return False
+        while not (prim := facts.stage.GetPrimAtPath(path)):
+            path = path.GetParentPath()
+        return not prim.IsActive()
+
     def _prim_at(self, facts: Facts | None, path: Any) -> Any | None:
         """The drawn prim at a path, or the one in a prototype that it shows."""
         prim = facts.stage.GetPrimAtPath(path) if facts else None

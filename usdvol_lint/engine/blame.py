@@ -215,11 +215,13 @@ class Blaming:
 
 def on_other(spec: Any, problem: Problem | NotChecked, clean: Any) -> Blame:
     """The blame of another spec than the `clean` one that a problem is of: it makes that wrong."""
-    path = _path_of(problem.at, get_prim(problem.at), spec)
-    subject, asset = problem.subject or path, None
-    if spec.path == Sdf.Path.absoluteRootPath:
-        asset = _sublayer_path(spec.layer, (clean.layer,))
-    return Blame(spec, _property_of(spec), subject, asset=asset, clean=_name_beside(spec, clean))
+    at, prim = problem.at, get_prim(problem.at)
+    path = _path_of(at, prim, spec)
+    name = _property_of(spec) or (None if path or at == prim else get_name(at))
+    subject = " ".join(filter(None, (path, problem.subject)))
+    is_root = spec.path == Sdf.Path.absoluteRootPath
+    asset = _sublayer_path(spec.layer, (clean.layer,)) if is_root else None
+    return Blame(spec, name, subject, asset=asset, clean=_name_beside(spec, clean))
 
 
 def _name_beside(spec: Any, other: Any) -> str:

@@ -11,6 +11,7 @@ from pxr import Sdf
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.engine.already import Already
 from usdvol_lint.engine.restating import keys_of
+from usdvol_lint.engine.waking import waking
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer, way_to
 from usdvol_lint.facts.usd.calls import (
     get_parent,
@@ -32,11 +33,13 @@ class _Brought(NamedTuple):
     """How an arc brings a layer.
 
     `is_whole` is whether a prim at its top stands above what it brings, on the stage too, and
-    `is_edited` whether the stage's own layers say something of it or of what is below.
+    `is_edited` whether the stage's own layers say something of it or of what is below.  `woken`
+    is the spec that makes active what another one deactivates.
     """
 
     is_whole: bool
     is_edited: bool
+    woken: Any | None = None
 
 
 class Pieces:
@@ -52,7 +55,7 @@ class Pieces:
         self.already = Already(alone)
         self._known: dict[tuple[str, str, Any], _Brought] = {}
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
-        self._known_edits: dict[tuple[str, Any], list[tuple[Any, Any]]] = {}
+        self._known_edits: dict[tuple[str, Any], tuple[list[tuple[Any, Any]], Any | None]] = {}
         self._own: frozenset[Any] | None = None
         self._root: Any | None = None
 
@@ -73,17 +76,18 @@ class Pieces:
         layer = spec.layer
         if layer in (self._own or self._local(problem)):
             return self._on_top(rule, problem, spec, path)
-        is_whole, is_edited = self._at(problem, spec, layer, path)
-        if is_whole and not is_edited and not (problem.absent and STAGE in rule.on):
+        is_whole, is_edited, woken = self._at(problem, spec, layer, path)
+        if not (is_edited or woken) and is_whole and not (problem.absent and STAGE in rule.on):
             return None
         prim = get_prim(problem.at)
         arcs = _arcs_to(prim, spec)
+        if woken and arcs and self._alone.sleeps(*_end_of(arcs[-1])):
+            return woken
         if not is_whole and not any(map(_is_to_piece, arcs)):
             return None
         found = None
         for arc in reversed(arcs):
-            place = arc.node.path.StripAllVariantSelections()
-            if not self._alone.is_clean(rule, root_layer(arc.node), place, spec):
+            if not self._alone.is_clean(rule, *_end_of(arc), spec):
                 break
             found = arc
         if not found or found is not arcs[0] or not is_whole:
@@ -96,8 +100,11 @@ class Pieces:
         if layer == self._root or path == "/":
             return None
         if (path, layer) not in self._known_edits:
-            self._known_edits[path, layer] = list(_edits_on_top(get_prim(problem.at), layer))
-        edits, place = self._known_edits[path, layer], Sdf.Path(path)
+            prim = get_prim(problem.at)
+            self._known_edits[path, layer] = list(_edits_on_top(prim, layer)), waking(prim)
+        (edits, woken), place = self._known_edits[path, layer], Sdf.Path(path)
+        if woken and self._alone.sleeps(layer, place):
+            return woken
         if not edits or not self._alone.is_clean(rule, layer, place, spec):
             return None
         for above, edit in edits:
@@ -119,7 +126,8 @@ class Pieces:
         own = str(spec.path)
         key = own if "{" in own else own.partition(".")[0], path, layer
         if key not in self._known_at:
-            self._known_at[key] = self._brought(problem, spec, path)
+            found = self._brought(problem, spec, path)
+            self._known_at[key] = found._replace(woken=waking(get_prim(problem.at)))
         return self._known_at[key]
 
     def _local(self, problem: Problem) -> frozenset[Any]:
@@ -160,6 +168,11 @@ def _arcs_to(prim: Any, spec: Any) -> list[Crossing]:
         if node.path.HasPrefix(path) and spec.layer in node.layerStack.layers:
             return crossings(node)
     return []
+
+
+def _end_of(arc: Crossing) -> tuple[Any, Any]:
+    """The root layer of what an arc brings, and the path there of what is shown."""
+    return root_layer(arc.node), arc.node.path.StripAllVariantSelections()
 
 
 def _is_to_piece(arc: Crossing) -> bool:
