@@ -24,9 +24,14 @@ if TYPE_CHECKING:
     import subprocess
 
 _START_DELAY = 0.3
-"""Seconds before each further worker starts: about what it spends on importing USD."""
+"""Seconds before each further worker starts: about what it spends on importing USD.
+
+Where there is more to do than that for each, none waits so long.
+"""
 _WORTH_ONE = 400
 """For so many stages that wait a further worker starts at once, however small they are."""
+_SOON = 0.05
+"""Seconds after which the first stages tell how long those take that wait."""
 _SHORTEST_READY_LIMIT = 60.0
 """Seconds that a worker has at least to import USD and load the rules."""
 _IDLE = 0.05
@@ -45,7 +50,7 @@ class Pool:
     """Workers behind the interface of an executor: `submit` gives the Answer for a stage.
 
     The first worker starts at once, unless its child process is given; others start only while
-    stages are waiting.
+    stages are waiting, for very many of them as the run begins.
     """
 
     def __init__(self, child: subprocess.Popen[bytes] | None = None) -> None:
@@ -57,6 +62,7 @@ class Pool:
         self._closed = False
         self._unsettled: set[Answer] = set()
         self._why_not: UsageError | None = None
+        self._is_worth_all = threading.Event()
         self.expects_more = False
         """Whether more stages will be submitted, so that a worker waits for them."""
 
@@ -108,6 +114,9 @@ class Pool:
         workers = max(1, min(jobs, owned(), waiting))
         setup = setup._replace(workers=workers)
         self._able = workers
+        delays = [_START_DELAY * max(0, n - waiting // _WORTH_ONE) for n in range(1, workers)]
+        # Some import USD while the first one gets ready.
+        further = [None if delay else self._further() for delay in delays]
         try:
             self._first.prepare(setup, _ready_limit(limit), Memory(memory, workers))
             _in_a_thread(self._work_off, self._first, limit, advance)
@@ -117,27 +126,26 @@ class Pool:
             return self._refuse(error)
         except RuntimeError:
             return self._refuse(UsageError(f"no thread can be started{narrow_limits()}"))
-        for number in range(1, workers):
+        for delay, worker in zip(delays, further, strict=True):
             own = Memory(memory, workers)
-            delay = _START_DELAY * max(0, number - waiting // _WORTH_ONE)
             try:
-                _in_a_thread(self._join_later, delay, setup, limit, advance, own)
+                _in_a_thread(self._join_later, delay, worker, setup, limit, advance, own)
             except RuntimeError:
                 self._give_up(UsageError(f"no thread can be started{narrow_limits()}"))
 
     def _join_later(
         self,
         delay: float,
+        worker: Worker | None,
         setup: Setup,
         limit: float,
         advance: Callable[[int], None],
         memory: Memory,
     ) -> None:
-        time.sleep(delay)
+        self._is_worth_all.wait(delay)
         if self._closed or self._is_done():
             return
-        worker = Worker()
-        self._workers.append(worker)
+        worker = worker or self._further()
         try:
             worker.prepare(setup, _ready_limit(limit), memory)
         except UsageError as error:  # the others do its work, or did it and ended the run
@@ -145,9 +153,15 @@ class Pool:
         else:
             self._work_off(worker, limit, advance)
 
+    def _further(self) -> Worker:
+        worker = Worker()
+        self._workers.append(worker)
+        return worker
+
     def _work_off(self, worker: Worker, limit: float, advance: Callable[[int], None]) -> None:
         taken: deque[_Stage] = deque()
         seconds = 0.0
+        done, first = 0, time.perf_counter()
         while not self._closed:
             before = len(taken)
             self._take(taken, seconds)
@@ -167,7 +181,15 @@ class Pool:
                 self._settle(answer, None, error)
             else:
                 self._settle(answer, report)
-            seconds = time.perf_counter() - began
+            now = time.perf_counter()
+            seconds, done = now - began, done + 1
+            if now - first > _SOON and not self._is_worth_all.is_set():
+                self._weigh((now - first) / done)
+
+    def _weigh(self, seconds: float) -> None:
+        """Has all workers start if stages of so many seconds are left for each."""
+        if seconds * self._waiting.qsize() > _START_DELAY * self._able:
+            self._is_worth_all.set()
 
     def _take(self, taken: deque[_Stage], seconds: float) -> None:
         """Takes a stage, and more to send ahead if the last one took only so many seconds.
