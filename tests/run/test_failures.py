@@ -104,7 +104,7 @@ def test_a_process_that_says_why_it_ends_is_heard() -> None:
     """Even if it has gone before it was asked anything."""
     program = (
         "import pickle, sys; from usdvol_lint.run.protocol import Refusal; "
-        "sys.stdout.buffer.write(pickle.dumps(Refusal('not\\ntoday')))"
+        "sys.stdout.buffer.write(pickle.dumps([Refusal('not\\ntoday')]))"
     )
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
     child = subprocess.Popen([sys.executable, "-P", "-c", program], env=environment(), **pipes)

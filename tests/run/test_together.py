@@ -88,7 +88,7 @@ class Pipe(io.BytesIO):
         self.seek(0)
         messages = []
         while self.tell() < len(self.getvalue()):
-            messages.append(pickle.load(self))
+            messages += pickle.load(self)
         self.sent.append(messages)
         self.seek(0)
         self.truncate()

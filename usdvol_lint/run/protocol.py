@@ -1,4 +1,4 @@
-"""The messages between the parent and a worker process, pickled over two pipes.
+"""The messages between the parent and a worker process, pickled over two pipes, some at a time.
 
 After `Setup` the parent sends paths, and the worker answers each with `Done`, in their order.
 """
@@ -165,3 +165,7 @@ class Advance(NamedTuple):
     """Samples of a long sequence read since the last such message; more messages follow."""
 
     samples: int
+
+
+Reply: TypeAlias = Ready | Refusal | Together | Advance | NewFindings | GivenUp | Done
+"""What a worker says."""

@@ -18,15 +18,18 @@ class Requests:
 
     def __init__(self, pipe: BinaryIO) -> None:
         self._pipe = pipe
-        self._read: SimpleQueue[Any] | None = SimpleQueue()
+        self._read: SimpleQueue[Any] = SimpleQueue()
+        self._reads_on = True
         try:
-            threading.Thread(target=self._read_on, args=(self._read,), daemon=True).start()
+            threading.Thread(target=self._read_on, daemon=True).start()
         except RuntimeError:  # no threads left: it ends once it has answered
-            self._read = None
+            self._reads_on = False
 
     def next(self) -> Any:
         """The next message, as soon as it is there."""
-        message = self._read.get() if self._read else self._load()
+        if not self._reads_on and self._read.empty():
+            self._load()
+        message = self._read.get()
         if isinstance(message, Exception):
             raise message
         return message
@@ -34,18 +37,20 @@ class Requests:
     def more(self, most: int) -> list[Any]:
         """So many messages at most, of those that are there already."""
         messages: list[Any] = []
-        while self._read and len(messages) < most and not self._read.empty():
+        while len(messages) < most and not self._read.empty():
             messages.append(self.next())
         return messages
 
-    def _load(self) -> Any:
+    def _load(self) -> None:
         try:
-            return pickle.load(self._pipe)
+            messages = pickle.load(self._pipe)
         except (EOFError, OSError):
             os._exit(0)
         except Exception as error:  # raised where it is asked for
-            return error
+            messages = (error,)
+        for message in messages:
+            self._read.put(message)
 
-    def _read_on(self, read: SimpleQueue[Any]) -> None:
+    def _read_on(self) -> None:
         while True:
-            read.put(self._load())
+            self._load()

@@ -27,6 +27,7 @@ from usdvol_lint.run.protocol import (
     NewFindings,
     Ready,
     Refusal,
+    Reply,
     Setup,
     Together,
 )
@@ -67,6 +68,7 @@ class Worker:
         self._successor: subprocess.Popen[bytes] | None = None
         self._successor_is_ready_at = 0.0
         self._unanswered: deque[str] = deque()
+        self._came: deque[Reply] = deque()
         self._group = Group()
         self._is_gone = False
         self._is_over = False
@@ -93,6 +95,7 @@ class Worker:
         self._process = child
         self._replies = replies_of(child)
         self._unanswered.clear()
+        self._came.clear()
         self._group.of = 0
         self._is_gone = False
         self._memory.begin()
@@ -252,11 +255,13 @@ class Worker:
         `hear` is called with each message that comes before the reply; unless it `looks`, nobody
         asks meanwhile what memory the child has.
         """
+        if self._came and not messages and not isinstance(self._came[0], _ON_THE_WAY):
+            return self._came.popleft(), False
         self._deadline.set(limit, looks)
         try:
             if messages:
                 self._send(messages)
-            while isinstance(reply := pickle.load(self._replies), _ON_THE_WAY):
+            while isinstance(reply := self._next(), _ON_THE_WAY):
                 hear(reply)
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
             reply = None
@@ -265,10 +270,15 @@ class Worker:
         # Only now: a limit that passed while the reply came has ended the child all the same.
         return reply, self._deadline.is_expired
 
+    def _next(self) -> Reply:
+        """What the child says next, of which it sends some at a time."""
+        if not self._came:
+            self._came.extend(pickle.load(self._replies))
+        return self._came.popleft()
+
     def _send(self, messages: Sequence[Setup | str]) -> None:
         with suppress(OSError):  # a child that has gone may have said why
-            for message in messages:
-                pickle.dump(message, self._stdin, pickle.HIGHEST_PROTOCOL)
+            pickle.dump(messages, self._stdin, pickle.HIGHEST_PROTOCOL)
             self._stdin.flush()
 
     @property

@@ -15,13 +15,13 @@ from usdvol_lint.packs.catalog import load
 from usdvol_lint.rule import Rule
 from usdvol_lint.run.limits import narrow_limits
 from usdvol_lint.run.protocol import (
-    SHORT,
     Advance,
     Done,
     GivenUp,
     NewFindings,
     Ready,
     Refusal,
+    Reply,
     Setup,
     Together,
 )
@@ -158,27 +158,26 @@ class _Answers:
     """What is said of stages: the findings of each as they come, then its report without them.
 
     Of stages that are looked at together it is said together: to wake the parent for each is slow,
-    and if the process goes, they are looked at again.
+    as is a pickle for each, and if the process goes, they are looked at again.
     """
 
     def __init__(self, replies: BinaryIO) -> None:
         self._replies = replies
         self._sent: list[Finding] = []
+        self._held: list[Reply] = []
         self._together = 1
-        self._told = 0.0
 
     def begin(self, stages: int) -> None:
         """Says how many stages are looked at together from now on."""
         self._together = stages
         if stages > 1:
             _send(self._replies, Together(stages))
-            self._told = time.perf_counter()
 
     def part(self) -> None:
         """Says that they are looked at one after the other from now on."""
         if self._together > 1:
             self._together = 1
-            _send(self._replies, Together(1))
+            self._say(Together(1))
 
     def advance(self, samples: int) -> None:
         self._say(Advance(samples))
@@ -196,15 +195,14 @@ class _Answers:
 
     def give_up(self, report: StageReport) -> None:
         """Answers while USD is busy with a stage, and ends the process with that."""
-        _send(self._replies, GivenUp(report))
+        _send(self._replies, *self._held, GivenUp(report))
         os._exit(0)
 
-    def _say(self, message: Advance | NewFindings | Done) -> None:
-        now = time.perf_counter()
-        is_due = self._together <= 1 or now - self._told > SHORT
-        _send(self._replies, message, is_due)
-        if is_due:
-            self._told = now
+    def _say(self, message: Reply) -> None:
+        self._held.append(message)
+        if self._together <= 1:
+            _send(self._replies, *self._held)
+            self._held.clear()
 
 
 def _take_pipes() -> tuple[Requests, BinaryIO]:
@@ -217,11 +215,6 @@ def _take_pipes() -> tuple[Requests, BinaryIO]:
     return Requests(requests), replies
 
 
-def _send(
-    replies: BinaryIO,
-    message: Ready | Refusal | Together | Advance | NewFindings | GivenUp | Done,
-    at_once: bool = True,
-) -> None:
-    pickle.dump(message, replies, pickle.HIGHEST_PROTOCOL)
-    if at_once:
-        replies.flush()
+def _send(replies: BinaryIO, *messages: Reply) -> None:
+    pickle.dump(messages, replies, pickle.HIGHEST_PROTOCOL)
+    replies.flush()
