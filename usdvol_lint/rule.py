@@ -29,6 +29,7 @@ from usdvol_lint.words import format_time, frame_ranges, quoted
 __all__ = [
     "ABSTRACT_TYPE",
     "APIS",
+    "CLIPS",
     "ERROR",
     "INFO",
     "NAME",
@@ -86,6 +87,7 @@ OURS = tuple(sorted(schema.OURS))
 """What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
 TYPE, APIS, NAME, VALUED_NAME = schema.TYPE_NAME, "apiSchemas", "name", "valued name"
+CLIPS = "value clips"
 """Whose opinion counts: see `Problem`."""
 
 Prim: TypeAlias = Any
@@ -124,7 +126,7 @@ class _Result:
     stronger one merely did not bring.
     `of` asks for the opinion on something else: on TYPE, on an API, `(APIS, name)`, on metadata by
     its name, also that of a property, or on NAME, which the weakest spec of a property has, or on
-    VALUED_NAME, which the weakest one has that has a value.
+    VALUED_NAME, which the weakest one has that has a value, or on the CLIPS that reach a property.
     `spec` names another `Sdf` spec, and an `of` beside it the metadata that it is about.
     `against` is what contradicts it, as prims, properties, occurrences, or pairs of a prim and such
     an `of`, or a spec of it: then the strongest spec of all is to blame, or the arc that brings

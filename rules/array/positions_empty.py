@@ -1,6 +1,6 @@
 """ARR001: a particle field without positions has no particles, and without first ones draws none."""
 
-from usdvol_lint.rule import WARNING, Facts, Prim, Problem, Problems, format_time, lacks, rule
+from usdvol_lint.rule import CLIPS, WARNING, Facts, Prim, Problem, Problems, format_time, lacks, rule
 
 
 @rule("ARR001", on="ParticleField", severity=WARNING, since="0.1")
@@ -24,7 +24,8 @@ def positions_empty(particles: Prim, facts: Facts) -> Problems:
         return
     if arrays.emptied:
         message, advice = emptied(arrays.emptied.is_from_clips)
-        yield Problem(message, at=arrays.emptied.attribute, suggestion=advice)
+        of = CLIPS if arrays.emptied.is_from_clips else None
+        yield Problem(message, at=arrays.emptied.attribute, of=of, suggestion=advice)
         return
     yield Problem(
         "no particles at any time",

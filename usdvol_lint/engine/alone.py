@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from itertools import chain
 from typing import Any
 
@@ -112,13 +112,16 @@ class Alone:
         ]
 
 
-def _asked_about(rule: Rule, prim: Any, facts: Facts) -> list[Any]:
-    """The prim, or the next one above it that a rule is handed and may find something below."""
+def _asked_about(rule: Rule, prim: Any, facts: Facts) -> Iterable[Any]:
+    """The prim, or the next one above it that a rule is handed and may find something below.
+
+    Where there is none, what it finds there, such as a name that is inherited, it finds for others.
+    """
     while not is_pseudo_root(prim):
         if not facts.kinds.names(facts.kinds.key(prim)).isdisjoint(rule.on):
             return [prim]
         prim = get_parent(prim)
-    return []
+    return chain.from_iterable(map(facts.tables.prims, rule.on))
 
 
 def _key(problem: Problem) -> tuple[str, str]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.engine.blame import Blame, Blaming
 from usdvol_lint.facts.usd.bringing import root_layer
-from usdvol_lint.facts.usd.calls import get_prim
+from usdvol_lint.facts.usd.calls import get_prim, get_stage
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
 
@@ -35,6 +35,13 @@ class Already:
             # What it was blamed on there may be what the stronger layer says anew.
             if found and found.spec in blame.beside:
                 return found
+        if stronger != get_stage(problem.at).GetRootLayer() and any(
+            other.layer != stronger for other in blame.beside
+        ):
+            # What contradicts it may say first what the layer of the stronger one says too.
+            own = self._in(rule, problem, stronger, blame.spec)
+            if own and own.spec and own.spec.layer == stronger:
+                return own
         return None
 
     def _in(self, rule: Rule, problem: Problem, stronger: Any, other: Any) -> Blame | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from itertools import takewhile
 from typing import Any, NamedTuple
 
@@ -11,15 +11,10 @@ from pxr import Sdf, Usd
 from usdvol_lint.engine.fallbacks import losing_fallback
 from usdvol_lint.engine.forwards import Forwards
 from usdvol_lint.engine.leading import leading
-from usdvol_lint.engine.restating import (
-    VALUES,
-    first_alike,
-    first_to_say,
-    first_with,
-    first_with_clips,
-)
+from usdvol_lint.engine.restating import VALUES, first_alike, first_with
 from usdvol_lint.engine.saying import has_value, maker, of_prim, weakest, with_metadata
 from usdvol_lint.engine.strength import Opinion, Standing, decisive, path_beside, standing_of
+from usdvol_lint.engine.sublayers import sublayer_path, sublayer_with
 from usdvol_lint.engine.taking import Edit, Takings
 from usdvol_lint.engine.variables import deciding_layer
 from usdvol_lint.facts.usd.bringing import node_of
@@ -33,8 +28,9 @@ from usdvol_lint.facts.usd.calls import (
     is_pseudo_root,
 )
 from usdvol_lint.facts.usd.clips import ClipSet, clip_sets_on
+from usdvol_lint.facts.usd.firsts import first_to_say
 from usdvol_lint.facts.usd.instances import shown
-from usdvol_lint.rule import NAME, TYPE, VALUED_NAME, NotChecked, Problem
+from usdvol_lint.rule import CLIPS, NAME, TYPE, VALUED_NAME, NotChecked, Problem
 
 
 class Blame(NamedTuple):
@@ -141,6 +137,8 @@ class Blaming:
             return Blame(
                 weakest(at, problem.of == VALUED_NAME) or maker(get_prim(at)), name, subject
             )
+        if problem.of == CLIPS and (clips := self._clips_reaching(at)):
+            return _of_clips(at, clips, subject)
         if isinstance(problem.of, str) and (spec := first_with(get_property_stack(at), problem.of)):
             return Blame(spec, name, subject)
         if isinstance(at, Usd.Attribute) and (problem.at_default or problem.times):
@@ -168,11 +166,8 @@ class Blaming:
             return Blame(spec, name, subject, None, offset)
         prim = get_prim(attribute)
         if node_of(prim, spec) is None and (clips := self._clips_with(prim, spec.layer)):
-            path = attribute.GetPath().MakeRelativePath(clips.prim.GetPath())
             clip = next(each for each in clips.clips if each.resolvedPath == spec.layer.realPath)
-            bearer, offset = clips.opinion_with(clips.key)
-            bearer = first_with_clips(clips.prim, bearer, offset)
-            return Blame(bearer, "clips", subject or str(path), None, offset, clips.named(clip))
+            return _of_clips(attribute, clips, subject)._replace(clip=clips.named(clip))
         return Blame(spec, name, subject, local, offset)
 
     def _says_variables(self, at: Any) -> bool:
@@ -184,15 +179,21 @@ class Blaming:
 
     def _clips_with(self, prim: Any, layer: Any) -> ClipSet | None:
         """The clip set that has a layer among its clips, of a prim or the next one above it."""
+        return next((each for each, paths in self._clips(prim) if layer.realPath in paths), None)
+
+    def _clips_reaching(self, attribute: Any) -> ClipSet | None:
+        """The clip set of which USD takes the values of an attribute."""
+        every = (each for each, _ in self._clips(get_prim(attribute)))
+        return next((each for each in every if not each.passes_over(attribute)), None)
+
+    def _clips(self, prim: Any) -> Iterator[tuple[ClipSet, frozenset[str]]]:
+        """The clip sets of a prim and of those above it, with the paths of their clips."""
         while not is_pseudo_root(prim):
             if has_metadata(prim, "clips"):
                 if prim not in self._clip_sets:
                     self._clip_sets[prim] = [(each, _paths_of(each)) for each in clip_sets_on(prim)]
-                for clip_set, paths in self._clip_sets[prim]:
-                    if layer.realPath in paths:
-                        return clip_set
+                yield from self._clip_sets[prim]
             prim = get_parent(prim)
-        return None
 
     def _opinion(self, other: Any, problem: Problem | NotChecked) -> tuple[Any, Blame] | None:
         """The opinion of what contradicts: of a prim, a property, an occurrence or of metadata.
@@ -220,7 +221,7 @@ def on_other(spec: Any, problem: Problem | NotChecked, clean: Any) -> Blame:
     name = _property_of(spec) or (None if path or at == prim else get_name(at))
     subject = " ".join(filter(None, (path, problem.subject)))
     is_root = spec.path == Sdf.Path.absoluteRootPath
-    asset = _sublayer_path(spec.layer, (clean.layer,)) if is_root else None
+    asset = sublayer_path(spec.layer, (clean.layer,)) if is_root else None
     return Blame(spec, name, subject, asset=asset, clean=_name_beside(spec, clean))
 
 
@@ -237,26 +238,22 @@ def _paths_of(clip_set: ClipSet) -> frozenset[str]:
     return frozenset(each.resolvedPath for each in clip_set.clips)
 
 
+def _of_clips(attribute: Any, clips: ClipSet, subject: str) -> Blame:
+    """The spec with the clips that bring the values of an attribute."""
+    path = attribute.GetPath().MakeRelativePath(clips.prim.GetPath())
+    bearer, offset = clips.first_opinion
+    first = clips.named(clips.clips[0]) if clips.clips else None
+    return Blame(bearer, "clips", subject or str(path), None, offset, asset=first)
+
+
 def _given(problem: Problem | NotChecked, name: str | None) -> Blame:
     """The spec that the rule names; for the top of a layer also which sublayer it is about."""
     spec, at, subject = problem.spec, problem.at, problem.subject
     if spec.path != Sdf.Path.absoluteRootPath:
         return Blame(first_alike(get_prim(at), spec, problem.of), name, subject)
-    sublayer = _sublayer_with(at, spec.layer)
+    sublayer = sublayer_with(at, spec.layer)
     subject = subject or sublayer or _path_of(at, at.GetPrim(), spec)
     return Blame(spec, name, subject, asset=sublayer)
-
-
-def _sublayer_with(at: Any, layer: Any) -> str | None:
-    """The path by which a layer names the sublayer with the strongest value of a property."""
-    stack = at.GetPropertyStack() if isinstance(at, Usd.Property) else ()
-    return _sublayer_path(layer, [spec.layer for spec in stack if has_value(spec)][:1])
-
-
-def _sublayer_path(layer: Any, wanted: Sequence[Any]) -> str | None:
-    """The path by which a layer names one of some others as a sublayer."""
-    paths = layer.subLayerPaths
-    return next((str(p) for p in paths if Sdf.Layer.FindRelativeToLayer(layer, p) in wanted), None)
 
 
 def _blocked(problem: Problem | NotChecked) -> Any | None:

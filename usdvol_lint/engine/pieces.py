@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator
+from collections.abc import Callable, Container, Iterator, Sequence
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,6 +11,8 @@ from pxr import Sdf
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.engine.already import Already
 from usdvol_lint.engine.restating import keys_of
+from usdvol_lint.engine.stagewide import says_of_all, stage_edit
+from usdvol_lint.engine.sublayers import sublayers
 from usdvol_lint.engine.waking import waking
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer, way_to
 from usdvol_lint.facts.usd.calls import (
@@ -33,8 +35,8 @@ class _Brought(NamedTuple):
     """How an arc brings a layer.
 
     `is_whole` is whether a prim at its top stands above what it brings, on the stage too, and
-    `is_edited` whether the stage's own layers say something of it or of what is below.  `woken`
-    is the spec that makes active what another one deactivates.
+    `is_edited` whether other layers say something of it, of what is below, or of whole stages.
+    `woken` is the spec that makes active what another one deactivates.
     """
 
     is_whole: bool
@@ -90,9 +92,23 @@ class Pieces:
             if not self._alone.is_clean(rule, *_end_of(arc), spec):
                 break
             found = arc
-        if not found or found is not arcs[0] or not is_whole:
+        if not found or not is_whole:
             return found and found.spec  # what stands beside a piece is lacking, whatever is edited
-        return _edit(prim, self._local(problem), _levels_below(found)) or found.spec
+        layers = self._first_wrong(rule, spec, found)
+        edit = _edit(prim, layers, _levels_below(found))
+        return edit or stage_edit(found, layers) or found.spec
+
+    def _first_wrong(self, rule: Rule, spec: Any, arc: Crossing) -> Sequence[Any]:
+        """The layers with which what an arc brings becomes wrong: a sublayer of those, or all.
+
+        The ones above that have it as a sublayer, whatever they add.
+        """
+        place = arc.source.path.StripAllVariantSelections()
+        for tree in way_to(arc.source, arc.spec.layer)[:0:-1] if arc.spec else ():
+            if not self._alone.is_clean(rule, tree.layer, place, spec):
+                return [tree.layer, *sublayers(tree.layer)]
+        layers: Sequence[Any] = arc.source.layerStack.layers
+        return layers
 
     def _on_top(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
         """What stronger layers of the stage say, where a sublayer by itself has no such problem."""
@@ -151,14 +167,21 @@ class Pieces:
         if key not in self._known:
             prim = prim_at(get_stage(problem.at), above)
             stack = get_prim_stack(prim) if prim else ()
-            local = self._local(problem)
             self._known[key] = _Brought(
                 not _has_others(spec.layer) and spec.layer.GetPrimAtPath(f"/{own[1]}") in stack,
-                any(
-                    each.layer in local and (each.properties or each.nameChildren) for each in stack
-                ),
+                _is_edited(prim, spec.layer),
             )
         return self._known[key]
+
+
+def _is_edited(prim: Any | None, layer: Any) -> bool:
+    """Whether other layers than one say something of a prim, of what is below, or of the stage."""
+    if prim is None:
+        return False
+    others = [each for each in get_prim_stack(prim) if each.layer != layer]
+    layers = {each for node in nodes_of(index_of(prim)) for each in node.layerStack.layers}
+    is_said_of = any(each.properties or each.nameChildren for each in others)
+    return is_said_of or any(map(says_of_all, layers))
 
 
 def _arcs_to(prim: Any, spec: Any) -> list[Crossing]:

@@ -14,7 +14,7 @@ from usdvol_lint.facts.usd.calls import (
     get_property_stack,
     is_pseudo_root,
 )
-from usdvol_lint.facts.usd.opinions import Opinion, is_of_retimed_clip, opinions, strongest_opinion
+from usdvol_lint.facts.usd.firsts import are_same, info
 from usdvol_lint.schema import SPECIFIER
 
 VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
@@ -26,43 +26,6 @@ _PATHS = (Sdf.ValueTypeNames.Asset, Sdf.ValueTypeNames.AssetArray)
 def values_of(spec: Any) -> tuple[str, ...]:
     """The metadata of a property's spec in which its value is."""
     return _TARGETS if isinstance(spec, Sdf.RelationshipSpec) else VALUES
-
-
-def first_to_say(attribute: Any, time: float | None) -> Opinion | None:
-    """The weakest of the opinions that, from the strongest on, say one value at a time.
-
-    Without those above it the attribute has the same value.
-    """
-    strongest, *others = list(opinions(attribute, time)) or (None,)
-    if strongest is None:
-        return None
-    if time is not None and is_of_retimed_clip(attribute, time, strongest):
-        return strongest_opinion(attribute, time)
-    said = _said(strongest, time) if others else ()
-    alike = strongest
-    for opinion in others:
-        other = _said(opinion, time)
-        if not _are_same(said, other):
-            break
-        alike = opinion
-    return alike
-
-
-def _said(opinion: Opinion, time: float | None) -> tuple[Any, ...]:
-    """What an opinion says at a time of the stage, and at which times it says something."""
-    spec, offset = opinion
-    if time is None or not spec.HasInfo("timeSamples"):
-        return _info(spec, "spline"), _anchored(spec, spec.default)
-    layer, path = spec.layer, spec.path
-    _, before, _ = layer.GetBracketingTimeSamplesForPath(path, offset.GetInverse() * time)
-    times = tuple(offset * each for each in layer.ListTimeSamplesForPath(path))
-    return times, _anchored(spec, layer.QueryTimeSample(path, before))
-
-
-def _anchored(spec: Any, value: Any) -> Any:
-    """A value of a spec; a path as its layer takes it."""
-    is_path = isinstance(value, Sdf.AssetPath)
-    return spec.layer.ComputeAbsolutePath(value.path) if is_path and value.path else value
 
 
 def first_with(specs: Iterable[Any], *keys: str) -> Any | None:
@@ -102,15 +65,6 @@ def keys_of(spec: Any) -> tuple[str, ...]:
     return tuple(key for key in spec.ListInfoKeys() if not is_over or key != SPECIFIER)
 
 
-def first_with_clips(prim: Any, spec: Any, offset: Any) -> Any:
-    """The first that named the clips of a prim that a spec does, by the same times.
-
-    `offset` leads from these to those of the stage.
-    """
-    stack = [each for each, other in prim.GetPrimStackWithLayerOffsets() if other == offset]
-    return _first_of(spec, stack, ("clips",))
-
-
 def _first_of(spec: Any, stack: Sequence[Any], keys: tuple[str, ...]) -> Any:
     if len(stack) < 2 or spec not in stack:
         return spec
@@ -119,7 +73,7 @@ def _first_of(spec: Any, stack: Sequence[Any], keys: tuple[str, ...]) -> Any:
 
 def _are_alike(one: Any, other: Any, keys: Sequence[str]) -> bool:
     """Whether two specs say the same in some metadata."""
-    if not all(_are_same(_said_in(one, key), _said_in(other, key)) for key in keys):
+    if not all(are_same(_said_in(one, key), _said_in(other, key)) for key in keys):
         return False
     return not _has_paths(one, keys) or _folder(one) == _folder(other)
 
@@ -135,30 +89,9 @@ def _folder(spec: Any) -> str:
     return os.path.dirname(str(spec.layer.identifier))
 
 
-def _info(spec: Any, key: str) -> Any:
-    return spec.GetInfo(key) if spec.HasInfo(key) else None
-
-
 def _said_in(spec: Any, key: str) -> Any:
     """Some metadata of a spec; of samples the times and the first one, since all may be large."""
     if key != "timeSamples" or not spec.HasInfo(key):
-        return _info(spec, key)
+        return info(spec, key)
     times = spec.layer.ListTimeSamplesForPath(spec.path)
     return (*times, *(spec.layer.QueryTimeSample(spec.path, each) for each in times[:1]))
-
-
-def _are_same(one: Any, other: Any) -> bool:
-    """Whether two values are the same; what is no number is the same as itself."""
-    if type(one) is not type(other):
-        return False
-    if isinstance(one, tuple):
-        return len(one) == len(other) and all(map(_are_same, one, other))
-    if one == other:
-        return True
-    if type(one).__module__ != "pxr.Vt":
-        is_number = isinstance(one, float) or type(one).__module__ == "pxr.Gf"
-        return is_number and str(one) == str(other)
-    import numpy as np  # takes long, and hardly any stage says an array twice
-
-    numbers, others = np.asarray(one), np.asarray(other)
-    return numbers.dtype.kind == "f" and np.array_equal(numbers, others, equal_nan=True)

@@ -11,9 +11,9 @@ from pxr import Sdf, Usd
 from usdvol_lint.engine.strength import Opinion, decisive, path_beside
 from usdvol_lint.facts.usd.bringing import (
     arc_losing,
-    arc_that,
     crossings,
     from_root,
+    meeting_spec,
     node_above,
     node_of,
 )
@@ -63,17 +63,37 @@ def test_crossings_are_the_arcs_into_other_layer_stacks(
     assert all(one.parent == other for other, one in pairwise(steps))
 
 
-def test_an_arc_that_is_meant_is_the_one_next_to_the_layer(stage: Usd.Stage) -> None:
+def test_a_layer_meets_another_where_an_arc_or_a_sublayer_brings_it_there(
+    stage: Usd.Stage,
+) -> None:
     prim = stage.GetPrimAtPath("/a/child/p")
     heavy = prim.GetPrimStack()[-1].layer
-    every = arc_that(prim, heavy, lambda arc: True)
-    assert every.layer.GetDisplayName() == "asset.usda"
-    of_shot = arc_that(
-        prim, heavy, lambda arc: arc.source.layerStack.identifier.rootLayer == stage.GetRootLayer()
-    )
-    assert (of_shot.layer.GetDisplayName(), str(of_shot.path)) == ("shot.usda", "/a/child")
-    assert arc_that(prim, heavy, lambda arc: False) is None
-    assert arc_that(stage.GetPrimAtPath("/a"), heavy, lambda arc: True) is None
+
+    def met(*names: str) -> tuple[str, str]:
+        spec = meeting_spec(prim, heavy, lambda layer: layer.GetDisplayName() in names)
+        return spec.layer.GetDisplayName(), str(spec.path)
+
+    assert met("asset.usda", "shot.usda") == ("asset.usda", "/top")
+    assert met("shot.usda") == ("shot.usda", "/a/child")
+    assert met() == met("heavy.usda") == met("sub.usda") == ("shot.usda", "/")
+    sub = stage.GetPrimAtPath("/a/child").GetPrimStack()[1].layer
+    top = meeting_spec(stage.GetPrimAtPath("/a/child"), sub, lambda layer: layer != sub)
+    assert (top.layer, str(top.path)) == (stage.GetRootLayer(), "/")
+
+
+def test_an_arc_in_a_sublayer_meets_the_layer_above_it(stage: Usd.Stage) -> None:
+    Path("above.usda").write_text("#usda 1.0\n(\n    subLayers = [@./shot.usda@]\n)\n")
+    Path("top.usda").write_text("#usda 1.0\n(\n    subLayers = [@./above.usda@]\n)\n")
+    top = Usd.Stage.Open("top.usda")
+    prim = top.GetPrimAtPath("/a/child/p")
+    heavy = prim.GetPrimStack()[-1].layer
+    for names, expected in (
+        (["top.usda", "above.usda"], ("above.usda", "/")),
+        (["top.usda", "shot.usda"], ("shot.usda", "/a/child")),
+        ([], ("top.usda", "/")),
+    ):
+        found = meeting_spec(prim, heavy, lambda layer: layer.GetDisplayName() in names)  # noqa: B023
+        assert (found.layer.GetDisplayName(), str(found.path)) == expected
 
 
 def test_the_arc_that_loses_a_path_is_the_first_beyond_which_it_has_no_name(

@@ -9,8 +9,8 @@ from typing import Any
 from pxr import Sdf
 
 from usdvol_lint.facts.files.families import Family, read_family
+from usdvol_lint.facts.usd.firsts import first_to_say
 from usdvol_lint.facts.usd.instances import on_stage
-from usdvol_lint.facts.usd.opinions import strongest_opinion
 from usdvol_lint.paths import FORMAT_ARGUMENTS
 
 
@@ -27,7 +27,7 @@ def in_variants(field: Any, family: Family) -> Iterator[int]:
 
 def in_layer(field: Any, family: Family) -> Iterator[int]:
     """The numbers of the files of a family that defaults in the layer of the field's own name."""
-    opinion = strongest_opinion(field.GetAttribute("filePath"), None)
+    opinion = first_to_say(field.GetAttribute("filePath"), None)
     for spec in _file_paths(opinion.spec.layer.pseudoRoot) if opinion else ():
         if not spec.HasInfo("timeSamples"):
             yield from numbers_in(spec, spec.default, family)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from usdvol_lint.facts.usd.opinions import strongest_opinion
+from usdvol_lint.facts.usd.firsts import first_to_say
 from usdvol_lint.words import from_to
 
 _KEYS = ("startTimeCode", "endTimeCode")
@@ -138,9 +138,9 @@ def _source(attribute: Any, time: float | None) -> tuple[Any, Any | None, Any]:
     from usdvol_lint.facts.usd.bringing import node_of
 
     prim = attribute.GetPrim()
-    strongest = strongest_opinion(attribute, time)
-    if strongest is None or node_of(prim, strongest.spec):
-        return (prim, *(strongest or (None, None)))
+    first = first_to_say(attribute, time)
+    if first is None or node_of(prim, first.spec):
+        return (prim, *(first or (None, None)))
     while not (prim.IsPseudoRoot() or prim.HasAuthoredMetadata("clips")):
         prim = prim.GetParent()
     stack = prim.GetPrimStackWithLayerOffsets()

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from usdvol_lint.facts.prims.animated import animated
 from usdvol_lint.facts.prims.tables import Tables
-from usdvol_lint.facts.usd.bringing import Crossing, arc_that
+from usdvol_lint.facts.usd.bringing import meeting_spec
 from usdvol_lint.facts.usd.clips import Clips
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.instances import as_shown
@@ -54,14 +54,9 @@ class UnsaidRate(NamedTuple):
 
     @property
     def blamed(self) -> Any:
-        """The spec with the arc that brings the layer to one of another rate."""
-        attribute = self.displaced[0].attribute
-
-        def differs(crossing: Crossing) -> bool:
-            return _rate(crossing.source) != _USUAL
-
-        arc = arc_that(attribute.GetPrim(), self.layer, differs)
-        return arc or attribute.GetStage().GetRootLayer().pseudoRoot
+        """The spec that brings the layer into one of another rate."""
+        prim = self.displaced[0].attribute.GetPrim()
+        return meeting_spec(prim, self.layer, lambda other: other.timeCodesPerSecond != _USUAL)
 
     def displaces(self, attribute: Any) -> bool:
         """Whether samples of an attribute are at other times because of it."""

@@ -12,7 +12,7 @@ from usdvol_lint import schema
 from usdvol_lint.facts.layers.remedies import Remedy, find_remedy
 from usdvol_lint.facts.layers.turns import Corrections, resetting
 from usdvol_lint.facts.prims.tables import Tables
-from usdvol_lint.facts.usd.bringing import Crossing, arcs_from, root_layer
+from usdvol_lint.facts.usd.bringing import meeting_spec
 from usdvol_lint.facts.usd.instances import as_shown
 from usdvol_lint.facts.usd.nodes import nodes_of
 
@@ -32,7 +32,7 @@ class UnlikeStage(NamedTuple):
     `key`: the name of that metadata, with the value in the `layer` and that of the `stage`.
     `is_sublayer`: whether no reference or payload brings it, but a sublayer of the stage or of a
     layer that agrees with the stage.
-    `blamed`: the spec with the arc that brings it to a layer which says otherwise.
+    `blamed`: the spec that brings it into a layer which says otherwise.
     `prims`: those of ours that this brings without a rotation or scale up to the root, one or more.
     """
 
@@ -122,18 +122,13 @@ def _by_arc(
 
 
 def _blamed(prim: Any, layer: Any, key: str, said: Any) -> Any:
-    """The spec with the arc that brings a prim's layer to a layer which says otherwise."""
+    """The spec that brings a prim's layer into one which says otherwise."""
 
-    def differs(crossing: Crossing) -> bool:
-        other = _said(root_layer(crossing.source), key)
-        return other is not None and not _are_equal(key, said, other)
+    def differs(other: Any) -> bool:
+        theirs = _said(other, key)
+        return theirs is not None and not _are_equal(key, said, theirs)
 
-    arc = next(filter(differs, arcs_from(prim, layer)), None)
-    if arc is None:
-        return prim.GetStage().GetRootLayer().pseudoRoot
-    own = _said(arc.spec.layer, key) if arc.spec else said
-    is_right_there = own is None or not _are_equal(key, said, own)
-    return arc.spec if is_right_there else root_layer(arc.source).pseudoRoot
+    return meeting_spec(prim, layer, differs)
 
 
 def _add_with_ancestors(path: Any, paths: set[Any]) -> None:

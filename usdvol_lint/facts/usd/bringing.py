@@ -136,17 +136,23 @@ def losing_spec(prim: Any, spec: Any, says: Callable[[Any], bool]) -> Any | None
     return next(lost, None)
 
 
-def arcs_from(prim: Any, layer: Any) -> list[Crossing]:
-    """The arcs on the way from a layer of a prim to the stage."""
-    for node in nodes_of(index_of(prim)):
-        if layer in node.layerStack.layers:
-            return crossings(node)[::-1]
-    return []
+def meeting_spec(prim: Any, layer: Any, differs: Callable[[Any], bool]) -> Any:
+    """The spec by which a prim's layer first comes into one that differs, on the way to the stage.
 
-
-def arc_that(prim: Any, layer: Any, is_it: Callable[[Crossing], bool]) -> Any | None:
-    """The spec with the first arc that is meant, on the way from a layer of a prim to the stage."""
-    return next((each.spec for each in arcs_from(prim, layer) if is_it(each)), None)
+    That is the spec of an arc in that layer, or its top where what comes is in a sublayer of it;
+    where none does, the top of the stage.
+    """
+    nodes = (each for each in nodes_of(index_of(prim)) if layer in each.layerStack.layers)
+    node = next(nodes, None)
+    arcs = crossings(node)[::-1] if node else []
+    for arc in (None, *arcs):
+        if arc and arc.spec and differs(arc.spec.layer):
+            return arc.spec
+        inside = arc.spec and arc.spec.layer if arc else layer
+        for tree in way_to(arc.source if arc else node, inside)[-2::-1]:
+            if differs(tree.layer):
+                return tree.layer.pseudoRoot
+    return prim.GetStage().GetRootLayer().pseudoRoot
 
 
 def arc_losing(prim: Any, spec: Any, path: Any) -> Any | None:

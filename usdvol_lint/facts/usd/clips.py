@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,6 +12,7 @@ from pxr import Sdf, Usd
 
 from usdvol_lint.facts.usd.batches import PrimBatch
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE, Unreadable, sayings
+from usdvol_lint.facts.usd.firsts import anchored, are_same
 
 if TYPE_CHECKING:
     from usdvol_lint.facts.usd.clip_faults import Keys
@@ -104,13 +105,43 @@ class ClipSet(NamedTuple):
 
     def opinion_with(self, key: str) -> tuple[Any, Any]:
         """The same spec, and the offset from its times to those of the stage."""
+        stack: list[tuple[Any, Any]] = self.prim.GetPrimStackWithLayerOffsets()
+        return next((each for each in stack if key in self._said_in(each[0])), stack[0])
+
+    @property
+    def first_opinion(self) -> tuple[Any, Any]:
+        """The weakest spec that names the clips of those which, from the strongest on, add nothing.
+
+        With the offset from its times to those of the stage.
+        """
         stack = self.prim.GetPrimStackWithLayerOffsets()
-        authors = (
-            (spec, offset)
-            for spec, offset in stack
-            if spec.HasInfo("clips") and key in spec.GetInfo("clips").get(self.name, {})
-        )
-        return next(authors, stack[0])
+        found = self.opinion_with(self.key)
+        weaker = stack[stack.index(found) + 1 :]
+        while (others := [each for each in weaker if self.key in self._said_in(each[0])]) and (
+            others[0][1] == found[1] and self._adds_nothing(found[0], [spec for spec, _ in weaker])
+        ):
+            found = others[0]
+            weaker = weaker[weaker.index(found) + 1 :]
+        return found
+
+    def _adds_nothing(self, spec: Any, weaker: Sequence[Any]) -> bool:
+        """Whether weaker specs say of the clip set what a spec does."""
+        said: dict[str, Any] = {}
+        for each in reversed(weaker):
+            said |= self._anchored_in(each)
+        own = self._anchored_in(spec)
+        return all(key in said and are_same(own[key], said[key]) for key in own)
+
+    def _anchored_in(self, spec: Any) -> dict[str, Any]:
+        own = self._said_in(spec)
+        if template := own.get("templateAssetPath"):
+            own = own | {"templateAssetPath": Sdf.AssetPath(template)}
+        return {key: anchored(spec, own[key]) for key in own}
+
+    def _said_in(self, spec: Any) -> dict[str, Any]:
+        """What a spec of the prim says of the clip set."""
+        said = spec.GetInfo("clips").get(self.name) if spec.HasInfo("clips") else None
+        return said if isinstance(said, dict) else {}
 
     def is_outranked_by(self, spec: Any) -> bool:
         """Whether a spec of an attribute, of this prim or one below it, is stronger than the clips.
