@@ -8,7 +8,7 @@ _HAS_EXTENT = When(Prims.authored, lambda authored: "extent" in authored.undecla
 @rule("FLD008", on="VolumeFieldBase", when=_HAS_EXTENT, severity=INFO, since="0.1")
 def extent_on_field(field: Prim, facts: Facts) -> Problems:
     extent = field.GetAttribute("extent")
-    if extent.HasAuthoredValue():
+    if extent.HasAuthoredValue() and not facts.layers.hides_ours(field):
         yield Problem(
             "extent on a field, where nobody reads it",
             at=extent,

@@ -6,7 +6,8 @@ from usdvol_lint.schema import SPECIFIER
 
 @rule("STG005", on=STAGE, severity=WARNING, since="0.1")
 def def_below_over(root: Prim, facts: Facts) -> Problems:
-    for over, prims, similar, copies in facts.layers.undefined:
+    for undefined in facts.layers.undefined:
+        over, prims, similar, copies = undefined
         if facts.tells("VOL008") and all(map(facts.volumes.is_targeted, prims)):
             continue
         first = f"{prims[0].GetTypeName()} {prims[0].GetName()!r}"
@@ -18,6 +19,7 @@ def def_below_over(root: Prim, facts: Facts) -> Problems:
         yield Problem(
             f"no layer defines {name!r}, there is only an over, so {what}{where}",
             at=over,
+            spec=undefined.spec,
             severity=None if similar else INFO,
             suggestion=f"did you mean {quoted(similar)}?"
             if similar

@@ -6,13 +6,15 @@ from usdvol_lint.schema import SPECIFIER
 
 @rule("STG010", on=STAGE, severity=WARNING, since="0.1")
 def override_misnamed(root: Prim, facts: Facts) -> Problems:
-    for over, similar, properties, _, copies in facts.layers.misnamed:
+    for misnamed in facts.layers.misnamed:
+        over, similar, properties, _, copies = misnamed
         more = f" and {len(properties) - 1} more" if len(properties) > 1 else ""
         where = f" (at {copies} prims)" if copies > 1 else ""
         yield Problem(
             f"no layer defines {over.GetName()!r}, there is only an over, so what it says of "
             f"{properties[0]!r}{more} reaches nothing{where}",
             at=over,
+            spec=misnamed.spec,
             suggestion=f"did you mean {quoted(similar)}?",
             absent=[lacks(over, SPECIFIER)],
         )

@@ -126,12 +126,17 @@ def _pattern(where: str, value: Any) -> str:
     """The value, if it is a regular expression."""
     import re  # few configurations have one
 
+    shown = shortened(repr(value), _LONGEST_SHOWN)
     try:
         re.compile(_text(where, value))
     except (re.error, RecursionError, OverflowError) as error:
         why = "it is nested too deep" if isinstance(error, RecursionError) else error
-        shown = shortened(repr(value), _LONGEST_SHOWN)
         raise UsageError(f"{where}: {shown} is no regular expression: {why}") from error
+    if re.match(r"\(\?[aiLmsux]+\)", value):
+        raise UsageError(f"{where}: {shown} has flags for all of a path: write '(?i:…)' around it")
+    if re.match(r"\^|\\A|.*(?<!\\)(\\\\)*(\$|\\[zZ])\Z", value, re.DOTALL):
+        why = "which it need not say: it has to match all between two separators of a path"
+        raise UsageError(f"{where}: {shown} begins or ends with '^' or '$', {why}")
     return str(value)
 
 

@@ -39,7 +39,7 @@ class Alone:
         self._known: dict[tuple[str, Any], list[Problem]] = {}
 
     def is_clean(self, rule: Rule, layer: Any, path: Any, spec: Any) -> bool:
-        """Whether a rule finds nothing on a prim of a layer, where a spec makes it, or one above.
+        """Whether a rule finds nothing on a prim of a layer that has a spec, of it or another.
 
         Of what can't be looked at, nothing is known.
         """
@@ -48,7 +48,8 @@ class Alone:
         if not facts or prim is None:
             return False
         try:
-            return _is_made_of(prim, spec) and not self._found(rule, prim, facts)
+            is_there = _is_made_of(prim, spec) or _is_in(facts.stage, spec)
+            return is_there and not self._found(rule, prim, facts)
         except Exception:  # whatever a rule raises: it is reported where the stage is checked
             return False
 
@@ -127,6 +128,13 @@ def _asked_about(rule: Rule, prim: Any, facts: Facts) -> Iterable[Any]:
 def _key(problem: Problem) -> tuple[str, str]:
     """What a problem of a rule is about, on one prim."""
     return problem.at.GetName() if isinstance(problem.at, Usd.Property) else "", problem.subject
+
+
+def _is_in(stage: Any, spec: Any) -> bool:
+    """Whether a spec, of a prim or a property, is of the prim at its own path of a stage."""
+    own = holder_of(spec)
+    prim = stage.GetPrimAtPath(own.path.StripAllVariantSelections())
+    return bool(prim) and own in get_prim_stack(prim)
 
 
 def _is_made_of(prim: Any, spec: Any) -> bool:

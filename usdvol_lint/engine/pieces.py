@@ -21,6 +21,8 @@ from usdvol_lint.facts.usd.calls import (
     get_prim,
     get_prim_stack,
     get_stage,
+    holder_of,
+    is_pseudo_root,
     prim_at,
 )
 from usdvol_lint.facts.usd.indices import index_of
@@ -159,6 +161,7 @@ class Pieces:
             return _Brought(is_whole=True, is_edited=False)
         own = str(spec.path.GetPrimPath().StripAllVariantSelections()).split("/")
         names = path.split("/")
+        names = names[: len(names) - _levels_up(get_prim(problem.at), spec)]
         top = len(names) - len(own) + 1
         if top < 1 or names[top + 1 :] != own[2:]:
             return _Brought(is_whole=False, is_edited=False)
@@ -172,6 +175,16 @@ class Pieces:
                 _is_edited(prim, spec.layer),
             )
         return self._known[key]
+
+
+def _levels_up(prim: Any, spec: Any) -> int:
+    """How many prims up that is which has a spec; 0 too if it is none above."""
+    levels, own = 0, holder_of(spec)
+    while not is_pseudo_root(prim):
+        if own in get_prim_stack(prim):
+            return levels
+        prim, levels = get_parent(prim), levels + 1
+    return 0
 
 
 def _is_edited(prim: Any | None, layer: Any) -> bool:
@@ -245,7 +258,8 @@ def _edits_on_top(prim: Any, layer: Any) -> Iterator[tuple[Any, Any | None]]:
     levels = get_path(prim).pathElementCount - 1
     for below, above in pairwise(reversed(way)):
         new = order[order.index(above) : order.index(below)]
-        if any(each.rootPrims for each in new):
+        is_said = any(each.rootPrims or says_of_all(each) for each in new)
+        if is_said or below.HasExpressionVariables():  # of a sublayer USD does not read them
             edits = (_edit(prim, (each,), levels, _says) for each in reversed(new))
             yield above, next(filter(None, edits), None)
 

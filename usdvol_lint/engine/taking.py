@@ -25,6 +25,8 @@ from usdvol_lint.facts.usd.untyped import GROUP_TYPES
 from usdvol_lint.rule import NotChecked, Problem
 from usdvol_lint.schema import SPECIFIER, TYPE_NAME
 
+_MAY_BE_LIVE = Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
+
 _Has = Callable[[Any, Any], bool]
 """Whether a stage has at a path what is missing."""
 
@@ -108,9 +110,10 @@ def _missing(problem: Problem | NotChecked) -> Iterator[tuple[Any, _Has]]:
 
 
 def _has_field(stage: Any, path: Any) -> bool:
-    """Whether a prim with a type of its own is live."""
+    """Whether a prim with a type of its own is live, once something defines those above it."""
     prim = stage.GetPrimAtPath(path)
-    return bool(prim and Usd.PrimDefaultPredicate(prim) and prim.GetTypeName() not in GROUP_TYPES)
+    is_live = prim and prim.HasDefiningSpecifier() and _MAY_BE_LIVE(prim)
+    return bool(is_live and prim.GetTypeName() not in GROUP_TYPES)
 
 
 def _has(name: str) -> _Has:

@@ -6,8 +6,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence, Set
 from typing import Any, NamedTuple
 
+from pxr import Sdf
+
 from usdvol_lint import schema
-from usdvol_lint.facts.layers.undefined import InnerArcs, defines
+from usdvol_lint.facts.layers.undefined import InnerArcs, defines, spec_above
 from usdvol_lint.facts.usd.calls import (
     WITH_INSTANCES,
     get_children,
@@ -41,6 +43,12 @@ class Misnamed(NamedTuple):
     properties: tuple[str, ...]
     meant: frozenset[Any]
     copies: int
+
+    @property
+    def spec(self) -> Any:
+        """The spec of the `over` in the layer that says something of the first property."""
+        first = self.properties[0]
+        return spec_above(self.over, Sdf.Path(first if "." in first else f".{first}"))
 
 
 class _Opinion(NamedTuple):

@@ -26,7 +26,7 @@ def retyped_prims(layered: Iterable[Layered], kinds: PrimKinds) -> dict[Any, Ret
     for prim, specs, _ in layered:
         type_name = get_type(prim)
         if type_name in schema.FILE_EXTENSIONS:
-            found.append(_retyped_field(prim, specs, type_name))
+            found.append(_retyped_field(prim, specs, type_name, kinds))
         elif type_name and _is_ours(kinds, (type_name,)):
             found.append(retyped_ours(prim, specs, kinds))
         elif type_name:
@@ -39,19 +39,23 @@ def _retyped(prim: Any, specs: list[Any], kinds: PrimKinds) -> Retyped | None:
     typed = [spec for spec in specs if spec.typeName]
     for number, spec in enumerate(typed):
         if _is_ours(kinds, (spec.typeName,)):
-            is_field = schema.FIELD in kinds.names((spec.typeName,))
+            is_field = _is_field(kinds, spec)
             stands_in = not is_field and get_type(prim) not in GROUP_TYPES
             return Retyped(prim, spec, tuple(typed[:number]), is_field, stands_in)
     return None
 
 
-def _retyped_field(prim: Any, specs: list[Any], type_name: str) -> Retyped | None:
+def _retyped_field(prim: Any, specs: list[Any], type_name: str, kinds: PrimKinds) -> Retyped | None:
+    """What the type of a field hides: that of one for another file, or of what is drawn."""
     for number, spec in enumerate(specs):
+        stronger = tuple(each for each in specs[:number] if each.typeName)
         if spec.typeName in schema.FILE_EXTENSIONS and spec.typeName != type_name:
             extension = schema.FILE_EXTENSIONS[spec.typeName]
-            stronger = tuple(each for each in specs[:number] if each.typeName)
             is_meant = _names_file(prim, specs[number:], extension)
             return Retyped(prim, spec, stronger, True, False) if is_meant else None
+        if spec.typeName and _is_ours(kinds, (spec.typeName,)) and not _is_field(kinds, spec):
+            has_file = prim.GetAttribute("filePath").HasAuthoredValue()  # or it lacks that first
+            return Retyped(prim, spec, stronger, False, False) if has_file else None
     return None
 
 
@@ -67,3 +71,7 @@ def _names_file(prim: Any, specs: list[Any], extension: str) -> bool:
 
 def _is_ours(kinds: PrimKinds, key: tuple[str, ...]) -> bool:
     return not schema.OURS.isdisjoint(kinds.names(key))
+
+
+def _is_field(kinds: PrimKinds, spec: Any) -> bool:
+    return schema.FIELD in kinds.names((spec.typeName,))

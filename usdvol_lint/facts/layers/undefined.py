@@ -31,6 +31,18 @@ class Undefined(NamedTuple):
     similar: str | None
     copies: int
 
+    @property
+    def spec(self) -> Any:
+        """The spec of the `over` in the layer that has the first of the prims below it."""
+        return spec_above(self.over, self.prims[0].GetPath().MakeRelativePath(self.over.GetPath()))
+
+
+def spec_above(over: Any, below: Any) -> Any:
+    """The weakest spec of an `over` in a layer that says what is at a relative path below it."""
+    stack: list[Any] = get_prim_stack(over)
+    saying = [each for each in stack if each.layer.GetObjectAtPath(each.path.AppendPath(below))]
+    return (saying or stack)[-1]
+
 
 def find_undefined(
     stage: Any,

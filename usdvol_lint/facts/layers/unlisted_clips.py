@@ -95,10 +95,14 @@ def _would_count(clip_set: ClipSet, attribute: Any) -> bool:
     layers = clip_set.layers_with_samples(attribute)
     if not layers or any(each.GetNumTimeSamples() for each in _of_both_precisions(attribute)):
         return False
-    if _has_default(attribute):
-        return HiddenAnimation("", layers, clip_set.path_in_layers(attribute)).differs
-    blocked = strongest_opinion(attribute, None)
-    return blocked is None or not clip_set.is_outranked_by(blocked.spec)
+    default = strongest_opinion(attribute, None)
+    is_outranked = default is not None and clip_set.is_outranked_by(default.spec)
+    if not _has_default(attribute):
+        return not is_outranked
+    # In the layer with the clips a default stands in for them; in a stronger one it is an edit.
+    if default and is_outranked and default.spec.layer != clip_set.spec_with(clip_set.key).layer:
+        return False
+    return HiddenAnimation("", layers, clip_set.path_in_layers(attribute)).differs
 
 
 def _has_default(attribute: Any) -> bool:
