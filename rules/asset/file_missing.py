@@ -5,8 +5,8 @@ from usdvol_lint.rule import ERROR, AssetState, Facts, Prim, Problem, Problems, 
 
 @rule("AST002", on="FieldAsset", when=file_paths(AssetState.MISSING), severity=ERROR, since="0.1")
 def file_missing(field: Prim, facts: Facts) -> Problems:
-    missing = facts.files.missing(field)
-    if missing:
+    every = facts.files.missing(field)
+    for missing in every.by_opinion if every else ():
         absence = facts.files.absence(missing.place, missing.first.path)
         what, count = missing.nothing_there
         yield Problem(

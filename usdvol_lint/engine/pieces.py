@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Sequence
 from itertools import islice, pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from pxr import Sdf
 
@@ -33,6 +33,10 @@ if TYPE_CHECKING:
     from usdvol_lint.rule import Problem, Rule
 
 
+_Edits: TypeAlias = "list[tuple[Any, Any | None]]"
+"""Layers on top of one, each with what it says."""
+
+
 class _Brought(NamedTuple):
     """How an arc brings a layer.
 
@@ -59,7 +63,9 @@ class Pieces:
         self.already = Already(alone)
         self._known: dict[tuple[str, str, Any], _Brought] = {}
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
-        self._known_edits: dict[tuple[str, Any], tuple[list[tuple[Any, Any]], Any | None]] = {}
+        self._known_edits: dict[
+            tuple[str, Any, bool], tuple[list[tuple[Any, Any]], Any | None]
+        ] = {}
         self._own: frozenset[Any] | None = None
         self._root: Any | None = None
 
@@ -117,10 +123,14 @@ class Pieces:
         layer = spec.layer
         if layer == self._root or path == "/":
             return None
-        if (path, layer) not in self._known_edits:
+        # Who decides with variables what a path to a file says is known already.
+        is_path = isinstance(spec, Sdf.AttributeSpec) and spec.typeName == Sdf.ValueTypeNames.Asset
+        key = path, layer, is_path
+        if key not in self._known_edits:
             prim = get_prim(problem.at)
-            self._known_edits[path, layer] = list(_edits_on_top(prim, layer)), waking(prim)
-        (edits, woken), place = self._known_edits[path, layer], Sdf.Path(path)
+            edits = list(_edits_on_top(prim, layer, prims_only=is_path))
+            self._known_edits[key] = edits, waking(prim)
+        (edits, woken), place = self._known_edits[key], Sdf.Path(path)
         if woken and self._alone.sleeps(layer, place):
             return woken
         if not edits or not self._alone.is_clean(rule, layer, place, spec):
@@ -247,19 +257,22 @@ def _edit(
     return None
 
 
-def _edits_on_top(prim: Any, layer: Any) -> Iterator[tuple[Any, Any | None]]:
+def _edits_on_top(
+    prim: Any, layer: Any, prims_only: bool = True
+) -> Iterator[tuple[Any, Any | None]]:
     """What layers of the stage say of a prim, or of those above it, on top of one of its sublayers.
 
     Each layer that has the sublayer, the next one first, with the edit that comes in there: its own
-    or one of a sublayer on top of that; None where what they say is of other prims.
+    or one of a sublayer on top of that; None where what they say is of other prims, or of all.
     """
     order = get_stage(prim).GetLayerStack()
     way = [tree.layer for tree in way_to(index_of(prim).rootNode, layer)]
     levels = get_path(prim).pathElementCount - 1
     for below, above in pairwise(reversed(way)):
         new = order[order.index(above) : order.index(below)]
-        is_said = any(each.rootPrims or says_of_all(each) for each in new)
-        if is_said or below.HasExpressionVariables():  # of a sublayer USD does not read them
+        # Of a sublayer USD reads no variables.
+        is_of_all = any(map(says_of_all, new)) or below.HasExpressionVariables()
+        if any(each.rootPrims for each in new) or (is_of_all and not prims_only):
             edits = (_edit(prim, (each,), levels, _says) for each in reversed(new))
             yield above, next(filter(None, edits), None)
 

@@ -33,11 +33,13 @@ def deciding_layer(prim: Any, spec: Any, time: float | None) -> Any | None:
     if not tops:
         return naming_sublayer(node, spec.layer, lambda each: bool(used & _said_by(each)))
     below = [tree.layer for tree in way_to(node, spec.layer)][1:]
-    alone = [[each] for each in below if used & _said_by(each)]
+    alone: list[list[Any]] = [[each] for each in below if used & _said_by(each)]
+    if below and not alone:
+        alone = [[]]  # a sublayer that says none may lead to a file without any
     stages = [*(tops[n:] for n in range(len(tops))), *alone]
     said = [_path(text, spec.layer, layers) for layers in stages]
     last = next((n for n in range(1, len(said)) if not _is_as_bad(said[n], said[0])), len(said)) - 1
-    decides = stages[last][0]
+    decides = next(iter(stages[last]), spec.layer)
     is_own = last == len(stages) - 1 and decides in (root_layer(node), *below)
     return None if is_own else decides
 

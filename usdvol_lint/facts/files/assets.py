@@ -17,7 +17,7 @@ from usdvol_lint.facts.files.paths import anchored, extension_of
 from usdvol_lint.facts.files.patterns import as_expression, has_frame
 from usdvol_lint.facts.files.states import ON_DISK_OR_PATTERN, AssetState
 from usdvol_lint.facts.usd.calls import holder_of
-from usdvol_lint.facts.usd.opinions import is_from_clips, strongest_opinion
+from usdvol_lint.facts.usd.opinions import by_opinion, is_from_clips, strongest_opinion
 from usdvol_lint.facts.usd.values import Occurrences
 from usdvol_lint.words import frame_ranges, quoted
 
@@ -108,7 +108,8 @@ class AssetSamples(NamedTuple):
             groups: dict[str, list[AssetSample]] = defaultdict(list)
             for sample in affected.samples:
                 groups[sample.detail].append(sample)
-            yield from (replace(affected, samples=tuple(group)) for group in groups.values())
+            for group in groups.values():
+                yield from replace(affected, samples=tuple(group)).by_opinion
 
     @property
     def names_a_path(self) -> bool:
@@ -148,6 +149,11 @@ class Affected(Occurrences):
     @property
     def first(self) -> AssetSample:
         return self.samples[0]
+
+    @property
+    def by_opinion(self) -> Iterator[Affected]:
+        """These samples, or the default and the others where two specs hold them."""
+        return by_opinion(self)
 
     @property
     def has_missing(self) -> bool:

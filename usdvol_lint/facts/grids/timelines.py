@@ -103,6 +103,7 @@ class FieldContents(NamedTuple):
     ) -> Iterable[tuple[_K, Content, Affected]]:
         """Each value of a key function but None, with its first content and all its samples.
 
+        Where the default is one spec's and the others another's, these are two.
         The function is called once for each class of contents, so it can't depend on the sample,
         on bounds and transforms, nor on numbers in messages.
         """
@@ -111,14 +112,15 @@ class FieldContents(NamedTuple):
             value = content_class.answer(key)
             if value is not None:
                 groups.setdefault(value, []).append(contents)
-        return [(value, *self._affected(lists)) for value, lists in groups.items()]
+        return [(value, *found) for value in groups for found in self._affected(groups[value])]
 
-    def _affected(self, lists: list[list[Content]]) -> tuple[Content, Affected]:
+    def _affected(self, lists: list[list[Content]]) -> Iterator[tuple[Content, Affected]]:
         contents = [content for each in lists for content in each]
         if len(lists) > 1:
             contents.sort(key=lambda content: _in_time(content.sample))
         samples = tuple(content.sample for content in contents)
-        return contents[0], Affected(self.attribute, samples, self.timeline.total)
+        found = Affected(self.attribute, samples, self.timeline.total).by_opinion
+        yield from zip(contents, found, strict=False)  # the default alone is the first
 
 
 def _grid_index(content: Content) -> int | None:
