@@ -15,6 +15,7 @@ from usdvol_lint.facts.usd.calls import (
     is_pseudo_root,
 )
 from usdvol_lint.facts.usd.firsts import are_same, info
+from usdvol_lint.facts.usd.instances import on_stage
 from usdvol_lint.schema import SPECIFIER
 
 VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
@@ -54,6 +55,8 @@ def first_alike(prim: Any, spec: Any, of: object = None) -> Any:
         return spec
     spec = spec.layer.GetPrimAtPath(path)  # a variant has a prim's spec too
     keys = (of,) if isinstance(of, str) and spec.HasInfo(of) else keys_of(spec)
+    if spec not in get_prim_stack(prim):
+        prim = on_stage(prim)  # of a prototype nothing is above it
     while not is_pseudo_root(prim) and spec not in get_prim_stack(prim):
         prim = get_parent(prim)
     return _first_of(spec, get_prim_stack(prim), keys) if keys else spec

@@ -14,11 +14,10 @@ def first_to_say(attribute: Any, time: float | None) -> Opinion | None:
 
     Without those above it the attribute has the same value.
     """
-    strongest, *others = list(opinions(attribute, time)) or (None,)
-    if strongest is None:
-        return None
-    if time is not None and is_of_retimed_clip(attribute, time, strongest):
-        return strongest_opinion(attribute, time)
+    found = strongest_opinion(attribute, time)
+    if found is None or (time is not None and is_of_retimed_clip(attribute, time, found)):
+        return found
+    strongest, *others = opinions(attribute, time)
     said = _said(strongest, time) if others else ()
     alike = strongest
     for opinion in others:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple, TypeVar
 
@@ -28,24 +28,32 @@ def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
 
     Stronger specs are skipped if they hold only metadata, or at the default time only time samples.
     """
-    found = _strongest(attribute, time)
-    if time is None or found is None or not is_of_retimed_clip(attribute, time, found):
+    stack = _stack(attribute, time)
+    found = next(_valued(stack, time), None)
+    retimed = [offset for _, offset in stack if not offset.IsIdentity()]
+    if time is None or not retimed or not is_from_clips(attribute, time):
         return found
-    # Of retimed clips USD lists the one at that time of the layer with the clips (26.11).
-    return _strongest(attribute, found.offset.GetInverse() * time) or found
-
-
-def _strongest(attribute: Any, time: float | None) -> Opinion | None:
-    return next(opinions(attribute, time), None)
+    # Of retimed clips USD lists the one at that time of the layer with the clips (26.11): another
+    # one, which may hold nothing.
+    return next(opinions(attribute, retimed[0].GetInverse() * time), found)
 
 
 def opinions(attribute: Any, time: float | None) -> Iterator[Opinion]:
     """The opinions that have a value at a time of the stage, or by default, strongest first."""
-    code, keys = (_DEFAULT, _OF_DEFAULT) if time is None else (time, _OF_TIMES)
+    return _valued(_stack(attribute, time), time)
+
+
+def _stack(attribute: Any, time: float | None) -> list[tuple[Any, Any]]:
+    """The specs of an attribute, strongest first, each with the offset to the time of the stage."""
     try:
-        stack = get_stack_with_offsets(attribute, code)
+        stack = get_stack_with_offsets(attribute, _DEFAULT if time is None else time)
     except UNREADABLE:  # not all clips open
         stack = get_stack_with_offsets(attribute, _DEFAULT)
+    return list(stack)
+
+
+def _valued(stack: Iterable[tuple[Any, Any]], time: float | None) -> Iterator[Opinion]:
+    keys = _OF_DEFAULT if time is None else _OF_TIMES
     for spec, offset in stack:
         if any(map(spec.HasInfo, keys)):
             yield Opinion(spec, offset)
