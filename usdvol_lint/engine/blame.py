@@ -148,7 +148,9 @@ class Blaming:
         if _is_relationship(at):
             spec = leading(at) or weakest(at)
         else:
-            spec = first_with(get_property_stack(at), *VALUES)
+            stack = get_property_stack(at)
+            is_absent = problem.absent and all(map(_is_block, filter(has_value, stack)))
+            spec = None if is_absent else first_with(stack, *VALUES)
         return Blame(spec or _declared(maker(get_prim(at)), name), name, subject)
 
     def _value(self, attribute: Any, time: float | None, name: str, subject: str) -> Blame | None:
