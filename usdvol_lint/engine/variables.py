@@ -34,8 +34,8 @@ def deciding_layer(prim: Any, spec: Any, time: float | None) -> Any | None:
         return naming_sublayer(node, spec.layer, lambda each: bool(used & _said_by(each)))
     below = [tree.layer for tree in way_to(node, spec.layer)][1:]
     alone: list[list[Any]] = [[each] for each in below if used & _said_by(each)]
-    if below and not alone:
-        alone = [[]]  # a sublayer that says none may lead to a file without any
+    if below and [spec.layer] not in alone:
+        alone.append([])  # a sublayer that says none may lead to a file without any
     stages = [*(tops[n:] for n in range(len(tops))), *alone]
     said = [_path(text, spec.layer, layers) for layers in stages]
     last = next((n for n in range(1, len(said)) if not _is_as_bad(said[n], said[0])), len(said)) - 1

@@ -1,0 +1,170 @@
+"""What a layer says of all that it brings is to blame, where that is clean opened alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from identities import CLEAN, HEAD, LAYER, META, STAGE, Find, refers
+from process import write
+
+VARIABLES = 'expressionVariables = {\nstring FILE = "%s"\nstring SEL = "%s"\n}\n'
+FIELD = """def OpenVDBAsset "field"
+{
+    asset filePath = @../assets/cloud.vdb@
+    token fieldName = "density"
+    token fieldDataType = "float"
+    token fieldClass = "fogVolume"
+}
+"""
+TANK = """def Volume "tank" (
+    variants = {
+        string look = "`${SEL}`"
+    }
+    prepend variantSets = ["look"]
+)
+{
+    float3[] extent = [(0, 0, 0), (1, 1, 1)]
+    rel field:a = </tank/a>
+    rel field:b = </tank/b>
+    def "a" (
+        references = @`"./${FILE}.usda"`@
+    )
+    {
+    }
+    variantSet "look" = {
+        "thick" {
+            def "b" (
+                references = @./field.usda@
+            )
+            {
+            }
+        }
+    }
+}
+"""
+OWN = VARIABLES % ("field", "thick")
+
+
+def said(metadata: str, *sublayers: str) -> str:
+    paths = ", ".join(f"@./{name}.usda@" for name in sublayers)
+    return STAGE.replace(META, f"{META}{metadata}subLayers = [{paths}]\n")
+
+
+@pytest.fixture
+def assets(find: Find, shots: Path) -> Path:
+    field = LAYER.replace("tank", "field") + FIELD
+    other = LAYER.replace("tank", "other") + CLEAN.replace("tank", "other")
+    write(shots, field=field, other=other, tank=LAYER.replace(META, META + OWN) + TANK)
+    assert find("shots/tank.usda", rules=("VOL", "STG", "SCH009", "AST")) == []
+    return shots
+
+
+@pytest.mark.parametrize(
+    ("variables", "codes"),
+    [
+        (VARIABLES % ("gone", "thick"), {"STG001"}),
+        (VARIABLES % ("field", "none"), {"VOL001"}),
+        (VARIABLES % ("other", "thick"), {"VOL002", "SCH009"}),
+    ],
+)
+def test_variables_of_the_stage_are_to_blame_for_other_arcs(
+    variables: str, codes: set[str], find: Find, assets: Path
+) -> None:
+    by_arc = STAGE.replace(META, META + variables) + refers("x", "./tank.usda")
+    write(
+        assets, one=by_arc, two=said(variables, "one"), three=STAGE + refers("y", "./one.usda@<>")
+    )
+    write(assets, four=STAGE + refers("z", "./one.usda@</x>").replace(">@", ">"))
+    causes = find("shots/one.usda", "shots/four.usda", rules=("VOL", "STG", "SCH009"))
+    assert {cause.code for cause in causes} == codes
+    assert {cause.count for cause in causes} == {2}
+    assert {(cause.source.layer, cause.source.path) for cause in causes} == {
+        ("shots/one.usda", "/")
+    }
+
+
+@pytest.mark.parametrize("variables", [VARIABLES % ("field", "none"), ""])
+def test_a_stage_is_to_blame_for_the_variables_of_a_sublayer_that_it_loses(
+    variables: str, find: Find, assets: Path
+) -> None:
+    write(assets, one=said(variables, "tank"), two=said(variables, "one"))
+    [cause] = find("shots/one.usda", "shots/two.usda", rules=("VOL001",))
+    assert (cause.source.layer, cause.source.path, cause.count) == ("shots/one.usda", "/", 2)
+
+
+def test_variables_are_to_blame_where_a_sublayer_needs_none(find: Find, assets: Path) -> None:
+    path = '`if(defined("TAKE"), "./${TAKE}.vdb", "../assets/cloud.vdb")`'
+    write(assets, fog=LAYER + CLEAN.replace("./cloud.vdb", path))
+    takes = 'expressionVariables = {\nstring TAKE = "gone"\n}\n'
+    write(assets, one=said(takes, "fog"), two=said(takes, "one"))
+    assert find("shots/fog.usda") == []
+    [cause] = find("shots/one.usda", "shots/two.usda")
+    assert (cause.source.layer, cause.source.path, cause.count) == ("shots/one.usda", "/", 2)
+
+
+def test_relocates_are_to_blame_for_the_prims_that_they_take_away(find: Find, shots: Path) -> None:
+    write(shots.parent / "assets", tank=LAYER + CLEAN)
+    gone = "relocates = {\n</x/density>: <>\n}\n"
+    write(shots, one=STAGE.replace(META, META + gone) + refers("x"))
+    write(shots, two=said("", "one"))
+    write(shots, three=STAGE + refers("y", "./one.usda@</x>").replace(">@", ">"))
+    write(shots, right=STAGE.replace(META, META + gone.replace("<>", "</x/fog>")) + refers("x"))
+    stages = [f"shots/{name}.usda" for name in ("one", "two", "three", "right")]
+    [cause] = find(*stages, rules=("VOL",))
+    assert (cause.source.layer, cause.source.path, cause.count) == ("shots/one.usda", "/", 3)
+
+
+TURNED = f"""def Xform "tank"
+{{
+    double3 xformOp:scale = (0.01, 0.01, 0.01)
+    uniform token[] xformOpOrder = ["xformOp:scale"]
+    {CLEAN.replace("</tank", "</tank/tank")}
+}}
+"""
+
+
+def test_an_edit_above_what_an_arc_brings_is_to_blame_wherever_it_is_brought(
+    find: Find, shots: Path
+) -> None:
+    assets = shots.parent / "assets"
+    small = HEAD + LAYER.removeprefix(HEAD).replace("metersPerUnit = 1", "metersPerUnit = 0.01")
+    write(assets, small=small + TURNED, tank=LAYER + refers("tank", "./small.usda"))
+    edit = refers("x", inside="uniform token[] xformOpOrder = []")
+    write(shots, one=STAGE + edit, two=said("", "one"))
+    write(shots, three=STAGE + refers("y", "./one.usda@</x>").replace(">@", ">"))
+    assert find("assets/tank.usda", rules=("STG009",)) == []
+    stages = [f"shots/{name}.usda" for name in ("one", "two", "three")]
+    [cause] = find(*stages, rules=("STG009",))
+    source = cause.source
+    assert (source.layer, source.path, source.property) == ("shots/one.usda", "/x", "xformOpOrder")
+    assert cause.count == 3
+
+
+def test_a_class_is_to_blame_for_what_a_sublayer_defines_below_an_over(
+    find: Find, shots: Path
+) -> None:
+    world = CLEAN.replace("</tank", "</World/tank").replace("./cloud", "../assets/cloud")
+    fields = 'over "World"\n{\nover "tank"\n{\nclass "density"\n{\n}\n}\n}\n'
+    write(shots, fx=STAGE + f'over "World"\n{{\n{world}}}\n')
+    write(shots, lay=STAGE + 'def Xform "World"\n{\n}\n', base=said("", "fx", "lay"))
+    write(shots, one=said("", "base") + fields, two=said("", "one") + fields)
+    assert find("shots/base.usda", "shots/fx.usda", rules=("VOL",)) == []
+    [cause] = find("shots/one.usda", "shots/two.usda", rules=("VOL",))
+    assert (cause.source.layer, cause.source.path) == ("shots/one.usda", "/World/tank/density")
+
+
+def test_a_target_in_a_class_is_to_blame_and_not_the_prim_that_it_leads_to(
+    find: Find, shots: Path
+) -> None:
+    write(shots.parent / "assets", tank=LAYER + CLEAN)
+    below = refers("v", "../assets/tank.usda")
+    heirs = "".join(f'def Xform "{each}" (\ninherits = </_c>\n)\n{{\n}}\n' for each in "ab")
+    write(shots, base=STAGE + f'class "_c"\n{{\n{below}}}\n{heirs}')
+    edit = 'over "_c"\n{\nover "v"\n{\nrel field:density = </a>\n}\n}\n'
+    write(shots, one=said("", "base") + edit)
+    assert find("shots/base.usda", rules=("VOL002",)) == []
+    causes = find("shots/one.usda", rules=("VOL002",))
+    assert {(cause.source.layer, cause.source.path) for cause in causes} == {
+        ("shots/one.usda", "/_c/v")
+    }
