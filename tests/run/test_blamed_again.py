@@ -122,6 +122,68 @@ def test_clips_are_blamed_on_who_named_them_first(find: Find, shots: Path) -> No
     assert shown.fingerprint == alone.fingerprint
 
 
+CLIPPED = """def OpenVDBAsset "tank" (
+    clips = {{ dictionary default = {{
+        {names}
+        string primPath = "/tank"
+        double2[] active = [(1, 0)]
+        double2[] times = [(1, 1)]
+        asset manifestAssetPath = @./manifest.usda@
+    }} }}
+)
+{{
+}}
+"""
+PATHS = "asset[] assetPaths = [@./clip.1.usda@]"
+TEMPLATE = """string templateAssetPath = "./clip.#.usda"
+        double templateStartTime = 1
+        double templateEndTime = 1
+        double templateStride = 1"""
+
+
+def clipped(kind: str, said: str) -> str:
+    return f'{kind} "tank" (\nclips = {{ dictionary default = {{\n{said}\n}} }}\n)\n{{\n}}\n'
+
+
+@pytest.fixture
+def clips(shots: Path) -> Path:
+    """Assets whose field has clips that name no file, in two ways."""
+    clip = '#usda 1.0\nover "tank"\n{\nasset filePath%s\n}\n'
+    lost = clip % ".timeSamples = { 1: @./gone.vdb@ }"
+    for folder in (shots.parent / "assets", shots):
+        write(folder, **{"clip.1": lost, "manifest": clip % ""})
+    assets = shots.parent / "assets"
+    write(assets, tank=LAYER + CLIPPED.format(names=PATHS))
+    write(assets, template=LAYER + CLIPPED.format(names=TEMPLATE))
+    return assets
+
+
+def test_clips_that_are_others_are_not_said_again(find: Find, clips: Path) -> None:
+    above = LAYER.replace("(", "(\nsubLayers = [@./tank.usda@]\n")
+    others = ("double2[] times = [(1, 1), (2, 2)]", f"{PATHS}\ndouble2[] times = [(1, 1), (2, 2)]")
+    for said, layer in zip(others, ("assets/tank.usda", "assets/top.usda"), strict=True):
+        write(clips, top=above + clipped("over", said))
+        [cause] = find("assets/top.usda")
+        assert cause.source.layer == layer
+
+
+def test_clips_at_other_times_are_not_said_again(find: Find, clips: Path) -> None:
+    sublayers = "(\nsubLayers = [@./tank.usda@ (offset = 10)]\n"
+    write(clips, top=LAYER.replace("(", sublayers) + clipped("over", PATHS))
+    [cause] = find("assets/top.usda")
+    assert cause.source.layer == "assets/top.usda"
+
+
+@pytest.mark.parametrize(("name", "said"), [("tank", PATHS), ("template", TEMPLATE)])
+def test_clips_of_another_folder_are_others(name: str, said: str, find: Find, clips: Path) -> None:
+    meta = f"clips = {{ dictionary default = {{\n{said}\n}} }}"
+    here = clips.parent / "shots"
+    write(here, one=STAGE + refers("tank", f"../assets/{name}.usda", meta))
+    write(clips, two=STAGE + refers("tank", f"./{name}.usda", meta))
+    [one], [two] = find("shots/one.usda"), find("assets/two.usda")
+    assert (one.source.layer, two.source.layer) == ("shots/one.usda", f"assets/{name}.usda")
+
+
 def test_a_path_from_another_folder_is_another_one(find: Find, shots: Path) -> None:
     field = 'def OpenVDBAsset "tank"\n{\nasset filePath = @./gone.vdb@\n}\n'
     write(shots.parent / "assets", tank=LAYER + field)

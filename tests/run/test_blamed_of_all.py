@@ -131,7 +131,8 @@ def test_an_edit_above_what_an_arc_brings_is_to_blame_wherever_it_is_brought(
     small = HEAD + LAYER.removeprefix(HEAD).replace("metersPerUnit = 1", "metersPerUnit = 0.01")
     write(assets, small=small + TURNED, tank=LAYER + refers("tank", "./small.usda"))
     edit = refers("x", inside="uniform token[] xformOpOrder = []")
-    write(shots, one=STAGE + edit, two=said("", "one"))
+    note = 'over "x"\n{\nstring note = "seen"\n}\n'
+    write(shots, one=STAGE + edit, two=said("", "one") + note)
     write(shots, three=STAGE + refers("y", "./one.usda@</x>").replace(">@", ">"))
     assert find("assets/tank.usda", rules=("STG009",)) == []
     stages = [f"shots/{name}.usda" for name in ("one", "two", "three")]

@@ -144,11 +144,13 @@ def test_an_edit_of_another_prim_is_to_blame_and_one_of_metadata(
 
 
 def test_what_is_said_beside_a_piece_pulls_no_blame_from_its_arc(find: Find, shots: Path) -> None:
-    piece = STAGE + refers("density", "./tank.usda@</tank/density>").replace(">@", ">")
+    own = 'custom string note = "own"'
+    piece = STAGE + refers("density", "./tank.usda@</tank/density>", inside=own).replace(">@", ">")
     write(shots, tank=LAYER + CLEAN, base=piece)
     note = 'over "density"\n{\ncustom string note = "x"\n}\n'
     write(shots, one=on_top("./base.usda", said=note))
     [alone] = find("shots/base.usda", rules=("VOL012",))
     assert (alone.source.layer, alone.source.path) == ("shots/base.usda", "/density")
+    assert alone.source.property is None
     [cause] = find("shots/one.usda", rules=("VOL012",))
     assert cause.fingerprint == alone.fingerprint

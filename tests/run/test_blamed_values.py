@@ -166,3 +166,27 @@ def test_clips_that_contradict_are_to_blame_as_clips(find: Find, shots: Path) ->
     [moved] = find("shots/later.usda", rules=("ARR013",))
     assert (moved.fingerprint, moved.cover) == (cause.fingerprint, cause.cover)
     assert [place.finding.site.times for place in moved.places] == [(101.0, 102.0)]
+
+
+def test_of_two_sets_of_clips_the_one_that_is_read_is_blamed(find: Find, shots: Path) -> None:
+    """The other one's manifest does not declare the attribute."""
+    assets = shots.parent / "assets"
+    clips = """clips = {{ dictionary {name} = {{
+        asset[] assetPaths = [@./clip.usda@]
+        string primPath = "/tank"
+        double2[] active = [(1, 0)]
+        asset manifestAssetPath = @./{name}.usda@
+    }} }}"""
+    splats = SPLATS.replace(
+        '"tank"',
+        '"tank" (\nreferences = @./bare.usda@\n{}\n)'.replace("{}", clips.format(name="b")),
+    )
+    over = f'over "tank" (\n{clips.format(name="a")}\n)\n{{\n}}\n'
+    above = LAYER.replace("(", "(\nsubLayers = [@./tank.usda@]\n")
+    declares = HEAD + 'over "tank"\n{\n%s\n}\n'
+    head, _, rest = splats.partition("    point3f[] positions")
+    _, _, rest = rest.partition("\n")
+    write(assets, tank=LAYER + head + rest, bare=LAYER + SPLATS, top=above + over)
+    write(assets, a=declares % "", b=declares % "point3f[] positions", clip=declares % "")
+    [cause] = find("assets/top.usda", rules=("ARR001",))
+    assert cause.source == Source("assets/tank.usda", "/tank", "clips", ".positions")
