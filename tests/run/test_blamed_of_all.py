@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from identities import CLEAN, HEAD, LAYER, META, STAGE, Find, refers
+from identities import CLEAN, HEAD, LAYER, META, SPLATS, STAGE, Find, refers
 from process import write
 
 VARIABLES = 'expressionVariables = {\nstring FILE = "%s"\nstring SEL = "%s"\n}\n'
@@ -169,3 +169,35 @@ def test_a_target_in_a_class_is_to_blame_and_not_the_prim_that_it_leads_to(
     assert {(cause.source.layer, cause.source.path) for cause in causes} == {
         ("shots/one.usda", "/_c/v")
     }
+
+
+APIS = [
+    f"ParticleField{name}API"
+    for name in (
+        "PositionAttribute",
+        "KernelGaussianEllipsoid",
+        "SphericalHarmonicsAttribute",
+    )
+]
+SURFLET = '["ParticleFieldKernelGaussianSurfletAPI"]'
+EXCHANGED = f'delete apiSchemas = ["{APIS[1]}"]\nprepend apiSchemas = {SURFLET}'
+
+
+def test_an_edit_of_apis_is_to_blame_and_not_the_arc(find: Find, shots: Path) -> None:
+    splats = SPLATS.replace("3DGaussianSplat", "").replace("tank", "splat")
+    listed = ", ".join(f'"{each}"' for each in APIS)
+    splats = splats.replace('"splat"', f'"splat" (\nprepend apiSchemas = [{listed}]\n)')
+    exchanged = over("splat", EXCHANGED)
+    write(shots, base=LAYER + f'def Xform "tank"\n{{\n{splats}}}\n')
+    above = LAYER.replace(META, f"{META}subLayers = [@./base.usda@]\n")
+    write(shots, tank=above + f'over "tank"\n{{\n{exchanged}}}\n')
+    write(shots, arc=STAGE + refers("x", "./tank.usda"))
+    taken = over("splat", f"delete apiSchemas = {SURFLET}")
+    write(shots, one=said("", "arc") + f'over "x"\n{{\n{taken}}}\n')
+    assert find("shots/tank.usda", "shots/arc.usda", rules=("PRT010",)) == []
+    [cause] = find("shots/one.usda", rules=("PRT010",))
+    assert (cause.source.layer, cause.source.path) == ("shots/one.usda", "/x/splat")
+
+
+def over(name: str, metadata: str) -> str:
+    return f'over "{name}" (\n{metadata}\n)\n{{\n}}\n'

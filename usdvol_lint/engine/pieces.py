@@ -102,9 +102,9 @@ class Pieces:
             found = arc
         if not found or not is_whole:
             return found and found.spec  # what stands beside a piece is lacking, whatever is edited
-        layers = self._first_wrong(rule, spec, found)
-        edit = _edit(prim, layers, _levels_below(found))
-        return edit or stage_edit(found, layers) or found.spec
+        layers, levels = self._first_wrong(rule, spec, found), _levels_below(found)
+        edit = _edit(prim, layers, levels) or stage_edit(found, layers)
+        return edit or _edit(prim, layers, levels, _says) or found.spec
 
     def _first_wrong(self, rule: Rule, spec: Any, arc: Crossing) -> Sequence[Any]:
         """The layers with which what an arc brings becomes wrong: a sublayer of those, or all.
