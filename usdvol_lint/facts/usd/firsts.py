@@ -6,7 +6,7 @@ from typing import Any
 
 from pxr import Sdf
 
-from usdvol_lint.facts.usd.opinions import Opinion, is_of_retimed_clip, opinions, strongest_opinion
+from usdvol_lint.facts.usd.opinions import Opinion, opinions
 
 
 def first_to_say(attribute: Any, time: float | None) -> Opinion | None:
@@ -14,11 +14,11 @@ def first_to_say(attribute: Any, time: float | None) -> Opinion | None:
 
     Without those above it the attribute has the same value.
     """
-    found = strongest_opinion(attribute, time)
-    if found is None or (time is not None and is_of_retimed_clip(attribute, time, found)):
-        return found
-    strongest, *others = opinions(attribute, time)
-    said = _said(strongest, time) if others else ()
+    every = opinions(attribute, time)
+    if len(every) < 2:
+        return every[0] if every else None  # nearly always
+    strongest, *others = every
+    said = _said(strongest, time)
     alike = strongest
     for opinion in others:
         other = _said(opinion, time)

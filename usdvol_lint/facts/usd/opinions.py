@@ -28,19 +28,20 @@ def strongest_opinion(attribute: Any, time: float | None) -> Opinion | None:
 
     Stronger specs are skipped if they hold only metadata, or at the default time only time samples.
     """
+    return next(iter(opinions(attribute, time)), None)
+
+
+def opinions(attribute: Any, time: float | None) -> list[Opinion]:
+    """The opinions that have a value at a time of the stage, or by default, strongest first."""
     stack = _stack(attribute, time)
-    found = next(_valued(stack, time), None)
+    found = _valued(stack, time)
     retimed = [offset for _, offset in stack if not offset.IsIdentity()]
     if time is None or not retimed or not is_from_clips(attribute, time):
         return found
     # Of retimed clips USD lists the one at that time of the layer with the clips (26.11): another
     # one, which may hold nothing.
-    return next(opinions(attribute, retimed[0].GetInverse() * time), found)
-
-
-def opinions(attribute: Any, time: float | None) -> Iterator[Opinion]:
-    """The opinions that have a value at a time of the stage, or by default, strongest first."""
-    return _valued(_stack(attribute, time), time)
+    own = retimed[0].GetInverse() * time
+    return _valued(_stack(attribute, own), own)[:1] or found[:1]
 
 
 def _stack(attribute: Any, time: float | None) -> list[tuple[Any, Any]]:
@@ -52,11 +53,9 @@ def _stack(attribute: Any, time: float | None) -> list[tuple[Any, Any]]:
     return list(stack)
 
 
-def _valued(stack: Iterable[tuple[Any, Any]], time: float | None) -> Iterator[Opinion]:
+def _valued(stack: Iterable[tuple[Any, Any]], time: float | None) -> list[Opinion]:
     keys = _OF_DEFAULT if time is None else _OF_TIMES
-    for spec, offset in stack:
-        if any(map(spec.HasInfo, keys)):
-            yield Opinion(spec, offset)
+    return [Opinion(spec, offset) for spec, offset in stack if any(map(spec.HasInfo, keys))]
 
 
 def is_of_retimed_clip(attribute: Any, time: float, opinion: Opinion) -> bool:
