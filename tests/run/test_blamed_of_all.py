@@ -130,7 +130,8 @@ def test_an_edit_above_what_an_arc_brings_is_to_blame_wherever_it_is_brought(
     assets = shots.parent / "assets"
     small = HEAD + LAYER.removeprefix(HEAD).replace("metersPerUnit = 1", "metersPerUnit = 0.01")
     write(assets, small=small + TURNED, tank=LAYER + refers("tank", "./small.usda"))
-    edit = refers("x", inside="uniform token[] xformOpOrder = []")
+    seen = 'over "tank" (\ndoc = "seen"\n)\n{\n}'
+    edit = refers("x", inside=f"uniform token[] xformOpOrder = []\n{seen}")
     note = 'over "x"\n{\nstring note = "seen"\n}\n'
     write(shots, one=STAGE + edit, two=said("", "one") + note)
     write(shots, three=STAGE + refers("y", "./one.usda@</x>").replace(">@", ">"))
