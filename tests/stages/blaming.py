@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from random import Random
 from typing import Any, TypeAlias
 
-from pxr import Sdf, Usd, Vt
+from pxr import Sdf, Usd
 
 from usdvol_lint.engine.engine import Engine
 from usdvol_lint.facts.usd.diagnostics import UNREADABLE
 from usdvol_lint.model import Finding, Severity, Source
 from usdvol_lint.paths import canonical
 
+from .breaking import BREAKS, Break
+
 Blamed: TypeAlias = tuple[str, Source]
-Break: TypeAlias = Callable[[Any, Any], None]
 
 _OF_STAGES = {"ARR027", "AST012", "AST017", "STG007"}
 """They are about the range that the root layer says, which a layer on top has to say again."""
@@ -24,7 +25,6 @@ _CARRIED_OVER = (
     *("startTimeCode", "endTimeCode", "timeCodesPerSecond", "framesPerSecond"),
     *("upAxis", "metersPerUnit", "expressionVariables", "defaultPrim"),
 )
-_SMALL = Vt.Vec3fArray([(0.4, 0.4, 0.4), (0.41, 0.41, 0.41)])
 
 
 def broken_laws(engine: Engine, path: Path, number: int) -> Iterator[str]:
@@ -34,9 +34,11 @@ def broken_laws(engine: Engine, path: Path, number: int) -> Iterator[str]:
         if stage := _opened(path):
             yield from moved_by_types_on_top(engine, path, stage)
             yield from moved_by_saying_it_again(engine, path)
+            yield from moved_by_notes(engine, path, stage, Random(number))
             yield from blamed_in_a_piece(engine, path, stage, Random(number))
             if number % 2 == 0:
                 yield from blamed_for_a_break_above(engine, path, stage, Random(number))
+                yield from blamed_for_a_break_by_reference(engine, path, stage, Random(number))
 
 
 def blamed_though_clean(engine: Engine, path: Path, findings: Iterable[Finding]) -> Iterator[str]:
@@ -52,7 +54,7 @@ def blamed_though_clean(engine: Engine, path: Path, findings: Iterable[Finding])
 
 def blamed_in_a_piece(engine: Engine, path: Path, stage: Any, random: Random) -> Iterator[str]:
     """What is blamed on a clean layer once a shot references one prim of it."""
-    paths = [prim.GetPath() for prim in stage.Traverse() if prim.GetTypeName() in _BREAKS]
+    paths = [prim.GetPath() for prim in stage.Traverse() if prim.GetTypeName() in BREAKS]
     if not paths:
         return
     wanted = random.choice(random.choice(paths).GetPrefixes()[1:] or paths)
@@ -110,17 +112,80 @@ def moved_by_saying_it_again(engine: Engine, path: Path) -> Iterator[str]:
                 yield f"{code} is no more blamed on {source} below a layer that says the same"
 
 
+def moved_by_notes(engine: Engine, path: Path, stage: Any, random: Random) -> Iterator[str]:
+    """What is blamed on another spec once a layer, on top or below, has a note on some prims."""
+    before = _blamed(engine.lint(str(path)).findings)
+    noted = Sdf.Layer.CreateNew(str(path.with_name("with_notes.usda")))
+    for prim in stage.Traverse():
+        if not prim.IsInPrototype() and random.random() < 0.5:
+            spec = Sdf.CreatePrimInLayer(noted, prim.GetPath())
+            Sdf.AttributeSpec(spec, "note", Sdf.ValueTypeNames.String).custom = True
+    noted.Save()
+    top = _layer_on_top(stage, path.with_name("on_top_of_notes.usda"))
+    own = list(top.subLayerPaths)
+    for where, paths in (
+        ("on top", ["./with_notes.usda", *own]),
+        ("below", [*own, "./with_notes.usda"]),
+    ):
+        top.subLayerPaths = paths
+        top.Save()
+        after = _blamed(engine.lint(top.realPath).findings)
+        for code, source in sorted(before ^ after, key=str):
+            if code not in _OF_STAGES:
+                how = "no more" if (code, source) in before else "only"
+                yield f"{code} is {how} blamed on {source} with notes {where}"
+
+
+def blamed_for_a_break_by_reference(
+    engine: Engine, path: Path, stage: Any, random: Random
+) -> Iterator[str]:
+    """Each layer that is blamed for what only the shot that references the stage breaks."""
+    broken = _broken(stage, path.with_name("broken_again.usda"), random)
+    roots = [each for each in stage.GetPseudoRoot().GetChildren() if each.IsDefined()]
+    if not broken or not roots:
+        return
+    way, top = broken
+    for shown, name in ((True, "referenced.usda"), (False, "referenced_and_broken.usda")):
+        shot = Sdf.Layer.CreateNew(str(path.with_name(name)))
+        for key in filter(top.pseudoRoot.HasInfo, _CARRIED_OVER):
+            shot.pseudoRoot.SetInfo(key, top.pseudoRoot.GetInfo(key))
+        for root in roots:
+            below = Sdf.CreatePrimInLayer(shot, root.GetPath())
+            if not shown and top.GetPrimAtPath(root.GetPath()):
+                Sdf.CopySpec(top, root.GetPath(), shot, root.GetPath())
+            below.specifier = Sdf.SpecifierDef
+            reference = Sdf.Reference(f"./{path.name}", root.GetPath())
+            below.referenceList.prependedItems = [reference]
+        shot.Save()
+        blamed = _blamed(engine.lint(shot.realPath).findings)
+        if shown:
+            known = blamed
+            continue
+        for code, source in sorted(blamed - known, key=str):
+            if source.layer != canonical(shot.realPath):
+                yield f"{code} is blamed on {source} for {way.__name__} in a shot of it"
+
+
+def _broken(stage: Any, path: Path, random: Random) -> tuple[Break, Any] | None:
+    """A layer on top of a stage that breaks a prim in some way."""
+    ways = [(prim, way) for prim in stage.Traverse() for way in BREAKS.get(prim.GetTypeName(), ())]
+    if not ways:
+        return None
+    prim, way = random.choice(ways)
+    top = _layer_on_top(stage, path)
+    way(top, prim)
+    return way, top
+
+
 def blamed_for_a_break_above(
     engine: Engine, path: Path, stage: Any, random: Random
 ) -> Iterator[str]:
     """Each layer that is blamed for what only a layer on top of it breaks."""
     known = _blamed(engine.lint(str(path)).findings)
-    ways = [(prim, way) for prim in stage.Traverse() for way in _BREAKS.get(prim.GetTypeName(), ())]
-    if not ways:
+    broken = _broken(stage, path.with_name("on_top_broken.usda"), random)
+    if not broken:
         return
-    prim, way = random.choice(ways)
-    top = _layer_on_top(stage, path.with_name("on_top_broken.usda"))
-    way(top, prim)
+    way, top = broken
     top.Save()
     for code, source in sorted(_blamed(engine.lint(top.realPath).findings) - known, key=str):
         if source.layer != canonical(top.realPath):
@@ -165,92 +230,3 @@ def _repeat_types(stage: Any, path: str | None, top: Any) -> None:
         spec = Sdf.CreatePrimInLayer(top, prefix)
         if each.GetTypeName() and not each.IsAbstract():
             spec.specifier, spec.typeName = Sdf.SpecifierDef, each.GetTypeName()
-
-
-def _value(name: str, type_name: Any, value: Any) -> Break:
-    def author(top: Any, prim: Any) -> None:
-        spec = Sdf.CreatePrimInLayer(top, prim.GetPath())
-        Sdf.AttributeSpec(spec, name, type_name).default = value
-
-    author.__name__ = f"{name} = {value}"
-    return author
-
-
-def _first_target(prim: Any) -> tuple[Any, Any] | None:
-    """The first field relationship of a Volume, and its target."""
-    for each in prim.GetPropertiesInNamespace("field"):
-        for target in each.GetTargets()[:1]:
-            return each, target
-    return None
-
-
-def a_missing_target(top: Any, prim: Any) -> None:
-    if found := _first_target(prim):
-        spec = Sdf.CreatePrimInLayer(top, prim.GetPath())
-        targets = Sdf.RelationshipSpec(spec, found[0].GetName()).targetPathList
-        targets.explicitItems = [prim.GetPath().AppendChild("nowhere_at_all")]
-
-
-def a_second_target(top: Any, prim: Any) -> None:
-    if found := _first_target(prim):
-        spec = Sdf.CreatePrimInLayer(top, prim.GetPath())
-        targets = Sdf.RelationshipSpec(spec, found[0].GetName()).targetPathList
-        targets.appendedItems = [prim.GetPath().AppendChild("other")]
-
-
-def a_field_that_is_inactive(top: Any, prim: Any) -> None:
-    found = _first_target(prim)
-    if found and prim.GetStage().GetPrimAtPath(found[1]):
-        Sdf.CreatePrimInLayer(top, found[1].GetPrimPath()).SetInfo("active", False)
-
-
-def a_mesh_below(top: Any, prim: Any) -> None:
-    spec = Sdf.CreatePrimInLayer(top, prim.GetPath().AppendChild("mesh"))
-    spec.specifier, spec.typeName = Sdf.SpecifierDef, "Mesh"
-
-
-def another_type(top: Any, prim: Any) -> None:
-    Sdf.CreatePrimInLayer(top, prim.GetPath()).typeName = "Xform"
-
-
-def no_apis(top: Any, prim: Any) -> None:
-    taken = Sdf.TokenListOp.Create(deletedItems=list(prim.GetAppliedSchemas()))
-    Sdf.CreatePrimInLayer(top, prim.GetPath()).SetInfo("apiSchemas", taken)
-
-
-_TYPES = Sdf.ValueTypeNames
-_OF_ALL = (
-    _value("extent", _TYPES.Float3Array, _SMALL),
-    _value("extent", _TYPES.Float3Array, Vt.Vec3fArray([(float("nan"), 0, 0), (1, 1, 1)])),
-    another_type,
-)
-_OF_FIELDS = (
-    _value("fieldName", _TYPES.Token, "nosuchgrid"),
-    _value("fieldIndex", _TYPES.Int, 7),
-    _value("fieldDataType", _TYPES.Token, "double3"),
-    _value("fieldClass", _TYPES.Token, "levelSet"),
-    _value("vectorDataRoleHint", _TYPES.Token, "Color"),
-    _value("filePath", _TYPES.Asset, Sdf.AssetPath("./nosuch.vdb")),
-    _value("filePath", _TYPES.Asset, Sdf.ValueBlock()),
-    _value("fielName", _TYPES.Token, "density"),
-    another_type,
-)
-_OF_PARTICLES = (
-    *_OF_ALL,
-    _value("positions", _TYPES.Point3fArray, Vt.Vec3fArray([(0, 0, 0)])),
-    _value("opacities", _TYPES.FloatArray, Vt.FloatArray([5.0])),
-    _value("scales", _TYPES.Float3Array, Vt.Vec3fArray([(-1, -1, -1)])),
-    _value("radiance:sphericalHarmonicsDegree", _TYPES.Int, 7),
-    no_apis,
-)
-_BREAKS: dict[str, tuple[Break, ...]] = {
-    "Volume": (
-        *_OF_ALL,
-        *(a_missing_target, a_second_target, a_field_that_is_inactive, a_mesh_below),
-    ),
-    "OpenVDBAsset": _OF_FIELDS,
-    "Field3DAsset": _OF_FIELDS,
-    "ParticleField3DGaussianSplat": _OF_PARTICLES,
-    "ParticleField": _OF_PARTICLES,
-}
-"""Ways to break a prim of each type with an opinion that is stronger than all it has."""

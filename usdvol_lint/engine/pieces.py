@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Sequence
-from itertools import islice, pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from collections.abc import Container, Sequence
+from itertools import islice
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pxr import Sdf
 
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.engine.already import Already
-from usdvol_lint.engine.restating import keys_of
+from usdvol_lint.engine.on_top import OnTop, edit_by, says
 from usdvol_lint.engine.stagewide import says_of_all, stage_edit
 from usdvol_lint.engine.sublayers import sublayers
 from usdvol_lint.engine.waking import waking
 from usdvol_lint.facts.usd.bringing import Crossing, crossings, path_of_prim, root_layer, way_to
 from usdvol_lint.facts.usd.calls import (
     get_parent,
-    get_path,
     get_prim,
     get_prim_stack,
     get_stage,
@@ -33,8 +32,8 @@ if TYPE_CHECKING:
     from usdvol_lint.rule import Problem, Rule
 
 
-_Edits: TypeAlias = "list[tuple[Any, Any | None]]"
-"""Layers on top of one, each with what it says."""
+_CHANGING = ("apiSchemas", "variantSelection", "clips", "active")
+"""Metadata by which a prim changes; who makes instances is told elsewhere."""
 
 
 class _Brought(NamedTuple):
@@ -61,19 +60,16 @@ class Pieces:
     def __init__(self, alone: Alone) -> None:
         self._alone = alone
         self.already = Already(alone)
+        self._on_top = OnTop(alone)
         self._known: dict[tuple[str, str, Any], _Brought] = {}
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
-        self._known_edits: dict[
-            tuple[str, Any, bool], tuple[list[tuple[Any, Any]], Any | None]
-        ] = {}
         self._own: frozenset[Any] | None = None
-        self._root: Any | None = None
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
         self._known.clear()
         self._known_at.clear()
-        self._known_edits.clear()
+        self._on_top.recomposed()
 
     def instead(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
         """The spec to blame for a problem at a path of the stage, in place of `spec`.
@@ -85,7 +81,7 @@ class Pieces:
             return None  # what the engine tells, no prim is handed to
         layer = spec.layer
         if layer in (self._own or self._local(problem)):
-            return self._on_top(rule, problem, spec, path)
+            return self._on_top.edit(rule, problem, spec, Sdf.Path(path))
         is_whole, is_edited, woken = self._at(problem, spec, layer, path)
         if not (is_edited or woken) and is_whole and not (problem.absent and STAGE in rule.on):
             return None
@@ -93,6 +89,8 @@ class Pieces:
         arcs = _arcs_to(prim, spec)
         if woken and arcs and self._alone.sleeps(*_end_of(arcs[-1])):
             return woken
+        if edit := self._edit_inside(rule, problem, spec, arcs):
+            return edit
         if not is_whole and not any(map(_is_to_piece, arcs)):
             return None
         found = None
@@ -103,8 +101,17 @@ class Pieces:
         if not found or not is_whole:
             return found and found.spec  # what stands beside a piece is lacking, whatever is edited
         layers, levels = self._first_wrong(rule, spec, found), _levels_below(found)
-        edit = _edit(prim, layers, levels) or stage_edit(found, layers)
-        return edit or _edit(prim, layers, levels, _says) or found.spec
+        edit = edit_by(prim, layers, levels) or stage_edit(found, layers)
+        return edit or edit_by(prim, layers, levels, says) or found.spec
+
+    def _edit_inside(
+        self, rule: Rule, problem: Problem, spec: Any, arcs: Sequence[Crossing]
+    ) -> Any | None:
+        """What is said on top of a sublayer in the layer stack that the last arc brings."""
+        if not arcs:
+            return None
+        _, place = _end_of(arcs[-1])
+        return self._on_top.edit(rule, problem, spec, place, arcs[-1].node)
 
     def _first_wrong(self, rule: Rule, spec: Any, arc: Crossing) -> Sequence[Any]:
         """The layers with which what an arc brings becomes wrong: a sublayer of those, or all.
@@ -117,37 +124,6 @@ class Pieces:
                 return [tree.layer, *sublayers(tree.layer)]
         layers: Sequence[Any] = arc.source.layerStack.layers
         return layers
-
-    def _on_top(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
-        """What stronger layers of the stage say, where a sublayer by itself has no such problem."""
-        layer = spec.layer
-        if layer == self._root or path == "/":
-            return None
-        # Who decides with variables what a path to a file says is known already.
-        is_path = isinstance(spec, Sdf.AttributeSpec) and spec.typeName == Sdf.ValueTypeNames.Asset
-        key = path, layer, is_path
-        if key not in self._known_edits:
-            prim = get_prim(problem.at)
-            edits = list(_edits_on_top(prim, layer, prims_only=is_path))
-            self._known_edits[key] = edits, waking(prim)
-        (edits, woken), place = self._known_edits[key], Sdf.Path(path)
-        if woken and self._alone.sleeps(layer, place):
-            return woken
-        if not edits or not self._alone.is_clean(rule, layer, place, spec):
-            return None
-        for above, edit in edits:
-            if above == self._root or not self._alone.is_clean(rule, above, place, spec):
-                return edit or self._edit_beside(problem, layer, above) or above.pseudoRoot
-        return None
-
-    def _edit_beside(self, problem: Problem, layer: Any, above: Any) -> Any | None:
-        """What comes in with a layer above, of a prim that the problem's is held against."""
-        for other in problem.against:
-            at = other[0] if isinstance(other, tuple) else getattr(other, "attribute", other)
-            for each, edit in _edits_on_top(get_prim(at), layer):
-                if edit and each == above:
-                    return edit
-        return None
 
     def _at(self, problem: Problem, spec: Any, layer: Any, path: str) -> _Brought:
         """How the layer of a spec comes to a path: the same for all properties of its prim."""
@@ -162,7 +138,7 @@ class Pieces:
         """The root layer and its sublayers, which no arc brings."""
         if self._own is None:
             stage = get_stage(problem.at)
-            self._own, self._root = frozenset(stage.GetLayerStack()), stage.GetRootLayer()
+            self._own = frozenset(stage.GetLayerStack())
         return self._own
 
     def _brought(self, problem: Problem, spec: Any, path: str) -> _Brought:
@@ -201,10 +177,18 @@ def _is_edited(prim: Any | None, layer: Any) -> bool:
     """Whether other layers than one say something of a prim, of what is below, or of the stage."""
     if prim is None:
         return False
-    others = [each for each in get_prim_stack(prim) if each.layer != layer]
     layers = {each for node in nodes_of(index_of(prim)) for each in node.layerStack.layers}
-    is_said_of = any(each.properties or each.nameChildren for each in others)
-    return is_said_of or any(map(says_of_all, layers))
+    stack = get_prim_stack(prim)
+    types = {each.typeName for each in stack if each.layer == layer}
+    others = [each for each in stack if each.layer != layer]
+    return any(_changes(each, types) for each in others) or any(map(says_of_all, layers))
+
+
+def _changes(spec: Any, types: Container[str]) -> bool:
+    """Whether a spec of a prim says more than an arc and one of these types."""
+    if spec.properties or spec.nameChildren or (spec.typeName and spec.typeName not in types):
+        return True
+    return any(map(spec.HasInfo, _CHANGING))
 
 
 def _arcs_to(prim: Any, spec: Any) -> list[Crossing]:
@@ -233,50 +217,8 @@ def _has_others(layer: Any) -> bool:
     return any(islice(defined, 1, None))
 
 
-def _properties(spec: Any) -> Any:
-    return spec.properties
-
-
 def _levels_below(arc: Crossing) -> int:
     """How many prims what an arc brings lies below its top."""
     paths = (arc.node.path, arc.node.GetPathAtIntroduction())
     below, top = (path.StripAllVariantSelections().pathElementCount for path in paths)
     return int(below - top)
-
-
-def _edit(
-    prim: Any, layers: Container[Any], levels: int, counts: Callable[[Any], Any] = _properties
-) -> Any | None:
-    """What some layers say of the properties of a prim, or of the next one up so many levels."""
-    for _ in range(levels + 1):
-        own = [each for each in get_prim_stack(prim) if each.layer in layers and counts(each)]
-        if own:
-            properties = [each for spec in own for each in spec.properties]
-            return properties[0] if len(properties) == 1 else own[0]
-        prim = get_parent(prim)
-    return None
-
-
-def _edits_on_top(
-    prim: Any, layer: Any, prims_only: bool = True
-) -> Iterator[tuple[Any, Any | None]]:
-    """What layers of the stage say of a prim, or of those above it, on top of one of its sublayers.
-
-    Each layer that has the sublayer, the next one first, with the edit that comes in there: its own
-    or one of a sublayer on top of that; None where what they say is of other prims, or of all.
-    """
-    order = get_stage(prim).GetLayerStack()
-    way = [tree.layer for tree in way_to(index_of(prim).rootNode, layer)]
-    levels = get_path(prim).pathElementCount - 1
-    for below, above in pairwise(reversed(way)):
-        new = order[order.index(above) : order.index(below)]
-        # Of a sublayer USD reads no variables.
-        is_of_all = any(map(says_of_all, new)) or below.HasExpressionVariables()
-        if any(each.rootPrims for each in new) or (is_of_all and not prims_only):
-            edits = (_edit(prim, (each,), levels, _says) for each in reversed(new))
-            yield above, next(filter(None, edits), None)
-
-
-def _says(spec: Any) -> bool:
-    """Whether a spec of a prim says more than that there is one."""
-    return bool(spec.properties or keys_of(spec))

@@ -95,6 +95,12 @@ def _folder(spec: Any) -> str:
 def _said_in(spec: Any, key: str) -> Any:
     """Some metadata of a spec; of samples the times and the first one, since all may be large."""
     if key != "timeSamples" or not spec.HasInfo(key):
-        return info(spec, key)
+        said = info(spec, key)
+        is_list = hasattr(said, "GetAppliedItems")  # with whichever operator
+        return _items(said) if is_list else said
     times = spec.layer.ListTimeSamplesForPath(spec.path)
     return (*times, *(spec.layer.QueryTimeSample(spec.path, each) for each in times[:1]))
+
+
+def _items(listed: Any) -> tuple[Any, ...]:
+    return (tuple(listed.GetAppliedItems()), tuple(listed.deletedItems), tuple(listed.orderedItems))

@@ -92,8 +92,9 @@ def is_brought(prim: Any, name: str) -> bool:
     if not attribute.HasAuthoredValue():
         return False
     wanted_type = Sdf.ValueTypeNames.Find(_DECLARED[name].type_name).type
-    if any(spec.typeName.type != wanted_type for spec in attribute.GetPropertyStack()[:1]):
-        return False
+    for spec in attribute.GetPropertyStack()[:1]:
+        if isinstance(spec, Sdf.RelationshipSpec) or spec.typeName.type != wanted_type:
+            return False
     times = (Usd.TimeCode.Default(), *attribute.GetTimeSamples())
     return any(is_filled(attribute.Get(time)) for time in times)
 

@@ -55,11 +55,11 @@ def _may_be_used(instancer: Any, index: int) -> bool:
     indices = instancer.GetAttribute("protoIndices")
     if not indices or indices.GetNumTimeSamples():
         return bool(indices)
-    uses = np.asarray(indices.Get() or ()) == index
+    uses = np.atleast_1d(np.asarray(indices.Get() or ()) == index)
     hidden = instancer.GetAttribute("invisibleIds")
     if not hidden.GetNumTimeSamples():
         mask = UsdGeom.PointInstancer(instancer).ComputeMaskAtTime(Usd.TimeCode.Default())
-        uses = uses[np.asarray(mask)] if len(mask) == len(uses) else uses
+        uses = uses[np.asarray(mask, dtype=bool)] if len(mask) == len(uses) else uses
     return bool(uses.any())
 
 

@@ -98,5 +98,7 @@ def _foreign(prim: Any, arrays: ParticleArrays) -> Iterator[Rows]:
         if attribute.GetName() in ours or not attribute.GetTypeName().isArray:
             continue
         for _, value in read_values(attribute):
-            if value and len(value) % count == 0:
+            # A layer may give what is declared as an array a value that is none.
+            size = len(value) if type(value).__name__.endswith("Array") else 0
+            if size and size % count == 0:
                 yield np.asarray(value).reshape(count, -1)
