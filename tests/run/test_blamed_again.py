@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from identities import LAYER, SPLATS, STAGE, Find, refers
+from identities import LAYER, META, SPLATS, STAGE, Find, refers
 from process import write
 
 from usdvol_lint.model import Source
@@ -233,3 +233,13 @@ def test_two_clip_sets_are_two_causes(find: Find, shots: Path) -> None:
     write(shots.parent / "assets", tank=LAYER + field, clip=clip)
     causes = find("assets/tank.usda", rules=("AST016",))
     assert sorted(cause.source.subject for cause in causes) == ["one", "two"]
+
+
+@pytest.mark.parametrize("operator", ["", "prepend ", "append "])
+def test_an_arc_is_the_same_under_any_operator(operator: str, find: Find, shots: Path) -> None:
+    lost = "references = @./gone.usda@"
+    write(shots, base=STAGE + f'def "a" (\n{lost}\n)\n{{\n}}\n')
+    again = f'over "a" (\n{operator}{lost}\n)\n{{\n}}\n'
+    write(shots, one=STAGE.replace(META, f"{META}subLayers = [@./base.usda@]\n") + again)
+    [cause] = find("shots/base.usda", "shots/one.usda", rules=("STG001",))
+    assert (cause.source.layer, cause.count) == ("shots/base.usda", 2)

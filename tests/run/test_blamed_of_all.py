@@ -202,3 +202,39 @@ def test_an_edit_of_apis_is_to_blame_and_not_the_arc(find: Find, shots: Path) ->
 
 def over(name: str, metadata: str) -> str:
     return f'over "{name}" (\n{metadata}\n)\n{{\n}}\n'
+
+
+@pytest.mark.parametrize(
+    ("code", "edit", "path"),
+    [
+        ("FLD008", 'over OpenVDBAsset "tank"\n{\n}\n', "/tank"),
+        ("VOL002", 'over "tank"\n{\nover Mesh "density"\n{\n}\n}\n', "/tank/density"),
+        ("VOL001", "relocates", "/"),
+    ],
+)
+def test_an_edit_inside_of_what_an_arc_brings_is_to_blame(
+    code: str, edit: str, path: str, find: Find, shots: Path
+) -> None:
+    """It stands on top of a sublayer there, with its stage alone and with any that refers to it."""
+    says_of_all = edit == "relocates"
+    gone = "relocates = {\n</tank/density>: <>\n}\n" if says_of_all else ""
+    write(shots, base=STAGE + CLEAN.replace("./cloud", "../assets/cloud"))
+    write(shots, lib=STAGE + refers("tank", "./base.usda@</tank>").replace(">@", ">"))
+    top = LAYER.replace(META, f"{META}{gone}subLayers = [@./lib.usda@]\n")
+    write(shots, tank=top + ("" if says_of_all else edit))
+    write(shots, one=STAGE + refers("x", "./tank.usda"), two=STAGE + refers("y", "./tank.usda"))
+    assert find("shots/base.usda", "shots/lib.usda", rules=(code,)) == []
+    stages = [f"shots/{name}.usda" for name in ("tank", "one", "two")]
+    [cause] = find(*stages, rules=(code,))
+    assert (cause.source.layer, cause.source.path) == ("shots/tank.usda", path)
+    assert cause.count == 3
+
+
+def test_a_relationship_in_the_place_of_an_attribute_is_another_kind(
+    find: Find, shots: Path
+) -> None:
+    """Which brings nothing to what lacks the attribute."""
+    bare = CLEAN.replace("float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]", "")
+    write(shots, base=STAGE + bare)
+    write(shots, one=said("", "base") + 'over "tank"\n{\ncustom rel extent = </tank>\n}\n')
+    assert {cause.code for cause in find("shots/one.usda", rules=("SCH007", "LNT"))} <= {"SCH007"}

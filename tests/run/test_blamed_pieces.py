@@ -216,7 +216,8 @@ def test_a_rule_that_fails_on_the_layer_alone_moves_no_blame(
     [
         (SEEN, "ARR013", "/a", "opacities"),
         (ALONE, "ARR020", "/a", "opacities"),
-        (f"{SEEN}\nfloat width = 1", "ARR013", "/a", "extent"),
+        (f"{SEEN}\nfloat width = 1", "ARR013", "/a", "opacities"),
+        (f'{SEEN}\ntoken visibility = "inherited"', "ARR013", "/a", "extent"),
     ],
 )
 def test_an_edit_beside_what_a_rule_looks_at_is_to_blame(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator
+from collections.abc import Container, Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -13,12 +13,21 @@ from usdvol_lint.engine.restating import keys_of
 from usdvol_lint.engine.stagewide import says_of_all
 from usdvol_lint.engine.waking import waking
 from usdvol_lint.facts.usd.bringing import root_layer, way_to
-from usdvol_lint.facts.usd.calls import get_parent, get_prim, get_prim_stack, is_pseudo_root
+from usdvol_lint.facts.usd.calls import (
+    get_parent,
+    get_prim,
+    get_prim_stack,
+    get_stage,
+    is_pseudo_root,
+)
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
 
 if TYPE_CHECKING:
     from usdvol_lint.rule import Problem, Rule
+
+_CHANGING = ("field:", "xformOp:", "material:")
+"""Properties by which a prim of any type changes, though its type does not have them."""
 
 _Edits: TypeAlias = "list[tuple[Any, Any | None]]"
 """Layers on top of one, each with what it says."""
@@ -45,9 +54,10 @@ class OnTop:
         """
         layer, prim = spec.layer, get_prim(problem.at)
         node = node or index_of(prim).rootNode
-        if layer == root_layer(node) or place == Sdf.Path.absoluteRootPath:
+        top = root_layer(node)
+        if layer == top or place == Sdf.Path.absoluteRootPath:
             return None
-        top, (edits, woken) = root_layer(node), self._edits(prim, spec, place, node)
+        edits, woken = self._edits(prim, spec, place, node)
         if woken and self._alone.sleeps(layer, place):
             return woken
         if not edits or not self._alone.is_clean(rule, layer, place, spec):
@@ -55,11 +65,7 @@ class OnTop:
         for above, edit in edits:
             is_stage = node.IsRootNode() and above == top
             if is_stage or not self._alone.is_clean(rule, above, place, spec):
-                return (
-                    edit
-                    or _edit_beside(problem, layer, above, root_layer(node))
-                    or above.pseudoRoot
-                )
+                return edit or _edit_beside(problem, layer, above, top) or above.pseudoRoot
         return None
 
     def _edits(self, prim: Any, spec: Any, place: Any, node: Any) -> tuple[_Edits, Any | None]:
@@ -101,28 +107,36 @@ def _edits_on_top(
         # Of a sublayer USD reads no variables.
         is_of_all = any(map(says_of_all, new)) or below.HasExpressionVariables()
         if any(each.rootPrims for each in new) or (is_of_all and not prims_only):
-            edits = (
-                edit_by(prim, (each,), place.pathElementCount - 1, says) for each in reversed(new)
-            )
+            levels = place.pathElementCount - 1
+            edits = (edit_by(prim, (each,), levels, all_counts=True) for each in reversed(new))
             yield above, next(filter(None, edits), None)
 
 
-def _properties(spec: Any) -> Any:
-    return spec.properties
+def edit_by(prim: Any, layers: Container[Any], levels: int, all_counts: bool = False) -> Any | None:
+    """What some layers say of the properties of a prim, or of the next one up so many levels.
 
-
-def edit_by(
-    prim: Any, layers: Container[Any], levels: int, counts: Callable[[Any], Any] = _properties
-) -> Any | None:
-    """What some layers say of the properties of a prim, or of the next one up so many levels."""
+    Those count that its type has, or that bind something or move it: a note is none.  Or else
+    `all_counts`, metadata too.
+    """
+    session = get_stage(prim).GetSessionLayer()
     for _ in range(levels + 1):
-        own = [each for each in get_prim_stack(prim) if each.layer in layers and counts(each)]
-        if own:
-            properties = [each for spec in own for each in spec.properties]
-            return properties[0] if len(properties) == 1 else own[0]
+        stack = [spec for spec in get_prim_stack(prim) if spec.layer in layers]
+        own = [spec for spec in stack if spec.layer != session]
+        known = frozenset(prim.GetPrimDefinition().GetPropertyNames())
+        properties = [each for spec in own for each in spec.properties if _matters(each, known)]
+        if len(properties) == 1:
+            return properties[0]
+        saying = [spec for spec in own if says(spec)] if all_counts else own[: len(properties)]
+        if saying:
+            return saying[0]
         if is_pseudo_root(prim := get_parent(prim)):
             break
     return None
+
+
+def _matters(spec: Any, known: Container[str]) -> bool:
+    """Whether a property's spec may change what a prim of these properties shows."""
+    return spec.name in known or spec.name.startswith(_CHANGING)
 
 
 def says(spec: Any) -> bool:

@@ -10,7 +10,7 @@ from pxr import Sdf
 
 from usdvol_lint.engine.alone import Alone
 from usdvol_lint.engine.already import Already
-from usdvol_lint.engine.on_top import OnTop, edit_by, says
+from usdvol_lint.engine.on_top import OnTop, edit_by
 from usdvol_lint.engine.stagewide import says_of_all, stage_edit
 from usdvol_lint.engine.sublayers import sublayers
 from usdvol_lint.engine.waking import waking
@@ -64,12 +64,24 @@ class Pieces:
         self._known: dict[tuple[str, str, Any], _Brought] = {}
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
         self._own: frozenset[Any] | None = None
+        self._switched: bool | None = None
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
+        self._switched = None
         self._known.clear()
         self._known_at.clear()
         self._on_top.recomposed()
+
+    def are_switched(self, prim: Any) -> bool:
+        """Whether the tool composed another variant, which no layer has when it is opened alone.
+
+        A variant is a part of its asset, whichever layer selects it.
+        """
+        if self._switched is None:
+            session = get_stage(prim).GetSessionLayer()
+            self._switched = bool(session and session.rootPrims)
+        return self._switched
 
     def instead(self, rule: Rule, problem: Problem, spec: Any, path: str) -> Any | None:
         """The spec to blame for a problem at a path of the stage, in place of `spec`.
@@ -102,7 +114,7 @@ class Pieces:
             return found and found.spec  # what stands beside a piece is lacking, whatever is edited
         layers, levels = self._first_wrong(rule, spec, found), _levels_below(found)
         edit = edit_by(prim, layers, levels) or stage_edit(found, layers)
-        return edit or edit_by(prim, layers, levels, says) or found.spec
+        return edit or edit_by(prim, layers, levels, all_counts=True) or found.spec
 
     def _edit_inside(
         self, rule: Rule, problem: Problem, spec: Any, arcs: Sequence[Crossing]
@@ -178,7 +190,8 @@ def _is_edited(prim: Any | None, layer: Any) -> bool:
     if prim is None:
         return False
     layers = {each for node in nodes_of(index_of(prim)) for each in node.layerStack.layers}
-    stack = get_prim_stack(prim)
+    session = get_stage(prim).GetSessionLayer()
+    stack = [each for each in get_prim_stack(prim) if each.layer != session]
     types = {each.typeName for each in stack if each.layer == layer}
     others = [each for each in stack if each.layer != layer]
     return any(_changes(each, types) for each in others) or any(map(says_of_all, layers))

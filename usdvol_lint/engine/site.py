@@ -151,6 +151,8 @@ class Sites:
         blame = self._blaming.blame(problem)
         if rule is None or self._pieces is None or not isinstance(problem, Problem):
             return where, blame
+        if self._pieces.are_switched(prim):
+            return where, blame
         if blame.beside and not blame.clean:
             already = self._pieces.already.blame(rule, problem, blame)
             if already:

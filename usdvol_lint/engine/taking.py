@@ -136,15 +136,15 @@ def _edits(prim: Any) -> Iterator[Edit]:
         return  # nearly always
     session = get_stage(prim).GetSessionLayer()
     own = [spec for spec in stack if spec.layer != session]
-    for spec, kept in _pairs(stack, own):
+    for spec, kept in _pairs(prim, stack, own):
         yield Edit(prim, spec, kept)
 
 
-def _pairs(stack: Sequence[Any], own: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
+def _pairs(prim: Any, stack: Sequence[Any], own: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
     """The specs that take away, each with the next weaker one of which they do."""
     for key in ARCS:
         holders = [spec for spec in own if spec.HasInfo(key)]
-        yield from (pair for pair in pairwise(holders) if _takes_arcs(key, *pair))
+        yield from (pair for pair in pairwise(holders) if _takes_arcs(prim, key, *pair))
     defining = [spec for spec in own if spec.specifier != Sdf.SpecifierOver]
     yield from (pair for pair in pairwise(defining) if _is_class(*pair))
     selecting = [spec for spec in stack if spec.HasInfo("variantSelection")]
@@ -154,11 +154,14 @@ def _pairs(stack: Sequence[Any], own: Sequence[Any]) -> Iterator[tuple[Any, Any]
             yield from (pair for pair in pairwise(holders) if _differ(name, *pair))
 
 
-def _takes_arcs(key: str, spec: Any, kept: Any) -> bool:
+def _takes_arcs(prim: Any, key: str, spec: Any, kept: Any) -> bool:
     """Whether a list of arcs lacks some on purpose that one at the same place brings."""
     listed = spec.GetInfo(key)
     takes = listed.isExplicit or listed.deletedItems
-    return bool(takes and spec.path == kept.path and kept.GetInfo(key).GetAddedOrExplicitItems())
+    if not takes or spec.path != kept.path or not kept.GetInfo(key).GetAddedOrExplicitItems():
+        return False
+    node = node_with(Opinion(prim, spec))  # another one may have the same path
+    return bool(node) and kept.layer in node.layerStack.layers
 
 
 def _is_class(spec: Any, kept: Any) -> bool:

@@ -54,9 +54,9 @@ class UnsaidRate(NamedTuple):
 
     @property
     def blamed(self) -> Any:
-        """The spec that brings the layer into one of another rate."""
+        """The spec that first brings the layer into one of the stage's rate."""
         prim = self.displaced[0].attribute.GetPrim()
-        return meeting_spec(prim, self.layer, lambda other: other.timeCodesPerSecond != _USUAL)
+        return meeting_spec(prim, self.layer, lambda other: other.timeCodesPerSecond == self.rate)
 
     def displaces(self, attribute: Any) -> bool:
         """Whether samples of an attribute are at other times because of it."""

@@ -33,14 +33,16 @@ class Undefined(NamedTuple):
 
     @property
     def spec(self) -> Any:
-        """The spec of the `over` in the layer that has the first of the prims below it."""
-        return spec_above(self.over, self.prims[0].GetPath().MakeRelativePath(self.over.GetPath()))
+        """The spec of the `over` in the layer that defines the first of the prims below it."""
+        below = self.prims[0].GetPath().MakeRelativePath(self.over.GetPath())
+        return spec_above(self.over, below, defines)
 
 
-def spec_above(over: Any, below: Any) -> Any:
-    """The weakest spec of an `over` in a layer that says what is at a relative path below it."""
+def spec_above(over: Any, below: Any, says: Callable[[Any], bool] = bool) -> Any:
+    """The weakest spec of an `over` in a layer that says something at a relative path below it."""
     stack: list[Any] = get_prim_stack(over)
-    saying = [each for each in stack if each.layer.GetObjectAtPath(each.path.AppendPath(below))]
+    found = [(each, each.layer.GetObjectAtPath(each.path.AppendPath(below))) for each in stack]
+    saying = [each for each, said in found if said and says(said)]
     return (saying or stack)[-1]
 
 
