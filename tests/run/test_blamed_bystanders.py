@@ -155,7 +155,7 @@ CASES = {
         {
             "lay": STAGE + 'def Xform "World"\n{\n}\n',
             "a": layer("", "lay", said=over("World/FX", CLEAN.replace("/tank", "/World/FX/tank"))),
-            "note": HEAD + over("World/FX", NOTE),
+            "note": HEAD + over("World/FX", f"{NOTE}\n{over('tank', NOTE)}"),
         },
         Source("a.usda", "/World/FX"),
         {"noted": layer("", "a", "note")},

@@ -218,12 +218,11 @@ def test_an_edit_inside_of_what_an_arc_brings_is_to_blame(
     """It stands on top of a sublayer there, with its stage alone and with any that refers to it."""
     says_of_all = edit == "relocates"
     gone = "relocates = {\n</tank/density>: <>\n}\n" if says_of_all else ""
-    write(shots, base=STAGE + CLEAN.replace("./cloud", "../assets/cloud"))
-    write(shots, lib=STAGE + refers("tank", "./base.usda@</tank>").replace(">@", ">"))
+    write(shots, lib=STAGE + CLEAN.replace("./cloud", "../assets/cloud"))
     top = LAYER.replace(META, f"{META}{gone}subLayers = [@./lib.usda@]\n")
     write(shots, tank=top + ("" if says_of_all else edit))
     write(shots, one=STAGE + refers("x", "./tank.usda"), two=STAGE + refers("y", "./tank.usda"))
-    assert find("shots/base.usda", "shots/lib.usda", rules=(code,)) == []
+    assert find("shots/lib.usda", rules=(code,)) == []
     stages = [f"shots/{name}.usda" for name in ("tank", "one", "two")]
     [cause] = find(*stages, rules=(code,))
     assert (cause.source.layer, cause.source.path) == ("shots/tank.usda", path)
@@ -233,8 +232,74 @@ def test_an_edit_inside_of_what_an_arc_brings_is_to_blame(
 def test_a_relationship_in_the_place_of_an_attribute_is_another_kind(
     find: Find, shots: Path
 ) -> None:
-    """Which brings nothing to what lacks the attribute."""
-    bare = CLEAN.replace("float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]", "")
-    write(shots, base=STAGE + bare)
+    """Which brings nothing to what lacks the attribute, such as a prim with clips."""
+    clips = """clips = { dictionary default = {
+        asset[] assetPaths = [@./clip.usda@]
+        string primPath = "/tank"
+        double2[] active = [(1, 0)]
+    } }"""
+    write(shots, clip=HEAD + 'over "tank"\n{\n}\n')
+    write(shots, base=STAGE + CLEAN.replace('"tank"', f'"tank" (\n{clips}\n)', 1))
     write(shots, one=said("", "base") + 'over "tank"\n{\ncustom rel extent = </tank>\n}\n')
-    assert {cause.code for cause in find("shots/one.usda", rules=("SCH007", "LNT"))} <= {"SCH007"}
+    assert "LNT002" not in {cause.code for cause in find("shots/one.usda", rules=("ALL",))}
+
+
+NOTE = 'custom string note = "seen"'
+
+
+def test_a_note_beside_an_edit_changes_nothing(find: Find, assets: Path) -> None:
+    variables = VARIABLES % ("gone", "none")
+    for name, inside in (("one", ""), ("two", NOTE)):
+        arc = refers("x", "./tank.usda", inside=inside)
+        write(assets, **{name: STAGE.replace(META, META + variables) + arc})
+        causes = find(f"shots/{name}.usda", rules=("VOL001", "STG001"))
+        assert {cause.code for cause in causes} == {"VOL001", "STG001"}
+        assert {cause.source.path for cause in causes} == {"/"}
+        assert {cause.source.property for cause in causes} <= {None, "field:b"}
+
+
+LOOKS = CLEAN.replace(
+    'def Volume "tank"',
+    'def Volume "tank" (\nvariants = { string look = "a" }\nprepend variantSets = ["look"]\n)',
+).replace("rel field:density = </tank/density>", "rel field:density = </tank/other>")
+LOOKS = (
+    LOOKS.rstrip().removesuffix("}")
+    + """variantSet "look" = {
+    "a" {
+        def OpenVDBAsset "other" {
+            asset filePath = @./cloud.vdb@
+            token fieldName = "density"
+            token fieldDataType = "float"
+        }
+    }
+    "b" {
+    }
+}
+}
+"""
+)
+
+
+def test_a_selection_that_the_tool_made_is_nobodys_edit(find: Find, shots: Path) -> None:
+    """Nor is an arc of a shot, whose prim may have the name of one in the asset."""
+    write(shots.parent / "assets", tank=LAYER + LOOKS)
+    write(shots, mid=LAYER + refers("tank", "../assets/tank.usda"))
+    write(shots, one=STAGE + refers("tank", "./mid.usda"))
+    write(shots, two=STAGE + refers("tank", "./mid.usda", inside=NOTE))
+    stages = ["assets/tank.usda", *(f"shots/{name}.usda" for name in ("mid", "one", "two"))]
+    [cause] = find(*stages, rules=("VOL001",), selections=10)
+    assert (cause.source.layer, cause.count) == ("assets/tank.usda", 4)
+    assert find(*stages, rules=("VOL001",)) == []
+
+
+def test_a_rate_that_is_undone_is_not_to_blame(find: Find, shots: Path) -> None:
+    frames = ", ".join(f"{n}: [({n}, 0, 0), (9, 9, 9)]" for n in range(1, 5))
+    moving = f"float3[] extent.timeSamples = {{ {frames} }}"
+    extent = "float3[] extent = [(0.15, 0.15, 0.15), (0.65, 0.65, 0.65)]"
+    write(shots, lib=HEAD + CLEAN.replace(extent, moving))
+    head = "(\ntimeCodesPerSecond = %s\nsubLayers = [@./%s.usda@%s]\n)\n"
+    write(shots, mid=HEAD + head % (48, "lib", " (scale = 0.5)"))
+    write(shots, one=HEAD + head % (25, "mid", ""), two=HEAD + head % (25, "one", ""))
+    assert find("shots/mid.usda", rules=("STG008",)) == []
+    [cause] = find("shots/one.usda", "shots/two.usda", rules=("STG008",))
+    assert (cause.source.layer, cause.count) == ("shots/one.usda", 2)

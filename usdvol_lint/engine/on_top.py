@@ -13,13 +13,7 @@ from usdvol_lint.engine.restating import keys_of
 from usdvol_lint.engine.stagewide import says_of_all
 from usdvol_lint.engine.waking import waking
 from usdvol_lint.facts.usd.bringing import root_layer, way_to
-from usdvol_lint.facts.usd.calls import (
-    get_parent,
-    get_prim,
-    get_prim_stack,
-    get_stage,
-    is_pseudo_root,
-)
+from usdvol_lint.facts.usd.calls import get_parent, get_prim, get_prim_stack, is_pseudo_root
 from usdvol_lint.facts.usd.indices import index_of
 from usdvol_lint.facts.usd.nodes import nodes_of
 
@@ -118,10 +112,8 @@ def edit_by(prim: Any, layers: Container[Any], levels: int, all_counts: bool = F
     Those count that its type has, or that bind something or move it: a note is none.  Or else
     `all_counts`, metadata too.
     """
-    session = get_stage(prim).GetSessionLayer()
     for _ in range(levels + 1):
-        stack = [spec for spec in get_prim_stack(prim) if spec.layer in layers]
-        own = [spec for spec in stack if spec.layer != session]
+        own = [spec for spec in get_prim_stack(prim) if spec.layer in layers]
         known = frozenset(prim.GetPrimDefinition().GetPropertyNames())
         properties = [each for spec in own for each in spec.properties if _matters(each, known)]
         if len(properties) == 1:

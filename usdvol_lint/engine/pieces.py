@@ -190,8 +190,7 @@ def _is_edited(prim: Any | None, layer: Any) -> bool:
     if prim is None:
         return False
     layers = {each for node in nodes_of(index_of(prim)) for each in node.layerStack.layers}
-    session = get_stage(prim).GetSessionLayer()
-    stack = [each for each in get_prim_stack(prim) if each.layer != session]
+    stack = get_prim_stack(prim)
     types = {each.typeName for each in stack if each.layer == layer}
     others = [each for each in stack if each.layer != layer]
     return any(_changes(each, types) for each in others) or any(map(says_of_all, layers))

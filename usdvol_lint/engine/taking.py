@@ -161,7 +161,7 @@ def _takes_arcs(prim: Any, key: str, spec: Any, kept: Any) -> bool:
     if not takes or spec.path != kept.path or not kept.GetInfo(key).GetAddedOrExplicitItems():
         return False
     node = node_with(Opinion(prim, spec))  # another one may have the same path
-    return bool(node) and kept.layer in node.layerStack.layers
+    return node is not None and kept.layer in node.layerStack.layers
 
 
 def _is_class(spec: Any, kept: Any) -> bool:
