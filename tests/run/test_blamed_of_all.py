@@ -184,7 +184,10 @@ SURFLET = '["ParticleFieldKernelGaussianSurfletAPI"]'
 EXCHANGED = f'delete apiSchemas = ["{APIS[1]}"]\nprepend apiSchemas = {SURFLET}'
 
 
-def test_an_edit_of_apis_is_to_blame_and_not_the_arc(find: Find, shots: Path) -> None:
+@pytest.mark.parametrize("by_class", [False, True])
+def test_an_edit_of_apis_is_to_blame_and_not_the_arc(
+    by_class: bool, find: Find, shots: Path
+) -> None:
     splats = SPLATS.replace("3DGaussianSplat", "").replace("tank", "splat")
     listed = ", ".join(f'"{each}"' for each in APIS)
     splats = splats.replace('"splat"', f'"splat" (\nprepend apiSchemas = [{listed}]\n)')
@@ -192,7 +195,11 @@ def test_an_edit_of_apis_is_to_blame_and_not_the_arc(find: Find, shots: Path) ->
     write(shots, base=LAYER + f'def Xform "tank"\n{{\n{splats}}}\n')
     above = LAYER.replace(META, f"{META}subLayers = [@./base.usda@]\n")
     write(shots, tank=above + f'over "tank"\n{{\n{exchanged}}}\n')
-    write(shots, arc=STAGE + refers("x", "./tank.usda"))
+    if by_class:
+        heir = 'def Xform "x" (\ninherits = </_c>\n)\n{\n}\n'
+        write(shots, arc=STAGE + refers("_c", "./tank.usda").replace("def", "class") + heir)
+    else:
+        write(shots, arc=STAGE + refers("x", "./tank.usda"))
     taken = over("splat", f"delete apiSchemas = {SURFLET}")
     write(shots, one=said("", "arc") + f'over "x"\n{{\n{taken}}}\n')
     assert find("shots/tank.usda", "shots/arc.usda", rules=("PRT010",)) == []

@@ -120,6 +120,8 @@ def moved_by_notes(engine: Engine, path: Path, stage: Any, random: Random) -> It
         if not prim.IsInPrototype() and random.random() < 0.5:
             spec = Sdf.CreatePrimInLayer(noted, prim.GetPath())
             Sdf.AttributeSpec(spec, "note", Sdf.ValueTypeNames.String).custom = True
+    if not noted.rootPrims:
+        return  # a stage without prims is that of its weakest layer
     noted.Save()
     top = _layer_on_top(stage, path.with_name("on_top_of_notes.usda"))
     own = list(top.subLayerPaths)

@@ -130,7 +130,10 @@ class Pieces:
 
         The ones above that have it as a sublayer, whatever they add.
         """
-        place = arc.source.path.StripAllVariantSelections()
+        node = arc.source  # of a class that has the arc, its heir is what the layers show
+        while not node.IsRootNode() and root_layer(node.parent) == root_layer(node):
+            node = node.parent
+        place = node.path.StripAllVariantSelections()
         for tree in way_to(arc.source, arc.spec.layer)[:0:-1] if arc.spec else ():
             if not self._alone.is_clean(rule, tree.layer, place, spec):
                 return [tree.layer, *sublayers(tree.layer)]
