@@ -299,6 +299,18 @@ def test_a_selection_that_the_tool_made_is_nobodys_edit(find: Find, shots: Path)
     assert find(*stages, rules=("VOL001",)) == []
 
 
+def test_an_edit_is_one_cause_under_every_selection(find: Find, shots: Path) -> None:
+    other = 'variantSet "look" = {\n"a" {\n}\n"b" {\n}\n}\n'
+    variants = 'variants = { string look = "a" }\nprepend variantSets = ["look"]'
+    tank = CLEAN.replace('"tank"', f'"tank" (\n{variants}\n)', 1).rstrip().removesuffix("}")
+    write(shots.parent / "assets", tank=LAYER + tank + other + "}\n")
+    gone = "relocates = {\n</x/density>: <>\n}\n"
+    write(shots, one=STAGE.replace(META, META + gone) + refers("x"))
+    for selections in (0, 10):
+        [cause] = find("shots/one.usda", rules=("VOL001",), selections=selections)
+        assert (cause.source.layer, cause.source.path) == ("shots/one.usda", "/")
+
+
 def test_a_rate_that_is_undone_is_not_to_blame(find: Find, shots: Path) -> None:
     frames = ", ".join(f"{n}: [({n}, 0, 0), (9, 9, 9)]" for n in range(1, 5))
     moving = f"float3[] extent.timeSamples = {{ {frames} }}"

@@ -40,7 +40,8 @@ class Blame(NamedTuple):
     there to the stage's; both are None where the problem is at no time, or the spec holds no value.
     `property` and `subject` tell what it is about at the spec; `clip` is the clip that holds the
     value where the spec is the one with the clips, `asset` a path to look for in the spec.
-    `clean` is the name of the layer that has no such problem by itself: the spec is what makes one.
+    `clean` is the name of the layer that has no such problem by itself: the spec is what makes one,
+    `instead_of` the one there.
     `beside` are the specs of the weaker opinions that it contradicts.
     """
 
@@ -53,6 +54,7 @@ class Blame(NamedTuple):
     asset: str | None = None
     clean: str = ""
     beside: tuple[Any, ...] = ()
+    instead_of: Any | None = None
 
 
 class Blaming:
@@ -224,7 +226,8 @@ def on_other(spec: Any, problem: Problem | NotChecked, clean: Any) -> Blame:
     subject = " ".join(filter(None, (path, problem.subject)))
     is_root = spec.path == Sdf.Path.absoluteRootPath
     asset = sublayer_path(spec.layer, (clean.layer,)) if is_root else None
-    return Blame(spec, name, subject, asset=asset, clean=_name_beside(spec, clean))
+    name_of_clean = _name_beside(spec, clean)
+    return Blame(spec, name, subject, asset=asset, clean=name_of_clean, instead_of=clean)
 
 
 def _name_beside(spec: Any, other: Any) -> str:

@@ -151,12 +151,12 @@ class Sites:
         blame = self._blaming.blame(problem)
         if rule is None or self._pieces is None or not isinstance(problem, Problem):
             return where, blame
-        if self._pieces.are_switched(prim):
-            return where, blame
         if blame.beside and not blame.clean:
             already = self._pieces.already.blame(rule, problem, blame)
             if already:
                 return where, already
+        if self._pieces.are_switched(prim):
+            return where, blame
         other = blame.spec and self._pieces.instead(rule, problem, blame.spec, where.path)
         return where, on_other(other, problem, blame.spec) if other else blame
 

@@ -203,7 +203,9 @@ class Stamp:
         holds = part.problem.holds
         if not self._several_selections:
             return [Stamped(shown, (), holds) for shown in as_shown]
-        same = identity(part.rule, part.problem, located.blame.spec)
+        # Under a selection that the tool made, nobody looks for another one to blame.
+        spec = located.blame.instead_of or located.blame.spec
+        same = identity(part.rule, part.problem, spec)
         return [
             Stamped(shown, (*same, shown.ignored) if same and shown.ignored else same, holds)
             for shown in as_shown
