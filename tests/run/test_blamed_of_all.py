@@ -265,6 +265,20 @@ def test_a_note_beside_an_edit_changes_nothing(find: Find, assets: Path) -> None
         assert {cause.source.property for cause in causes} <= {None, "field:b"}
 
 
+def test_variables_are_to_blame_for_a_sublayer_that_is_not_there(find: Find, shots: Path) -> None:
+    path = '`"./${FILE}.usda"`'
+    own = f"subLayers = [@{path}@]\n{VARIABLES % ('below', 'thick')}"
+    write(shots, below=STAGE + 'def Xform "tank"\n{\n}\n', lib=LAYER.replace(META, META + own))
+    gone = VARIABLES % ("gone", "thick")
+    write(shots, one=said(gone, "lib"), two=said(gone, "one"))
+    write(shots, three=STAGE.replace(META, META + gone) + refers("x", "./lib.usda"))
+    assert find("shots/lib.usda", rules=("STG001",)) == []
+    [cause] = find("shots/one.usda", "shots/two.usda", rules=("STG001",))
+    assert (cause.source.layer, cause.source.path, cause.count) == ("shots/one.usda", "/", 2)
+    [other] = find("shots/three.usda", rules=("STG001",))
+    assert (other.source.layer, other.source.path) == ("shots/three.usda", "/")
+
+
 LOOKS = CLEAN.replace(
     'def Volume "tank"',
     'def Volume "tank" (\nvariants = { string look = "a" }\nprepend variantSets = ["look"]\n)',

@@ -92,6 +92,8 @@ class Pieces:
         if not rule.on:
             return None  # what the engine tells, no prim is handed to
         layer = spec.layer
+        if spec.path == Sdf.Path.absoluteRootPath:
+            return self._with_variables(rule, problem, layer)
         if layer in (self._own or self._local(problem)):
             return self._on_top.edit(rule, problem, spec, Sdf.Path(path))
         is_whole, is_edited, woken = self._at(problem, spec, layer, path)
@@ -115,6 +117,21 @@ class Pieces:
         layers, levels = self._first_wrong(rule, spec, found), _levels_below(found)
         edit = edit_by(prim, layers, levels) or stage_edit(found, layers)
         return edit or edit_by(prim, layers, levels, all_counts=True) or found.spec
+
+    def _with_variables(self, rule: Rule, problem: Problem, layer: Any) -> Any | None:
+        """The top of the layer whose variables lead a sublayer of another one elsewhere."""
+        stage, place = get_stage(problem.at), Sdf.Path.absoluteRootPath
+        own = [each for each in stage.GetLayerStack() if each.HasExpressionVariables()]
+        saying = {each for each in stage.GetUsedLayers() if each.HasExpressionVariables()}
+        if layer == stage.GetRootLayer() or not saying - {layer}:
+            return None  # nearly always
+        if self._alone.alike(rule, layer, place, problem):
+            return None
+        brought = sorted(saying - {layer, *own}, key=lambda each: str(each.identifier))
+        for each in (*brought, *reversed(own)):
+            if each != layer and self._alone.alike(rule, each, place, problem):
+                return each.pseudoRoot
+        return None
 
     def _edit_inside(
         self, rule: Rule, problem: Problem, spec: Any, arcs: Sequence[Crossing]
