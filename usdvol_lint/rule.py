@@ -86,8 +86,8 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 OURS = tuple(sorted(schema.OURS))
 """What a rule is `on` that asks for all of UsdVol: Volumes, fields and particle fields."""
 
-TYPE, APIS, NAME, VALUED_NAME = schema.TYPE_NAME, "apiSchemas", "name", "valued name"
 CLIPS = "value clips"
+TYPE, APIS, NAME, VALUED_NAME = schema.TYPE_NAME, "apiSchemas", "name", "valued name"
 """Whose opinion counts: see `Problem`."""
 
 Prim: TypeAlias = Any

@@ -135,8 +135,8 @@ def _pattern(where: str, value: Any) -> str:
     if re.match(r"\(\?[aiLmsux]+\)", value):
         raise UsageError(f"{where}: {shown} has flags for all of a path: write '(?i:…)' around it")
     if re.match(r"\^|\\A|.*(?<!\\)(\\\\)*(\$|\\[zZ])\Z", value, re.DOTALL):
-        why = "which it need not say: it has to match all between two separators of a path"
-        raise UsageError(f"{where}: {shown} begins or ends with '^' or '$', {why}")
+        why = "leave it out, for the pattern has to match all between two separators of a path"
+        raise UsageError(f"{where}: {shown} begins or ends with '^' or '$': {why}")
     return str(value)
 
 

@@ -65,10 +65,11 @@ class Pieces:
         self._known_at: dict[tuple[str, str, Any], _Brought] = {}
         self._own: frozenset[Any] | None = None
         self._switched: bool | None = None
+        self._saying: list[Any] | None = None
 
     def recomposed(self) -> None:
         """Says that the stage was composed in another way."""
-        self._switched = None
+        self._switched = self._saying = None
         self._known.clear()
         self._known_at.clear()
         self._on_top.recomposed()
@@ -121,17 +122,15 @@ class Pieces:
     def _with_variables(self, rule: Rule, problem: Problem, layer: Any) -> Any | None:
         """The top of the layer whose variables lead a sublayer of another one elsewhere."""
         stage, place = get_stage(problem.at), Sdf.Path.absoluteRootPath
-        own = [each for each in stage.GetLayerStack() if each.HasExpressionVariables()]
-        saying = {each for each in stage.GetUsedLayers() if each.HasExpressionVariables()}
-        if layer == stage.GetRootLayer() or not saying - {layer}:
-            return None  # nearly always
-        if self._alone.alike(rule, layer, place, problem):
+        if layer == stage.GetRootLayer():
             return None
-        brought = sorted(saying - {layer, *own}, key=lambda each: str(each.identifier))
-        for each in (*brought, *reversed(own)):
-            if each != layer and self._alone.alike(rule, each, place, problem):
-                return each.pseudoRoot
-        return None
+        if self._saying is None:
+            self._saying = _with_variables(stage)
+        others = [each for each in self._saying if each != layer]
+        if not others or self._alone.alike(rule, layer, place, problem):
+            return None  # nearly always
+        found = (each for each in others if self._alone.alike(rule, each, place, problem))
+        return next((each.pseudoRoot for each in found), None)
 
     def _edit_inside(
         self, rule: Rule, problem: Problem, spec: Any, arcs: Sequence[Crossing]
@@ -193,6 +192,14 @@ class Pieces:
                 _is_edited(prim, spec.layer),
             )
         return self._known[key]
+
+
+def _with_variables(stage: Any) -> list[Any]:
+    """The layers of a stage with expression variables: those that arcs bring, then the weakest."""
+    own = [each for each in stage.GetLayerStack() if each.HasExpressionVariables()]
+    saying = {each for each in stage.GetUsedLayers() if each.HasExpressionVariables()}
+    brought = sorted(saying.difference(own), key=lambda each: str(each.identifier))
+    return [*brought, *reversed(own)]
 
 
 def _levels_up(prim: Any, spec: Any) -> int:

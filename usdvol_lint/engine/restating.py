@@ -20,7 +20,8 @@ from usdvol_lint.schema import SPECIFIER
 
 VALUES, _TARGETS = ("default", "timeSamples", "spline"), ("targetPaths",)
 """The metadata in which the value of an attribute is, and of a relationship."""
-_LEADING = ("references", "payload", "clips")
+_LISTS_OF_ARCS = ("references", "payload")
+_LEADING = (*_LISTS_OF_ARCS, "clips")
 _PATHS = (Sdf.ValueTypeNames.Asset, Sdf.ValueTypeNames.AssetArray)
 
 
@@ -96,11 +97,11 @@ def _said_in(spec: Any, key: str) -> Any:
     """Some metadata of a spec; of samples the times and the first one, since all may be large."""
     if key != "timeSamples" or not spec.HasInfo(key):
         said = info(spec, key)
-        is_list = hasattr(said, "GetAppliedItems")  # with whichever operator
-        return _items(said) if is_list else said
+        return _items(said) if key in _LISTS_OF_ARCS and said is not None else said
     times = spec.layer.ListTimeSamplesForPath(spec.path)
     return (*times, *(spec.layer.QueryTimeSample(spec.path, each) for each in times[:1]))
 
 
 def _items(listed: Any) -> tuple[Any, ...]:
+    """What a list of arcs brings, whichever operator it has; one of APIs may take others away."""
     return (tuple(listed.GetAppliedItems()), tuple(listed.deletedItems), tuple(listed.orderedItems))
