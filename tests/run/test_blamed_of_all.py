@@ -336,18 +336,3 @@ def test_a_rate_that_is_undone_is_not_to_blame(find: Find, shots: Path) -> None:
     assert find("shots/mid.usda", rules=("STG008",)) == []
     [cause] = find("shots/one.usda", "shots/two.usda", rules=("STG008",))
     assert (cause.source.layer, cause.count) == ("shots/one.usda", 2)
-
-
-def test_a_list_of_apis_that_takes_others_away_is_not_said_again(find: Find, shots: Path) -> None:
-    """Though a weaker one has the same items."""
-    splats = SPLATS.replace("3DGaussianSplat", "")
-    listed = ", ".join(f'"{each}"' for each in APIS)
-    write(
-        shots,
-        base=LAYER + splats.replace('"tank"', f'"tank" (\nprepend apiSchemas = [{listed}]\n)'),
-    )
-    write(shots, mid=said("", "base") + over("tank", f'prepend apiSchemas = ["{APIS[0]}"]'))
-    write(shots, one=said("", "mid") + over("tank", f'apiSchemas = ["{APIS[0]}"]'))
-    assert find("shots/mid.usda", rules=("PRT010",)) == []
-    [cause] = find("shots/one.usda", rules=("PRT010",))
-    assert (cause.source.layer, cause.source.path) == ("shots/one.usda", "/tank")
